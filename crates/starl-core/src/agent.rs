@@ -1,0 +1,68 @@
+//! A robot's software: its program with its primitives, as one state machine for hosts to run.
+
+use crate::effect::Effects;
+use crate::{Input, Port, Primitive, Program, Random, Robot, View};
+use alloc::boxed::Box;
+use core::mem;
+
+/// The program of one robot and its random stream. Every host runs this same machine.
+#[derive(Clone)]
+pub struct Agent {
+    program: Box<dyn Program>,
+    random: Random,
+}
+
+impl Agent {
+    /// A robot's software, not yet started.
+    pub fn new(program: Box<dyn Program>, random: Random) -> Agent {
+        Agent { program, random }
+    }
+
+    /// Takes one input; what the robot asks for is appended to `effects`.
+    pub fn handle(&mut self, input: &Input, view: &View<'_>, effects: &mut Effects) {
+        let mut robot = Robot::new(view, effects, &mut self.random);
+        let program = &mut *self.program;
+        let owner = match input {
+            Input::Message(message) => Some(message.port),
+            Input::Timer(key) => Some(key.port),
+            _ => None,
+        };
+        if owner != Some(Port::PROGRAM) {
+            program.primitives(&mut |primitive: &mut dyn Primitive| {
+                if owner.is_none_or(|port| port == primitive.port()) {
+                    primitive.handle(&mut robot, input);
+                }
+            });
+            deliver(program, &mut robot);
+        }
+        match input {
+            Input::Start => program.start(&mut robot),
+            Input::Activate => program.activate(&mut robot),
+            Input::Message(message) if message.port == Port::PROGRAM => {
+                program.receive(&mut robot, message);
+            }
+            Input::Timer(key) if key.port == Port::PROGRAM => program.timer(&mut robot, *key),
+            _ => {}
+        }
+        deliver(program, &mut robot);
+    }
+
+    /// Overwrites the program's state at random: see [`Program::corrupt`].
+    pub fn corrupt(&mut self, random: &mut Random) {
+        self.program.corrupt(random);
+    }
+
+    /// Shows the program, e.g. to a test.
+    pub fn program(&self) -> &dyn Program {
+        &*self.program
+    }
+}
+
+/// Hands what primitives have delivered to the program, and whatever that brings about.
+fn deliver(program: &mut dyn Program, robot: &mut Robot<'_>) {
+    while robot.has_upcalls() {
+        for message in mem::take(robot.upcalls()) {
+            program.receive(robot, &message);
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! A running hash of what happened, to tell whether two runs are the same.
+
+use crate::event::Event;
+use crate::geometry::{Point, Pose};
+use crate::{Destination, RobotId, Time};
+use core::fmt;
+
+/// Folds events into 64 bits, the same on every target. Not a cryptographic hash: it tells runs
+/// apart, it does not guard against forgery.
+///
+/// Each word is multiplied into the state and the high half of the product folded onto the low one
+/// (the "folded multiply" of wyhash and of AHash).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Digest(u64);
+
+impl Default for Digest {
+    fn default() -> Digest {
+        Digest(0x243f_6a88_85a3_08d3) // the first fractional bits of pi
+    }
+}
+
+impl Digest {
+    /// The hash so far.
+    pub fn value(self) -> u64 {
+        self.0
+    }
+
+    /// Folds in one word.
+    pub fn word(&mut self, word: u64) {
+        const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15; // 2^64 over the golden ratio
+        let product = u128::from(self.0 ^ word ^ FACTOR.rotate_left(32)) * u128::from(FACTOR);
+        self.0 = (product as u64) ^ ((product >> 64) as u64).rotate_left(23) ^ self.0.rotate_left(17);
+    }
+
+    /// Folds in bytes and their number.
+    pub fn bytes(&mut self, bytes: &[u8]) {
+        self.word(bytes.len() as u64);
+        for chunk in bytes.chunks(8) {
+            let mut word = [0; 8];
+            word[..chunk.len()].copy_from_slice(chunk);
+            self.word(u64::from_le_bytes(word));
+        }
+    }
+
+    /// Folds in an event and its time.
+    pub fn event(&mut self, at: Time, event: &Event) {
+        self.word(at.0);
+        // The events that make up the bulk of a run are folded word by word; the rest go through
+        // their encoding.
+        match event {
+            Event::Moved(pose) => {
+                self.word(1);
+                self.pose(pose);
+            }
+            Event::Estimated(pose) => {
+                self.word(2);
+                self.pose(pose);
+            }
+            Event::Sent { sequence, destination, port, payload } => {
+                self.word(3);
+                self.word(match destination {
+                    Destination::All => u64::MAX,
+                    Destination::Robot(RobotId(id)) => u64::from(*id),
+                });
+                self.word(u64::from(*sequence) << 32 | u64::from(port.0));
+                self.bytes(payload);
+            }
+            Event::Delivered { from, sequence } => {
+                self.word(4);
+                self.word(u64::from(*sequence) << 32 | u64::from(from.0));
+            }
+            Event::Dropped { from, to, sequence, reason } => {
+                self.word(5 | (*reason as u64) << 8 | to.map_or(0, |to| u64::from(to.0) + 1) << 16);
+                self.word(u64::from(*sequence) << 32 | u64::from(from.0));
+            }
+            other => self.bytes(&crate::message::encode(other)),
+        }
+    }
+
+    fn pose(&mut self, pose: &Pose) {
+        let Point { x, y, z } = pose.position;
+        for number in [x, y, z, pose.yaw, pose.pitch, pose.roll] {
+            self.word(number.to_bits());
+        }
+    }
+}
+
+impl fmt::Display for Digest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:016x}", self.0)
+    }
+}

@@ -1,0 +1,232 @@
+//! What a trace is made of: every host writes the same events.
+
+use crate::geometry::{Obstacle, Point, Pose};
+use crate::motion::Path;
+use crate::{Destination, Payload, Port, RobotId, time::Time};
+use alloc::borrow::Cow;
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use serde::{Deserialize, Serialize};
+use smallvec::SmallVec;
+
+/// A short text that is usually known at compile time.
+pub type Name = Cow<'static, str>;
+
+/// An event with its time and robot.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// When, by the host's clock.
+    pub at: Time,
+    /// On which robot; none where the event is the world's.
+    pub robot: Option<RobotId>,
+    /// What happened.
+    pub event: Event,
+}
+
+/// Something that happened.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Event {
+    /// The robot's true pose.
+    Moved(Pose),
+    /// The pose that the positioning system reported.
+    Estimated(Pose),
+    /// The robot handed a datagram to the network.
+    Sent {
+        /// Counts this robot's datagrams.
+        sequence: u32,
+        /// To whom.
+        destination: Destination,
+        /// For which endpoint.
+        port: Port,
+        /// The content.
+        payload: Payload,
+    },
+    /// A datagram reached the robot.
+    Delivered {
+        /// Its sender.
+        from: RobotId,
+        /// The sender's number for it.
+        sequence: u32,
+    },
+    /// A datagram went nowhere; the record's robot is the one on which that was decided.
+    Dropped {
+        /// Its sender.
+        from: RobotId,
+        /// The robot that does not receive it; none where nobody does.
+        to: Option<RobotId>,
+        /// The sender's number for it.
+        sequence: u32,
+        /// Why.
+        reason: DropReason,
+    },
+    /// The body met something and was stopped.
+    Collided {
+        /// What it met.
+        with: Hit,
+    },
+    /// A guarded action of the program fired.
+    Action(Name),
+    /// The program reports an event of its own.
+    Program {
+        /// Its name.
+        name: Name,
+        /// Its details.
+        fields: Fields,
+    },
+    /// A primitive was given a command, or reports an outcome.
+    Primitive {
+        /// The primitive's type, e.g. `reach_avoid`.
+        primitive: Name,
+        /// Which instance.
+        port: Port,
+        /// What happened, e.g. `done`.
+        name: Name,
+        /// Its details.
+        fields: Fields,
+    },
+    /// The program's log.
+    Log {
+        /// How much it matters.
+        level: Level,
+        /// One line.
+        text: Name,
+    },
+    /// The program draws for the viewer.
+    Draw(Mark),
+    /// A fault set in or was healed.
+    Fault(Name),
+    /// An obstacle the robot did not know was met.
+    Discovered(Obstacle),
+    /// The program has reached its goal.
+    Finished,
+    /// The program cannot go on.
+    Failed(Name),
+    /// A property does not hold.
+    Violated {
+        /// Which property.
+        property: Name,
+        /// How.
+        text: Name,
+    },
+}
+
+/// Why a datagram was not delivered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DropReason {
+    /// Lost at random.
+    Loss,
+    /// The receiver is out of radio range.
+    Range,
+    /// Sender and receiver are in different parts of a partition.
+    Partition,
+    /// The receiver is down.
+    Down,
+    /// The sender's queue was full.
+    Bandwidth,
+    /// It is larger than the network carries.
+    Size,
+}
+
+/// What a body met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Hit {
+    /// Another robot.
+    Robot(RobotId),
+    /// An obstacle, by its index in the world.
+    Obstacle(u32),
+}
+
+/// How much a log line matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Level {
+    /// For whoever debugs the program.
+    Debug,
+    /// Worth knowing.
+    Info,
+    /// Probably wrong.
+    Warning,
+    /// Certainly wrong.
+    Error,
+}
+
+/// Something a program draws for the viewer; each kind replaces what the robot drew under the same
+/// label before.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mark {
+    /// Identifies the mark on its robot.
+    pub label: Name,
+    /// What to draw.
+    pub shape: MarkShape,
+}
+
+/// What can be drawn.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MarkShape {
+    /// Nothing: the mark is taken away.
+    Nothing,
+    /// A dot.
+    Dot(Point),
+    /// A circle in the floor plane.
+    Circle {
+        /// Metres.
+        center: Point,
+        /// Metres.
+        radius: f64,
+    },
+    /// A line through points.
+    Line(Vec<Point>),
+    /// The mark's label, written here.
+    Text(Point),
+}
+
+/// Details of an event, by name.
+pub type Fields = SmallVec<[(Name, Value); 2]>;
+
+/// A detail of an event.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Value {
+    /// Yes or no.
+    Bool(bool),
+    /// A whole number.
+    Int(i64),
+    /// A number.
+    Float(f64),
+    /// A text.
+    Text(Name),
+    /// A moment.
+    Time(Time),
+    /// A place.
+    Point(Point),
+    /// Places in order.
+    Path(Path),
+    /// A robot.
+    Robot(RobotId),
+    /// Robots.
+    Robots(Vec<RobotId>),
+    /// Obstacles.
+    Obstacles(Arc<[Obstacle]>),
+    /// An area.
+    Area(crate::Area),
+}
+
+macro_rules! value_from {
+    ($($type:ty => $variant:ident),*) => {
+        $(impl From<$type> for Value {
+            fn from(value: $type) -> Value {
+                Value::$variant(value.into())
+            }
+        })*
+    };
+}
+
+value_from!(
+    bool => Bool, i64 => Int, u32 => Int, i32 => Int, f64 => Float, &'static str => Text,
+    Name => Text, Time => Time, Point => Point, Path => Path, RobotId => Robot,
+    Vec<RobotId> => Robots, Arc<[Obstacle]> => Obstacles, crate::Area => Area
+);

@@ -1,0 +1,335 @@
+//! Which obstacles are near: a static uniform grid over the floor plane.
+//!
+//! The grid covers the bulk of the obstacles' centres; cells at its rim reach outwards without end, so
+//! every place belongs to a cell whatever its coordinates. A cell is as wide as the spacing of
+//! obstacles or as their median size, whichever is more, which makes at most three cells an obstacle.
+//! One that would fill more than [`MOST_CELLS`] of them (a floor, a long wall) is kept in a list that
+//! every query looks through. Memory is therefore bounded by the number of obstacles alone, and no
+//! query looks at an obstacle's bounds more than once a cell or allocates.
+//!
+//! An obstacle lies in several cells but is reported in the first that both it and the query cover, so
+//! no record of those already seen is needed. The order of reports is fixed but not ascending.
+
+use super::segment::{greater, lesser};
+use super::{Bounds, Obstacle, Point};
+use alloc::vec::Vec;
+use core::ops::{ControlFlow, RangeInclusive};
+
+/// The most cells one obstacle may be listed in; 64 entries are as large as its bounds and cells.
+const MOST_CELLS: u64 = 64;
+
+/// Obstacles arranged for quick questions about a place; unchanging.
+#[derive(Clone, Debug)]
+pub struct ObstacleIndex {
+    obstacles: Vec<Obstacle>,
+    bounds: Vec<Bounds>,
+    /// The cells each obstacle covers.
+    covers: Vec<Cells>,
+    grid: Grid,
+    /// Where each cell's part of `members` starts, row by row, and the end of the last.
+    starts: Vec<u32>,
+    /// Obstacles by cell, ascending in each.
+    members: Vec<u32>,
+    /// Obstacles in no cell, ascending.
+    wide: Vec<u32>,
+}
+
+/// Where the cells are.
+#[derive(Clone, Debug)]
+struct Grid {
+    origin: Point,
+    /// Metres.
+    side: f64,
+    columns: u32,
+    rows: u32,
+}
+
+/// A rectangle of cells, ends included.
+#[derive(Clone, Copy, Debug)]
+struct Cells {
+    left: u32,
+    right: u32,
+    bottom: u32,
+    top: u32,
+}
+
+impl ObstacleIndex {
+    /// An index of these obstacles; its answers are their places in the list.
+    pub fn new(obstacles: &[Obstacle]) -> ObstacleIndex {
+        let bounds: Vec<Bounds> = obstacles.iter().map(Obstacle::bounds).collect();
+        let grid = Grid::over(&bounds);
+        let covers: Vec<Cells> = bounds.iter().map(|bounds| grid.cells(bounds)).collect();
+        let mut starts = alloc::vec![0u32; grid.columns as usize * grid.rows as usize + 1];
+        let mut wide = Vec::new();
+        for (index, cells) in covers.iter().enumerate() {
+            if cells.count() > MOST_CELLS {
+                wide.push(index as u32);
+                continue;
+            }
+            cells.each(&grid, |cell| starts[cell + 1] += 1);
+        }
+        for cell in 1..starts.len() {
+            starts[cell] += starts[cell - 1];
+        }
+        let mut next = starts.clone();
+        let mut members = alloc::vec![0u32; starts[starts.len() - 1] as usize];
+        for (index, cells) in covers.iter().enumerate().filter(|(_, c)| c.count() <= MOST_CELLS) {
+            cells.each(&grid, |cell| {
+                members[next[cell] as usize] = index as u32;
+                next[cell] += 1;
+            });
+        }
+        ObstacleIndex { obstacles: obstacles.to_vec(), bounds, covers, grid, starts, members, wide }
+    }
+
+    /// The obstacles, in the order given.
+    pub fn obstacles(&self) -> &[Obstacle] {
+        &self.obstacles
+    }
+
+    /// The smallest box around each obstacle, in the same order.
+    pub fn bounds(&self) -> &[Bounds] {
+        &self.bounds
+    }
+
+    /// Calls `visit` once for every obstacle whose bounds overlap these, until it breaks.
+    pub fn for_each_near<B>(
+        &self,
+        bounds: &Bounds,
+        mut visit: impl FnMut(u32) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        let near = |index: u32| self.bounds[index as usize].overlaps(bounds);
+        let query = self.grid.cells(bounds);
+        if query.count() >= self.bounds.len() as u64 {
+            return (0..self.bounds.len() as u32).filter(|&index| near(index)).try_for_each(visit);
+        }
+        self.wide.iter().copied().filter(|&index| near(index)).try_for_each(&mut visit)?;
+        for row in query.bottom..=query.top {
+            for column in query.left..=query.right {
+                for &index in self.members(row, column) {
+                    let covers = &self.covers[index as usize];
+                    let first = column == query.left.max(covers.left)
+                        && row == query.bottom.max(covers.bottom);
+                    if first && near(index) {
+                        visit(index)?;
+                    }
+                }
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Calls `visit` once for every obstacle whose bounds, moved outwards by `margin` metres, may meet
+    /// the segment from `a` to `b`, until it breaks: all of those, and few others. Of a long slanting
+    /// segment this looks only at the cells along it, not at all those of its bounds.
+    pub fn for_each_near_segment<B>(
+        &self,
+        a: Point,
+        b: Point,
+        margin: f64,
+        mut visit: impl FnMut(u32) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
+        let bounds = Bounds::of_segment(a, b).inflated(margin);
+        let query = self.grid.cells(&bounds);
+        if query.left == query.right
+            || query.bottom == query.top
+            || query.count() >= self.bounds.len() as u64
+        {
+            return self.for_each_near(&bounds, visit);
+        }
+        let near = |index: u32| self.bounds[index as usize].overlaps(&bounds);
+        self.wide.iter().copied().filter(|&index| near(index)).try_for_each(&mut visit)?;
+        let mut below = None::<RangeInclusive<u32>>;
+        for row in query.bottom..=query.top {
+            let columns = self.grid.columns_along(a, b, margin, row, &query);
+            for column in columns.clone() {
+                for &index in self.members(row, column) {
+                    let covers = &self.covers[index as usize];
+                    // The rows in which segment and obstacle share a column follow one another.
+                    let seen = covers.bottom < row
+                        && below.as_ref().is_some_and(|below| {
+                            *below.start() <= covers.right && *below.end() >= covers.left
+                        });
+                    if !seen && column == covers.left.max(*columns.start()) && near(index) {
+                        visit(index)?;
+                    }
+                }
+            }
+            below = Some(columns);
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Whether `test` holds for an obstacle whose bounds overlap these.
+    pub fn any_near(&self, bounds: &Bounds, mut test: impl FnMut(u32) -> bool) -> bool {
+        self.for_each_near(bounds, |index| break_if(test(index))).is_break()
+    }
+
+    /// The obstacles whose bounds overlap these, ascending; this one allocates.
+    pub fn near(&self, bounds: &Bounds) -> Vec<u32> {
+        let mut found = Vec::new();
+        let _ = self.for_each_near(bounds, |index| {
+            found.push(index);
+            ControlFlow::<()>::Continue(())
+        });
+        found.sort_unstable();
+        found
+    }
+
+    /// Whether an obstacle blocks the segment; see [`Obstacle::blocks_segment`].
+    pub fn blocks_segment(&self, a: Point, b: Point, clearance: f64) -> bool {
+        self.for_each_near_segment(a, b, greater(clearance, 0.0), |index| {
+            break_if(self.obstacles[index as usize].blocks_segment(a, b, clearance))
+        })
+        .is_break()
+    }
+
+    /// Whether an obstacle blocks the body; see [`Obstacle::blocks_body`].
+    pub fn blocks_body(&self, a: Point, b: Point, radius: f64, body_height: f64) -> bool {
+        let margin = greater(greater(radius, body_height), 0.0);
+        self.for_each_near_segment(a, b, margin, |index| {
+            break_if(self.obstacles[index as usize].blocks_body(a, b, radius, body_height))
+        })
+        .is_break()
+    }
+
+    /// The first obstacle a horizontal ray meets and the distance to it in metres; of several at the
+    /// same distance the first in the list. See [`Obstacle::ray`].
+    pub fn ray(&self, origin: Point, direction: Point, range: f64) -> Option<(u32, f64)> {
+        let end = origin + direction.at_height(0.0) * range;
+        let mut first = None::<(u32, f64)>;
+        let _ = self.for_each_near_segment(origin, end, 0.0, |index| {
+            let limit = first.map_or(range, |(_, distance)| distance);
+            let hit = self.obstacles[index as usize].ray(origin, direction, limit);
+            if let Some(distance) = hit
+                && first.is_none_or(|(before, least)| distance < least || index < before)
+            {
+                first = Some((index, distance));
+            }
+            ControlFlow::<()>::Continue(())
+        });
+        first
+    }
+
+    fn members(&self, row: u32, column: u32) -> &[u32] {
+        let cell = self.grid.cell(row, column);
+        &self.members[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+    }
+}
+
+fn break_if(condition: bool) -> ControlFlow<()> {
+    if condition { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+}
+
+impl Cells {
+    fn count(&self) -> u64 {
+        u64::from(self.right - self.left + 1) * u64::from(self.top - self.bottom + 1)
+    }
+
+    fn each(&self, grid: &Grid, mut visit: impl FnMut(usize)) {
+        for row in self.bottom..=self.top {
+            for column in self.left..=self.right {
+                visit(grid.cell(row, column));
+            }
+        }
+    }
+}
+
+impl Grid {
+    fn over(bounds: &[Bounds]) -> Grid {
+        let (left, width) = bulk(bounds.iter().map(|b| 0.5 * b.low.x + 0.5 * b.high.x));
+        let (bottom, height) = bulk(bounds.iter().map(|b| 0.5 * b.low.y + 0.5 * b.high.y));
+        let size = |b: &Bounds| greater(b.high.x - b.low.x, b.high.y - b.low.y);
+        let mut sizes: Vec<f64> = bounds.iter().map(size).filter(|s| s.is_finite()).collect();
+        sizes.sort_unstable_by(f64::total_cmp);
+        let median = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+
+        let count = greater(bounds.len() as f64, 1.0);
+        let spacing = crate::math::sqrt(width / count) * crate::math::sqrt(height);
+        let longest = greater(width, height) / count;
+        // Far below this the rounding of coordinates would blur the limits of cells.
+        let farthest = greater(left.abs() + width, bottom.abs() + height);
+        let side = greater(greater(spacing, median), greater(longest, farthest * 1e-9));
+        let along = |length: f64| {
+            if side > 0.0 && side.is_finite() {
+                lesser(crate::math::ceil(length / side), count).max(1.0) as u32
+            } else {
+                1
+            }
+        };
+        Grid {
+            origin: Point::planar(left, bottom),
+            side: if side > 0.0 { side } else { 1.0 },
+            columns: along(width),
+            rows: along(height),
+        }
+    }
+
+    fn cell(&self, row: u32, column: u32) -> usize {
+        row as usize * self.columns as usize + column as usize
+    }
+
+    #[inline]
+    fn column(&self, x: f64) -> u32 {
+        // The conversion rounds towards zero and saturates.
+        (((x - self.origin.x) / self.side) as u32).min(self.columns - 1)
+    }
+
+    #[inline]
+    fn row(&self, y: f64) -> u32 {
+        (((y - self.origin.y) / self.side) as u32).min(self.rows - 1)
+    }
+
+    fn cells(&self, bounds: &Bounds) -> Cells {
+        let (left, bottom) = (self.column(bounds.low.x), self.row(bounds.low.y));
+        // Bounds that are not numbers must still be a range.
+        let right = self.column(bounds.high.x).max(left);
+        let top = self.row(bounds.high.y).max(bottom);
+        Cells { left, right, bottom, top }
+    }
+
+    /// The columns in which the segment, `a` not above `b` in y, comes within `margin` of a row.
+    fn columns_along(
+        &self,
+        a: Point,
+        b: Point,
+        margin: f64,
+        row: u32,
+        query: &Cells,
+    ) -> RangeInclusive<u32> {
+        if a.y >= b.y {
+            return query.left..=query.right;
+        }
+        // A little more than the row, so that rounding loses nothing.
+        let largest = a.x.abs() + b.x.abs() + a.y.abs() + b.y.abs();
+        let slack = margin + self.side / 16.0 + largest * 1e-14;
+        let at = |row: u32| self.origin.y + f64::from(row) * self.side;
+        let x = |y: f64| {
+            let fraction = (y - a.y) / (b.y - a.y);
+            a.x + (b.x - a.x) * fraction.clamp(0.0, 1.0)
+        };
+        let from = if row == query.bottom { a.x } else { x(at(row) - slack) };
+        let to = if row == query.top { b.x } else { x(at(row + 1) + slack) };
+        let left = self.column(lesser(from, to) - slack).max(query.left);
+        let right = self.column(greater(from, to) + slack).min(query.right);
+        // Numbers that are not usable give every column.
+        if left <= right { left..=right } else { query.left..=query.right }
+    }
+}
+
+/// Where the bulk of these numbers starts and how far it extends: from the sixteenth part to the last
+/// but one, and half as much again of what that leaves out, so that a few outliers do not spread the
+/// grid.
+fn bulk(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
+    let mut numbers: Vec<f64> = numbers.filter(|number| number.is_finite()).collect();
+    if numbers.is_empty() {
+        return (0.0, 0.0);
+    }
+    numbers.sort_unstable_by(f64::total_cmp);
+    let (least, most) = (numbers[0], numbers[numbers.len() - 1]);
+    let (low, high) = (numbers[numbers.len() / 16], numbers[numbers.len() - 1 - numbers.len() / 16]);
+    let reach = 0.125 * (high - low);
+    let (start, end) = (greater(least, low - reach), lesser(most, high + reach));
+    (start, end - start)
+}

@@ -1,0 +1,44 @@
+//! The contract all StarL layers meet at.
+//!
+//! A robot's program and each of its primitives is a pure state machine: it is handed an input (a
+//! start, a message, a timer, a position estimate, an activation) together with a [`Robot`] handle,
+//! and pushes effects (send, arm a timer, move, record an event) through that handle. Nothing here
+//! knows a clock, socket, thread or file, so the same machine runs in the simulator, in a browser,
+//! under a state explorer and on a real robot.
+//!
+//! Units are SI throughout: metres, seconds (or integer nanoseconds, [`Time`]), radians, one common
+//! right-handed world frame with x and y in the floor plane and z up.
+
+#![no_std]
+extern crate alloc;
+
+pub mod agent;
+pub mod digest;
+pub mod effect;
+pub mod event;
+pub mod geometry;
+pub mod id;
+pub mod math;
+pub mod message;
+pub mod motion;
+pub mod primitive;
+pub mod program;
+pub mod random;
+pub mod robot;
+pub mod sensor;
+pub mod time;
+
+pub use agent::Agent;
+pub use digest::Digest;
+pub use effect::{Destination, Effect, TimerKey};
+pub use event::{Event, Fields, Record, Value};
+pub use geometry::{Area, ConvexPolygon, Obstacle, Point, Pose, Shape, Twist};
+pub use id::{Port, RobotId};
+pub use message::{Message, Payload};
+pub use motion::{Command, Estimate, MotionRequest};
+pub use primitive::{Input, Primitive};
+pub use program::{Program, Status};
+pub use random::Random;
+pub use robot::{Robot, View, WayPoint};
+pub use sensor::Sensors;
+pub use time::{Duration, Time};

@@ -1,0 +1,41 @@
+//! The contract of every primitive.
+
+use crate::motion::Path;
+use crate::{Message, Port, Robot, TimerKey};
+use serde::{Deserialize, Serialize};
+
+/// All that can happen to a state machine. What a robot knows at that moment is in its
+/// [`crate::View`], so a recorded sequence of views and inputs is at once a log, a replay and a test.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Input {
+    /// The robot starts, or starts again after a crash.
+    Start,
+    /// A control period has passed.
+    Activate,
+    /// The view holds a new position estimate.
+    Estimate,
+    /// A message arrived.
+    Message(Message),
+    /// A timer fired.
+    Timer(TimerKey),
+    /// A planner answers [`crate::MotionRequest::Plan`].
+    Planned {
+        /// The request's.
+        ticket: u32,
+        /// Way-points from the robot to the target; none where the planner gave up.
+        path: Option<Path>,
+    },
+}
+
+/// A building block of programs: a pure state machine that answers inputs with effects.
+///
+/// A program owns its primitives as fields, calls their methods, and reads their flags. Inputs reach
+/// them through [`crate::Program::primitives`]: a message or timer goes to the one primitive whose
+/// port it names, every other input to all of them, before the program itself sees it.
+pub trait Primitive {
+    /// The endpoint of this instance.
+    fn port(&self) -> Port;
+
+    /// Takes an input and pushes effects through the handle.
+    fn handle(&mut self, robot: &mut Robot<'_>, input: &Input);
+}

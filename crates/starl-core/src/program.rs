@@ -1,0 +1,58 @@
+//! The contract of a robot's program.
+
+use crate::{Message, Primitive, Random, Robot, TimerKey};
+use dyn_clone::DynClone;
+use serde::{Deserialize, Serialize};
+
+/// How far a program is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// It works towards its goal.
+    #[default]
+    Running,
+    /// It has reached its goal.
+    Finished,
+    /// It cannot go on.
+    Failed,
+}
+
+/// A robot's program: a pure state machine that owns its primitives.
+///
+/// The host calls [`Program::start`] once, then [`Program::activate`] every control period: one pass
+/// over the guarded actions in the order written, each enabled action firing once (thesis, section
+/// 2.2). [`Program::receive`] runs when a message arrives.
+pub trait Program: DynClone + Send + Sync {
+    /// Runs once, before anything else, and again when the robot restarts after a crash (on a fresh
+    /// copy of the program).
+    fn start(&mut self, robot: &mut Robot<'_>) {
+        let _ = robot;
+    }
+
+    /// One pass over the guarded actions.
+    fn activate(&mut self, robot: &mut Robot<'_>);
+
+    /// Handles a message: one that a primitive delivers (its port tells which), or a datagram
+    /// sent to [`crate::Port::PROGRAM`].
+    fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
+        let _ = (robot, message);
+    }
+
+    /// Handles a timer that the program armed on [`crate::Port::PROGRAM`].
+    fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
+        let _ = (robot, key);
+    }
+
+    /// Shows each primitive that the program owns to `visit`, always in the same order.
+    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
+        let _ = visit;
+    }
+
+    /// Overwrites the program's variables at random, within their types, as a transient fault would
+    /// (self-stabilisation, Dijkstra 1974).
+    fn corrupt(&mut self, random: &mut Random) {
+        let _ = random;
+    }
+}
+
+dyn_clone::clone_trait_object!(Program);

@@ -1,0 +1,73 @@
+//! Seeded randomness: streams for robots, and stateless draws keyed by what is being decided.
+
+use crate::math;
+use rand_core::{Rng, SeedableRng};
+use rand_pcg::Pcg32;
+use serde::{Deserialize, Serialize};
+
+/// A stream of random numbers; equal seeds and keys give equal streams on every target.
+///
+/// PCG XSH RR 64/32 (O'Neill 2014, "PCG: A Family of Simple Fast Space-Efficient Statistically Good
+/// Algorithms for Random Number Generation").
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Random(Pcg32);
+
+impl Random {
+    /// The stream of `seed` for the purpose that `key` names, independent of streams of other keys.
+    ///
+    /// A key is a few numbers, e.g. `[purpose, robot]` or `[purpose, sender, receiver, sequence]`:
+    /// a draw that is keyed by what it decides does not depend on the order of other draws.
+    pub fn keyed(seed: u64, key: &[u64]) -> Random {
+        Random(Pcg32::seed_from_u64(hash_key(seed, key)))
+    }
+
+    /// The next 32 random bits.
+    pub fn bits(&mut self) -> u32 {
+        self.0.next_u32()
+    }
+
+    /// Uniform in [0, 1).
+    pub fn uniform(&mut self) -> f64 {
+        (self.0.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+    }
+
+    /// Uniform in [low, high).
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.uniform()
+    }
+
+    /// Uniform in 0..bound; 0 if `bound` is 0.
+    pub fn below(&mut self, bound: u32) -> u32 {
+        ((u64::from(self.0.next_u32()) * u64::from(bound)) >> 32) as u32
+    }
+
+    /// True with the given probability; at 0 and below never, at 1 and above always.
+    pub fn chance(&mut self, probability: f64) -> bool {
+        self.uniform() < probability
+    }
+
+    /// Normally distributed (Box and Muller 1958); one of each pair is thrown away, so that the
+    /// stream holds no hidden state.
+    pub fn normal(&mut self, mean: f64, deviation: f64) -> f64 {
+        let radius = math::sqrt(-2.0 * math::log(1.0 - self.uniform()));
+        mean + deviation * radius * math::cos(math::TAU * self.uniform())
+    }
+
+    /// Exponentially distributed with the given mean.
+    pub fn exponential(&mut self, mean: f64) -> f64 {
+        -mean * math::log(1.0 - self.uniform())
+    }
+}
+
+/// Mixes a seed and a key into 64 well-spread bits: the finaliser of SplitMix64 (Steele, Lea and
+/// Flood 2014) after each word.
+pub fn hash_key(seed: u64, key: &[u64]) -> u64 {
+    key.iter().fold(mix(seed), |hash, &word| mix(hash ^ word))
+}
+
+fn mix(word: u64) -> u64 {
+    let mut z = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}

@@ -1,0 +1,236 @@
+//! The handle through which a program sees and moves its robot (the thesis's global variable holder).
+
+use crate::effect::Effects;
+use crate::event::{Fields, Level, Mark, MarkShape, Name, Value};
+use crate::message::{self, Message, Payload};
+use crate::motion::{Body, Obstacles, PlanRequest};
+use crate::{
+    Command, Destination, Duration, Effect, Estimate, Event, MotionRequest, Point, Port, Random,
+    RobotId, Sensors, Time, TimerKey,
+};
+use alloc::vec::Vec;
+use serde::{Deserialize, Serialize};
+
+/// A named place given to programs as input.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WayPoint {
+    /// Its name.
+    pub name: alloc::string::String,
+    /// Where it is, metres.
+    pub position: Point,
+    /// A number that groups way-points, e.g. by robot; 0 where none is given.
+    pub group: u32,
+}
+
+/// What a robot knows at one moment. The host fills it before each input.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a> {
+    /// Which robot this is.
+    pub id: RobotId,
+    /// The robot's own clock.
+    pub now: Time,
+    /// What the positioning system last said.
+    pub estimate: Estimate,
+    /// The space the robot takes.
+    pub body: Body,
+    /// Current readings.
+    pub sensors: Sensors<'a>,
+    /// All robots of the application, this one too, in the order of their numbers.
+    pub fleet: &'a [RobotId],
+    /// The application's way-points.
+    pub way_points: &'a [WayPoint],
+    /// The obstacles this robot knows.
+    pub obstacles: &'a Obstacles,
+}
+
+/// A program's handle to its robot: what it knows, and what it can ask for.
+pub struct Robot<'a> {
+    view: &'a View<'a>,
+    effects: &'a mut Effects,
+    random: &'a mut Random,
+}
+
+impl<'a> Robot<'a> {
+    /// A handle on `view` that collects into `effects`.
+    pub fn new(
+        view: &'a View<'a>,
+        effects: &'a mut Effects,
+        random: &'a mut Random,
+    ) -> Robot<'a> {
+        Robot { view, effects, random }
+    }
+
+    /// This robot's number.
+    pub fn id(&self) -> RobotId {
+        self.view.id
+    }
+
+    /// All robots of the application, this one too.
+    pub fn fleet(&self) -> &'a [RobotId] {
+        self.view.fleet
+    }
+
+    /// The other robots of the application.
+    pub fn peers(&self) -> impl Iterator<Item = RobotId> + use<'a> {
+        let id = self.view.id;
+        self.view.fleet.iter().copied().filter(move |&peer| peer != id)
+    }
+
+    /// The robot's own clock.
+    pub fn now(&self) -> Time {
+        self.view.now
+    }
+
+    /// Estimated position of the centre of the body's base, metres.
+    pub fn position(&self) -> Point {
+        self.view.estimate.pose.position
+    }
+
+    /// Estimated velocity, metres per second.
+    pub fn velocity(&self) -> Point {
+        self.view.estimate.twist.linear
+    }
+
+    /// Estimated heading, radians from the x axis.
+    pub fn heading(&self) -> f64 {
+        self.view.estimate.pose.yaw
+    }
+
+    /// All that the positioning system said.
+    pub fn estimate(&self) -> &Estimate {
+        &self.view.estimate
+    }
+
+    /// The space the robot takes.
+    pub fn body(&self) -> &'a Body {
+        &self.view.body
+    }
+
+    /// Current sensor readings.
+    pub fn sensors(&self) -> &'a Sensors<'a> {
+        &self.view.sensors
+    }
+
+    /// The application's way-points (the thesis's getInput).
+    pub fn way_points(&self) -> &'a [WayPoint] {
+        self.view.way_points
+    }
+
+    /// The obstacles this robot knows (the thesis's getObstacles).
+    pub fn obstacles(&self) -> Obstacles {
+        self.view.obstacles.clone()
+    }
+
+    /// This robot's random stream.
+    pub fn random(&mut self) -> &mut Random {
+        self.random
+    }
+
+    /// Hands a datagram to the network, which may lose it: [`Effect::Transmit`].
+    pub fn transmit<T: Serialize>(&mut self, destination: Destination, port: Port, content: &T) {
+        self.transmit_bytes(destination, port, message::encode(content));
+    }
+
+    /// [`Robot::transmit`] of bytes that are encoded already.
+    pub fn transmit_bytes(&mut self, destination: Destination, port: Port, payload: Payload) {
+        self.push(Effect::Transmit { destination, port, payload });
+    }
+
+    /// Arms a timer, or moves it if it is armed.
+    pub fn set_timer(&mut self, key: TimerKey, after: Duration) {
+        self.push(Effect::SetTimer { key, after });
+    }
+
+    /// Forgets a timer.
+    pub fn cancel_timer(&mut self, key: TimerKey) {
+        self.push(Effect::CancelTimer(key));
+    }
+
+    /// Sends a command to the robot's model.
+    pub fn drive(&mut self, command: Command) {
+        self.push(Effect::Move(MotionRequest::Drive(command)));
+    }
+
+    /// Asks for a path.
+    pub fn plan(&mut self, request: PlanRequest) {
+        self.push(Effect::Move(MotionRequest::Plan(request)));
+    }
+
+    /// Tracks a way-point: [`MotionRequest::Track`].
+    pub fn track(&mut self, target: Point, next: Option<Point>) {
+        self.push(Effect::Move(MotionRequest::Track { target, next }));
+    }
+
+    /// Stops and stays.
+    pub fn halt(&mut self) {
+        self.push(Effect::Move(MotionRequest::Halt));
+    }
+
+    /// Notes that a guarded action fired.
+    pub fn action(&mut self, name: impl Into<Name>) {
+        self.push(Effect::Record(Event::Action(name.into())));
+    }
+
+    /// Reports an event of the program.
+    pub fn emit<const N: usize>(&mut self, name: impl Into<Name>, fields: [(&'static str, Value); N]) {
+        let event = Event::Program { name: name.into(), fields: named(fields) };
+        self.push(Effect::Record(event));
+    }
+
+    /// Reports a command to, or an outcome of, the primitive instance at `port`.
+    pub fn emit_primitive<const N: usize>(
+        &mut self,
+        primitive: &'static str,
+        port: Port,
+        name: &'static str,
+        fields: [(&'static str, Value); N],
+    ) {
+        self.push(Effect::Record(Event::Primitive {
+            primitive: primitive.into(),
+            port,
+            name: name.into(),
+            fields: named(fields),
+        }));
+    }
+
+    /// Writes a line to the robot's log.
+    pub fn log(&mut self, level: Level, text: impl Into<Name>) {
+        self.push(Effect::Record(Event::Log { level, text: text.into() }));
+    }
+
+    /// Draws for the viewer.
+    pub fn draw(&mut self, label: impl Into<Name>, shape: MarkShape) {
+        self.push(Effect::Record(Event::Draw(Mark { label: label.into(), shape })));
+    }
+
+    /// Says that the program has reached its goal.
+    pub fn finish(&mut self) {
+        self.push(Effect::Finish);
+    }
+
+    /// Says that the program cannot go on, and why.
+    pub fn fail(&mut self, reason: impl Into<Name>) {
+        self.push(Effect::Fail(reason.into()));
+    }
+
+    /// For primitives: hands a message up to this robot's own program.
+    pub fn deliver(&mut self, from: RobotId, port: Port, payload: Payload) {
+        self.effects.upcalls.push(Message { from, port, payload });
+    }
+
+    pub(crate) fn has_upcalls(&self) -> bool {
+        !self.effects.upcalls.is_empty()
+    }
+
+    pub(crate) fn upcalls(&mut self) -> &mut Vec<Message> {
+        &mut self.effects.upcalls
+    }
+
+    fn push(&mut self, effect: Effect) {
+        self.effects.list.push(effect);
+    }
+}
+
+fn named<const N: usize>(fields: [(&'static str, Value); N]) -> Fields {
+    fields.into_iter().map(|(name, value)| (name.into(), value)).collect()
+}

@@ -1,0 +1,104 @@
+//! The contract of a robot model: its body, its commands and its dynamics (thesis, section 4.3).
+
+use core::fmt::Debug;
+use serde::{Deserialize, Serialize};
+use starl_core::motion::Body;
+use starl_core::{Command, Duration, Point, Pose, Twist};
+
+/// The physical state of a robot, the same shape for every model so that hosts can keep states in
+/// one array; a model leaves alone what it does not use.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// True pose.
+    pub pose: Pose,
+    /// True velocity.
+    pub twist: Twist,
+    /// What the model is about, in its own numbering, e.g. landed, taking off, flying.
+    pub mode: u32,
+    /// Quantities of the model's own, e.g. a steering angle; the model documents them.
+    pub memory: [f64; 2],
+}
+
+/// What keeps a robot from moving exactly as told, during one step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Disturbance {
+    /// Velocity of the air, world frame, metres per second; ground robots do not feel it.
+    pub wind: Point,
+    /// Relative error of the speed that is driven: 0.1 drives 10 % too fast.
+    pub speed_error: f64,
+    /// Relative error of the rate of turn.
+    pub turn_error: f64,
+}
+
+/// What stopped a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact {
+    /// Unit vector from the robot's centre towards what it met, in the floor plane.
+    pub direction: Point,
+}
+
+/// The bounds that a model's motion keeps to. The conformance suite holds every model to them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Greatest speed in the floor plane, metres per second.
+    pub speed: f64,
+    /// Greatest rate of climb and descent, metres per second; 0 on the ground.
+    pub vertical_speed: f64,
+    /// Greatest change of velocity, metres per second squared; infinite where the model changes its
+    /// speed at once.
+    pub acceleration: f64,
+    /// Greatest rate of turn, radians per second.
+    pub turn_rate: f64,
+    /// Smallest radius of a turn while driving, metres; 0 where the robot turns on the spot.
+    pub turn_radius: f64,
+    /// An upper bound of the distance, metres, in which tracking brings the robot to a halt from
+    /// its greatest speed, overshoot included.
+    pub stopping_distance: f64,
+}
+
+/// A kind of robot: immutable, shared by all robots of the kind.
+///
+/// A host advances a robot in two halves: [`Model::predict`] says where it would be after a step;
+/// the host looks whether anything is in the way; [`Model::update`] makes it so, or lets the body be
+/// stopped by what it met.
+pub trait Model: Debug + Send + Sync {
+    /// The name used in scenarios, e.g. `create`.
+    fn name(&self) -> &'static str;
+
+    /// The space it takes.
+    fn body(&self) -> Body;
+
+    /// The bounds of its motion.
+    fn limits(&self) -> Limits;
+
+    /// Whether this is one of the model's commands, with finite arguments.
+    fn accepts(&self, command: &Command) -> bool;
+
+    /// The state of a robot that stands still at `pose`.
+    fn at_rest(&self, pose: Pose) -> State;
+
+    /// The state after `elapsed` under `command`, if nothing is in the way. Commands beyond the
+    /// limits are driven at the limits; commands the model does not take act as
+    /// [`Command::Stop`].
+    fn predict(
+        &self,
+        state: &State,
+        command: &Command,
+        disturbance: &Disturbance,
+        elapsed: Duration,
+    ) -> State;
+
+    /// Goes over to the predicted state; if an impact is given, the body stays where it was and
+    /// loses its speed into the obstacle.
+    fn update(&self, state: &mut State, predicted: &State, impact: Option<Impact>) {
+        match impact {
+            None => *state = *predicted,
+            Some(_) => {
+                let position = state.pose.position;
+                *state = *predicted;
+                state.pose.position = position;
+                state.twist.linear = Point::ZERO;
+            }
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! What breaks, and when.
+
+use starl_core::{Duration, RobotId, Time};
+
+/// Faults on a schedule and at random.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Faults {
+    /// Faults at given times.
+    pub schedule: Vec<Fault>,
+    /// Faults at seeded rates.
+    pub rates: FaultRates,
+}
+
+/// One fault.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fault {
+    /// When it sets in.
+    pub at: Time,
+    /// What it is.
+    pub kind: FaultKind,
+}
+
+/// What can break, and what mends it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FaultKind {
+    /// The robots stop computing, receiving and moving, and lose all state.
+    Crash(Vec<RobotId>),
+    /// Crashed robots start afresh, their programs from the beginning.
+    Restart(Vec<RobotId>),
+    /// Robots in different groups do not hear each other; robots in no group form one more.
+    Partition(Vec<Vec<RobotId>>),
+    /// All partitions end.
+    Heal,
+    /// The motors act as if told to stop, whatever the program commands.
+    StuckMotor(Vec<RobotId>),
+    /// Sensors and positioning repeat their last readings.
+    FrozenSensor(Vec<RobotId>),
+    /// Ends stuck motors and frozen sensors.
+    Repair(Vec<RobotId>),
+    /// The programs' variables are overwritten at random, within their types.
+    CorruptState(Vec<RobotId>),
+}
+
+/// Faults at random, as events per robot and second (partitions: per second); each drawn from the
+/// seed as a Poisson process, and mended after a while.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FaultRates {
+    /// Crashes per robot and second; default 0.
+    pub crash: f64,
+    /// A crashed robot restarts after this time; default never (zero).
+    pub restart_after: Duration,
+    /// Partitions of the fleet into two random halves per second; default 0.
+    pub partition: f64,
+    /// A partition heals after this time; default 5 s.
+    pub heal_after: Duration,
+    /// Stuck motors per robot and second; default 0.
+    pub stuck_motor: f64,
+    /// Frozen sensors per robot and second; default 0.
+    pub frozen_sensor: f64,
+    /// Motors and sensors are repaired after this time; default 5 s.
+    pub repair_after: Duration,
+    /// Corruptions of state per robot and second; default 0.
+    pub corrupt_state: f64,
+}
+
+impl Default for FaultRates {
+    fn default() -> FaultRates {
+        FaultRates {
+            crash: 0.0,
+            restart_after: Duration::ZERO,
+            partition: 0.0,
+            heal_after: Duration::from_seconds(5),
+            stuck_motor: 0.0,
+            frozen_sensor: 0.0,
+            repair_after: Duration::from_seconds(5),
+            corrupt_state: 0.0,
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! How messages travel.
+
+use starl_core::{Duration, RobotId};
+
+/// The simulated network. A datagram is sent once; every robot it could reach receives it, or not,
+/// on its own account.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Network {
+    /// What links do unless overridden.
+    pub link: Link,
+    /// Radio range between robots' centres, metres; none: everywhere; default none.
+    pub range: Option<f64>,
+    /// Obstacles and other robots' bodies block the radio; default false.
+    pub line_of_sight: bool,
+    /// What each robot can send, bits per second; datagrams queue; none: any amount; default none.
+    pub bandwidth: Option<f64>,
+    /// How long a datagram may wait in the sender's queue before it is dropped; default 1 s.
+    pub queue: Duration,
+    /// Largest datagram, bytes; larger ones are dropped, and the trace says so; default 65507.
+    pub largest: u32,
+    /// Links that differ; the last that matches counts.
+    pub overrides: Vec<LinkOverride>,
+}
+
+/// What one link does to datagrams.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    /// Mean delay; default 15 ms.
+    pub delay: Duration,
+    /// Standard deviation of the delay; default 5 ms.
+    pub jitter: Duration,
+    /// How delays are distributed; default normal.
+    pub distribution: DelayDistribution,
+    /// Probability that a datagram is lost; default 0.
+    pub loss: f64,
+    /// Probability that it arrives twice, the second after a delay of its own; default 0.
+    pub duplication: f64,
+    /// Probability that it is held back, so that later ones overtake it; default 0.
+    pub reordering: f64,
+    /// How long it is held back then, on top of its delay; default 50 ms.
+    pub reordering_delay: Duration,
+}
+
+/// How delays are distributed around their mean; never below zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DelayDistribution {
+    /// Always the mean; the jitter counts for nothing.
+    Constant,
+    /// Evenly over the mean plus and minus the square root of three times the jitter.
+    Uniform,
+    /// Normal, cut off at zero.
+    #[default]
+    Normal,
+    /// The mean less the jitter, plus an exponential part whose mean is the jitter.
+    Exponential,
+}
+
+/// A set of links that differ from the rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinkOverride {
+    /// Senders; none: all.
+    pub from: Option<Vec<RobotId>>,
+    /// Receivers; none: all.
+    pub to: Option<Vec<RobotId>>,
+    /// What these links do.
+    pub link: Link,
+}
+
+impl Default for Link {
+    fn default() -> Link {
+        Link {
+            delay: Duration::from_millis(15),
+            jitter: Duration::from_millis(5),
+            distribution: DelayDistribution::default(),
+            loss: 0.0,
+            duplication: 0.0,
+            reordering: 0.0,
+            reordering_delay: Duration::from_millis(50),
+        }
+    }
+}
+
+impl Default for Network {
+    fn default() -> Network {
+        Network {
+            link: Link::default(),
+            range: None,
+            line_of_sight: false,
+            bandwidth: None,
+            queue: Duration::from_seconds(1),
+            largest: 65_507,
+            overrides: Vec::new(),
+        }
+    }
+}
+
+impl Network {
+    /// What the link between two robots does.
+    pub fn link(&self, from: RobotId, to: RobotId) -> &Link {
+        let names = |set: &Option<Vec<RobotId>>, robot| {
+            set.as_ref().is_none_or(|robots| robots.contains(&robot))
+        };
+        self.overrides
+            .iter()
+            .rev()
+            .find(|link| names(&link.from, from) && names(&link.to, to))
+            .map_or(&self.link, |link| &link.link)
+    }
+}

@@ -1,0 +1,45 @@
+//! The world that robots move in.
+
+use starl_core::{Obstacle, Point, Time, WayPoint};
+
+/// Obstacles, way-points and things.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct World {
+    /// Walls around everything; none by default.
+    pub bounds: Option<Bounds>,
+    /// What is in the way.
+    pub obstacles: Vec<WorldObstacle>,
+    /// Places handed to every program.
+    pub way_points: Vec<WayPoint>,
+    /// Things to be found by detectors.
+    pub things: Vec<Thing>,
+}
+
+/// A rectangle in the floor plane that no body leaves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Lowest x and y, metres.
+    pub low: Point,
+    /// Highest x and y, metres.
+    pub high: Point,
+}
+
+/// An obstacle with what the simulator knows of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorldObstacle {
+    /// Its shape and place.
+    pub obstacle: Obstacle,
+    /// Robots do not know it until they meet it; default false.
+    pub hidden: bool,
+    /// It vanishes at this time; default never.
+    pub expires: Time,
+}
+
+/// Something to find.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Thing {
+    /// Its name.
+    pub name: String,
+    /// Where it is, metres.
+    pub position: Point,
+}
