@@ -1,0 +1,96 @@
+//! Geocast: a message to the robots in an area (thesis, section 3.3.1).
+//!
+//! The message goes to all robots together with its area; each receiver decides by its own position
+//! estimate at the moment of delivery. One that is outside acknowledges and never delivers that
+//! message. Properties, with d2 = [`Geocast::delivery_bound`]:
+//! - exclusion: a robot whose estimate is outside the area at every moment of `[t0, t0 + d2]` does not
+//!   receive the message. This needs no assumption on the network;
+//! - inclusion: a robot whose estimate is inside throughout receives it once within that time, if it
+//!   is up, the network delivers a datagram within `longest_delay` or not at all, and not all copies
+//!   are lost. In FIFO order it may wait longer, by at most as long again, for an earlier message;
+//! - a robot that moves in or out meanwhile may or may not receive it, by where it is when the first
+//!   copy comes.
+//!
+//! Estimates may be off by the positioning system's error: an area should be drawn larger or smaller
+//! by that, whichever is safe.
+
+use crate::Failure;
+use crate::channel::{Channel, report_arrival};
+use crate::reliable::{MessageId, Options, encode};
+use alloc::vec::Vec;
+use serde::Serialize;
+use starl_core::{Area, Duration, Input, Payload, Port, Primitive, Robot, message};
+
+const KIND: &str = "geocast";
+
+/// Sends messages to the other robots in an area. What arrives is handed to
+/// [`starl_core::Program::receive`] with this primitive's port.
+#[derive(Clone, Debug)]
+pub struct Geocast(Channel);
+
+impl Geocast {
+    /// An instance; those of the same name on all robots talk to each other.
+    pub fn new(name: &str, options: Options) -> Geocast {
+        Geocast(Channel::new(KIND, name, options))
+    }
+
+    /// Sends `content` to every other robot in the area. An area that is not valid holds nobody.
+    pub fn geocast<T: Serialize>(
+        &mut self,
+        robot: &mut Robot<'_>,
+        content: &T,
+        area: &Area,
+    ) -> MessageId {
+        let message = self.0.reliable.next_to_all(robot);
+        robot.emit_primitive(
+            KIND,
+            self.0.port,
+            "geocast",
+            [
+                ("number", message.number.into()),
+                ("incarnation", message.incarnation.into()),
+                ("retry_span", self.0.retry_span().into()),
+                ("area", area.clone().into()),
+            ],
+        );
+        self.0
+            .send_to_peers(robot, encode(&(area, encode(content))))
+    }
+
+    /// Whether some robot has neither acknowledged the message nor been given up.
+    pub fn is_outstanding(&self, message: MessageId) -> bool {
+        self.0.reliable.is_outstanding(message)
+    }
+
+    /// The messages that some robot did not acknowledge, wherever it was, since the last call; at
+    /// most the latest 64.
+    pub fn take_failures(&mut self) -> Vec<Failure> {
+        self.0.take_failures()
+    }
+
+    /// The thesis's d2, for the longest time that the network takes to deliver a datagram.
+    pub fn delivery_bound(&self, longest_delay: Duration) -> Duration {
+        self.0.reliable.options().delivery_bound(longest_delay)
+    }
+}
+
+impl Primitive for Geocast {
+    fn port(&self) -> Port {
+        self.0.port
+    }
+
+    fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
+        let port = self.0.port;
+        self.0.handle(robot, input, |robot, arrival| {
+            let Some((area, content)) = message::decode::<(Area, Payload)>(&arrival.content) else {
+                return;
+            };
+            let inside = area.is_valid() && area.contains(robot.position());
+            let name = if inside { "deliver" } else { "outside" };
+            report_arrival(robot, KIND, port, name, &arrival);
+            if inside {
+                robot.deliver(arrival.from, port, content);
+            }
+        });
+    }
+}

@@ -1,0 +1,173 @@
+//! Race: a fleet runs through shared way-points; the first robot at each sends all on to the next
+//! (thesis, section 2.2 and figure 2.1).
+//!
+//! The actions stand in the order and under the names of the figure. Where this differs from the
+//! printed listing:
+//! - `wait` there broadcasts the index after counting it up, and `receivedMessage` counts up once more,
+//!   so a told robot would skip a point. Here the message says which way-point was reached;
+//! - there any message sets the index, so one that comes late sends the robot back. Here only a
+//!   message about the present way-point or a later one does something;
+//! - the guard of `pick` there also holds once ReachAvoid is done, so the robot would set out for the
+//!   same point again instead of telling the others. Here it holds unless the last command is under
+//!   way or done: a robot that failed or gave up tries again;
+//! - `finish` is added: the listing does not say when the application is over.
+
+#![no_std]
+
+use starl_core::{Message, Primitive, Program, Random, Robot, WayPoint};
+use starl_primitives::{Broadcast, ReachAvoid, reach_avoid, reliable};
+
+/// What the robot does next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Location {
+    /// Start.
+    Init,
+    /// Set out for the current way-point.
+    Pick,
+    /// Wait until it is there.
+    Wait,
+}
+
+/// Settings of [`Race`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Options {
+    /// How to move.
+    pub reach_avoid: reach_avoid::Options,
+    /// How to tell the others.
+    pub broadcast: reliable::Options,
+}
+
+/// The program of one robot.
+#[derive(Clone, Debug)]
+pub struct Race {
+    location: Location,
+    /// The way-point to go to, counted from 0; their number when there are no more.
+    current_index: u32,
+    reach_avoid: ReachAvoid,
+    broadcast: Broadcast,
+}
+
+impl Default for Race {
+    fn default() -> Race {
+        Race::new(Options::default())
+    }
+}
+
+impl Race {
+    /// A robot that has not started.
+    pub fn new(options: Options) -> Race {
+        Race {
+            location: Location::Init,
+            current_index: 0,
+            reach_avoid: ReachAvoid::new("race/reach_avoid", options.reach_avoid),
+            broadcast: Broadcast::new("race/broadcast", options.broadcast),
+        }
+    }
+
+    /// What the robot does next.
+    pub fn location(&self) -> Location {
+        self.location
+    }
+
+    /// The way-point it goes to, counted from 0.
+    pub fn current_index(&self) -> u32 {
+        self.current_index
+    }
+
+    fn initialize(&mut self, robot: &mut Robot<'_>) {
+        if self.location == Location::Init {
+            robot.action("initialize");
+            // The index is 0 already, or more if a message came first.
+            self.location = Location::Pick;
+        }
+    }
+
+    fn pick(&mut self, robot: &mut Robot<'_>) {
+        let Some(target) = self.target(robot) else {
+            return;
+        };
+        let moving_or_there = self.reach_avoid.active() || self.reach_avoid.done();
+        if self.location == Location::Pick || self.location == Location::Wait && !moving_or_there {
+            robot.action("pick");
+            self.reach_avoid
+                .reach_avoid(robot, target.position, robot.obstacles());
+            self.location = Location::Wait;
+        }
+    }
+
+    fn wait(&mut self, robot: &mut Robot<'_>) {
+        let Some(target) = self.target(robot) else {
+            return;
+        };
+        if self.location == Location::Wait && self.reach_avoid.done() {
+            robot.action("wait");
+            let reached = self.current_index;
+            let name = target.name.clone().into();
+            robot.emit(
+                "arrived",
+                [
+                    ("index", reached.into()),
+                    ("name", starl_core::Value::Text(name)),
+                ],
+            );
+            self.broadcast.broadcast(robot, &reached);
+            self.current_index = reached + 1;
+            self.location = Location::Pick;
+        }
+    }
+
+    fn finish(&mut self, robot: &mut Robot<'_>) {
+        let on_the_way = self.reach_avoid.active() || self.reach_avoid.done();
+        if self.target(robot).is_none() && (self.location == Location::Pick || on_the_way) {
+            robot.action("finish");
+            self.reach_avoid.stop(robot);
+            self.location = Location::Wait;
+            robot.finish();
+        }
+    }
+
+    /// The way-point to go to; none if all are reached.
+    fn target<'a>(&self, robot: &Robot<'a>) -> Option<&'a WayPoint> {
+        robot.way_points().get(self.current_index as usize)
+    }
+}
+
+impl Program for Race {
+    fn activate(&mut self, robot: &mut Robot<'_>) {
+        self.initialize(robot);
+        self.pick(robot);
+        self.wait(robot);
+        self.finish(robot);
+    }
+
+    fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
+        if message.port != self.broadcast.port() {
+            return;
+        }
+        let Some(reached) = message.read::<u32>() else {
+            return;
+        };
+        let exists = (reached as usize) < robot.way_points().len();
+        if exists && reached >= self.current_index {
+            robot.emit(
+                "told",
+                [("index", reached.into()), ("from", message.from.into())],
+            );
+            self.current_index = reached + 1;
+            if self.location == Location::Wait {
+                self.location = Location::Pick;
+            }
+        }
+    }
+
+    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
+        visit(&mut self.reach_avoid);
+        visit(&mut self.broadcast);
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        let locations = [Location::Init, Location::Pick, Location::Wait];
+        self.location = locations[random.below(3) as usize];
+        self.current_index = random.bits() >> random.below(32);
+    }
+}
