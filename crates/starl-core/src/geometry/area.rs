@@ -52,7 +52,11 @@ impl Area {
                 outside_both(rectangle_distance(p, *low, *high), vertical)
             }
         };
-        if self.contains(p) { 0.0 } else { greater(outside, 0.0) }
+        if self.contains(p) {
+            0.0
+        } else {
+            greater(outside, 0.0)
+        }
     }
 
     /// Whether all numbers are finite, the radius is not negative and the corners are in order.

@@ -60,14 +60,20 @@ impl Bounds {
         let path = Bounds::of_segment(a, b);
         let low = Point::new(path.low.x - radius, path.low.y - radius, path.low.z);
         let top = path.high.z + body_height;
-        Bounds { low, high: Point::new(path.high.x + radius, path.high.y + radius, top) }
+        Bounds {
+            low,
+            high: Point::new(path.high.x + radius, path.high.y + radius, top),
+        }
     }
 
     /// This box moved outwards by `margin` metres on every side.
     #[inline]
     pub fn inflated(&self, margin: f64) -> Bounds {
         let margin = Point::new(margin, margin, margin);
-        Bounds { low: self.low - margin, high: self.high + margin }
+        Bounds {
+            low: self.low - margin,
+            high: self.high + margin,
+        }
     }
 
     /// This box without limits in height.

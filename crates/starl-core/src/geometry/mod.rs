@@ -2,6 +2,7 @@
 
 mod area;
 mod bounds;
+mod grid;
 mod obstacle;
 mod obstacle_index;
 mod obstacle_path;

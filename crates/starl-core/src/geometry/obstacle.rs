@@ -4,9 +4,7 @@
 //! into a planar and a vertical part. A base without a height reaches from below the floor to the sky.
 //! What can be asked about a path or a ray is in `obstacle_path.rs`.
 
-use super::segment::{
-    greater, lesser, nearest_on_segment, outside_both, rectangle_distance,
-};
+use super::segment::{greater, lesser, nearest_on_segment, outside_both, rectangle_distance};
 use super::{Bounds, ConvexPolygon, HeightSpan, Point};
 use serde::{Deserialize, Serialize};
 
@@ -50,18 +48,28 @@ pub enum Shape {
 impl Obstacle {
     /// A polygon or wall from the floor to the sky.
     pub const fn polygon(base: ConvexPolygon) -> Obstacle {
-        Obstacle { shape: Shape::Polygon { base, height: None } }
+        Obstacle {
+            shape: Shape::Polygon { base, height: None },
+        }
     }
 
     /// An upright cylinder from the floor to the sky, radius in metres.
     pub const fn circle(center: Point, radius: f64) -> Obstacle {
-        Obstacle { shape: Shape::Circle { center, radius, height: None } }
+        Obstacle {
+            shape: Shape::Circle {
+                center,
+                radius,
+                height: None,
+            },
+        }
     }
 
     /// The box with these opposite corners, sides along the axes.
     pub fn cuboid(low: Point, high: Point) -> Obstacle {
         let Bounds { low, high } = Bounds::of_segment(low, high);
-        Obstacle { shape: Shape::Cuboid { low, high } }
+        Obstacle {
+            shape: Shape::Cuboid { low, high },
+        }
     }
 
     /// This obstacle limited to these heights.
@@ -110,12 +118,21 @@ impl Obstacle {
                 }
                 bounds
             }
-            Shape::Circle { center, radius, .. } => {
-                Bounds { low: *center, high: *center }.inflated(*radius)
+            Shape::Circle { center, radius, .. } => Bounds {
+                low: *center,
+                high: *center,
             }
-            Shape::Cuboid { low, high } => return Bounds { low: *low, high: *high },
+            .inflated(*radius),
+            Shape::Cuboid { low, high } => {
+                return Bounds {
+                    low: *low,
+                    high: *high,
+                };
+            }
         };
-        let span = self.height().unwrap_or(HeightSpan::new(f64::NEG_INFINITY, f64::INFINITY));
+        let span = self
+            .height()
+            .unwrap_or(HeightSpan::new(f64::NEG_INFINITY, f64::INFINITY));
         (bounds.low.z, bounds.high.z) = (span.low, span.high);
         bounds
     }

@@ -10,12 +10,13 @@
 //! An obstacle lies in several cells but is reported in the first that both it and the query cover, so
 //! no record of those already seen is needed. The order of reports is fixed but not ascending.
 
-use super::segment::{greater, lesser};
+use super::grid::{Cells, Grid};
+use super::segment::greater;
 use super::{Bounds, Obstacle, Point};
 use alloc::vec::Vec;
 use core::ops::{ControlFlow, RangeInclusive};
 
-/// The most cells one obstacle may be listed in; 64 entries are as large as its bounds and cells.
+/// The most cells one obstacle may be listed in, at four bytes each.
 const MOST_CELLS: u64 = 64;
 
 /// Obstacles arranged for quick questions about a place; unchanging.
@@ -32,25 +33,6 @@ pub struct ObstacleIndex {
     members: Vec<u32>,
     /// Obstacles in no cell, ascending.
     wide: Vec<u32>,
-}
-
-/// Where the cells are.
-#[derive(Clone, Debug)]
-struct Grid {
-    origin: Point,
-    /// Metres.
-    side: f64,
-    columns: u32,
-    rows: u32,
-}
-
-/// A rectangle of cells, ends included.
-#[derive(Clone, Copy, Debug)]
-struct Cells {
-    left: u32,
-    right: u32,
-    bottom: u32,
-    top: u32,
 }
 
 impl ObstacleIndex {
@@ -73,13 +55,25 @@ impl ObstacleIndex {
         }
         let mut next = starts.clone();
         let mut members = alloc::vec![0u32; starts[starts.len() - 1] as usize];
-        for (index, cells) in covers.iter().enumerate().filter(|(_, c)| c.count() <= MOST_CELLS) {
+        for (index, cells) in covers
+            .iter()
+            .enumerate()
+            .filter(|(_, c)| c.count() <= MOST_CELLS)
+        {
             cells.each(&grid, |cell| {
                 members[next[cell] as usize] = index as u32;
                 next[cell] += 1;
             });
         }
-        ObstacleIndex { obstacles: obstacles.to_vec(), bounds, covers, grid, starts, members, wide }
+        ObstacleIndex {
+            obstacles: obstacles.to_vec(),
+            bounds,
+            covers,
+            grid,
+            starts,
+            members,
+            wide,
+        }
     }
 
     /// The obstacles, in the order given.
@@ -101,9 +95,15 @@ impl ObstacleIndex {
         let near = |index: u32| self.bounds[index as usize].overlaps(bounds);
         let query = self.grid.cells(bounds);
         if query.count() >= self.bounds.len() as u64 {
-            return (0..self.bounds.len() as u32).filter(|&index| near(index)).try_for_each(visit);
+            return (0..self.bounds.len() as u32)
+                .filter(|&index| near(index))
+                .try_for_each(visit);
         }
-        self.wide.iter().copied().filter(|&index| near(index)).try_for_each(&mut visit)?;
+        self.wide
+            .iter()
+            .copied()
+            .filter(|&index| near(index))
+            .try_for_each(&mut visit)?;
         for row in query.bottom..=query.top {
             for column in query.left..=query.right {
                 for &index in self.members(row, column) {
@@ -139,7 +139,11 @@ impl ObstacleIndex {
             return self.for_each_near(&bounds, visit);
         }
         let near = |index: u32| self.bounds[index as usize].overlaps(&bounds);
-        self.wide.iter().copied().filter(|&index| near(index)).try_for_each(&mut visit)?;
+        self.wide
+            .iter()
+            .copied()
+            .filter(|&index| near(index))
+            .try_for_each(&mut visit)?;
         let mut below = None::<RangeInclusive<u32>>;
         for row in query.bottom..=query.top {
             let columns = self.grid.columns_along(a, b, margin, row, &query);
@@ -163,7 +167,8 @@ impl ObstacleIndex {
 
     /// Whether `test` holds for an obstacle whose bounds overlap these.
     pub fn any_near(&self, bounds: &Bounds, mut test: impl FnMut(u32) -> bool) -> bool {
-        self.for_each_near(bounds, |index| break_if(test(index))).is_break()
+        self.for_each_near(bounds, |index| break_if(test(index)))
+            .is_break()
     }
 
     /// The obstacles whose bounds overlap these, ascending; this one allocates.
@@ -219,117 +224,9 @@ impl ObstacleIndex {
 }
 
 fn break_if(condition: bool) -> ControlFlow<()> {
-    if condition { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-}
-
-impl Cells {
-    fn count(&self) -> u64 {
-        u64::from(self.right - self.left + 1) * u64::from(self.top - self.bottom + 1)
+    if condition {
+        ControlFlow::Break(())
+    } else {
+        ControlFlow::Continue(())
     }
-
-    fn each(&self, grid: &Grid, mut visit: impl FnMut(usize)) {
-        for row in self.bottom..=self.top {
-            for column in self.left..=self.right {
-                visit(grid.cell(row, column));
-            }
-        }
-    }
-}
-
-impl Grid {
-    fn over(bounds: &[Bounds]) -> Grid {
-        let (left, width) = bulk(bounds.iter().map(|b| 0.5 * b.low.x + 0.5 * b.high.x));
-        let (bottom, height) = bulk(bounds.iter().map(|b| 0.5 * b.low.y + 0.5 * b.high.y));
-        let size = |b: &Bounds| greater(b.high.x - b.low.x, b.high.y - b.low.y);
-        let mut sizes: Vec<f64> = bounds.iter().map(size).filter(|s| s.is_finite()).collect();
-        sizes.sort_unstable_by(f64::total_cmp);
-        let median = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
-
-        let count = greater(bounds.len() as f64, 1.0);
-        let spacing = crate::math::sqrt(width / count) * crate::math::sqrt(height);
-        let longest = greater(width, height) / count;
-        // Far below this the rounding of coordinates would blur the limits of cells.
-        let farthest = greater(left.abs() + width, bottom.abs() + height);
-        let side = greater(greater(spacing, median), greater(longest, farthest * 1e-9));
-        let along = |length: f64| {
-            if side > 0.0 && side.is_finite() {
-                lesser(crate::math::ceil(length / side), count).max(1.0) as u32
-            } else {
-                1
-            }
-        };
-        Grid {
-            origin: Point::planar(left, bottom),
-            side: if side > 0.0 { side } else { 1.0 },
-            columns: along(width),
-            rows: along(height),
-        }
-    }
-
-    fn cell(&self, row: u32, column: u32) -> usize {
-        row as usize * self.columns as usize + column as usize
-    }
-
-    #[inline]
-    fn column(&self, x: f64) -> u32 {
-        // The conversion rounds towards zero and saturates.
-        (((x - self.origin.x) / self.side) as u32).min(self.columns - 1)
-    }
-
-    #[inline]
-    fn row(&self, y: f64) -> u32 {
-        (((y - self.origin.y) / self.side) as u32).min(self.rows - 1)
-    }
-
-    fn cells(&self, bounds: &Bounds) -> Cells {
-        let (left, bottom) = (self.column(bounds.low.x), self.row(bounds.low.y));
-        // Bounds that are not numbers must still be a range.
-        let right = self.column(bounds.high.x).max(left);
-        let top = self.row(bounds.high.y).max(bottom);
-        Cells { left, right, bottom, top }
-    }
-
-    /// The columns in which the segment, `a` not above `b` in y, comes within `margin` of a row.
-    fn columns_along(
-        &self,
-        a: Point,
-        b: Point,
-        margin: f64,
-        row: u32,
-        query: &Cells,
-    ) -> RangeInclusive<u32> {
-        if a.y >= b.y {
-            return query.left..=query.right;
-        }
-        // A little more than the row, so that rounding loses nothing.
-        let largest = a.x.abs() + b.x.abs() + a.y.abs() + b.y.abs();
-        let slack = margin + self.side / 16.0 + largest * 1e-14;
-        let at = |row: u32| self.origin.y + f64::from(row) * self.side;
-        let x = |y: f64| {
-            let fraction = (y - a.y) / (b.y - a.y);
-            a.x + (b.x - a.x) * fraction.clamp(0.0, 1.0)
-        };
-        let from = if row == query.bottom { a.x } else { x(at(row) - slack) };
-        let to = if row == query.top { b.x } else { x(at(row + 1) + slack) };
-        let left = self.column(lesser(from, to) - slack).max(query.left);
-        let right = self.column(greater(from, to) + slack).min(query.right);
-        // Numbers that are not usable give every column.
-        if left <= right { left..=right } else { query.left..=query.right }
-    }
-}
-
-/// Where the bulk of these numbers starts and how far it extends: from the sixteenth part to the last
-/// but one, and half as much again of what that leaves out, so that a few outliers do not spread the
-/// grid.
-fn bulk(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
-    let mut numbers: Vec<f64> = numbers.filter(|number| number.is_finite()).collect();
-    if numbers.is_empty() {
-        return (0.0, 0.0);
-    }
-    numbers.sort_unstable_by(f64::total_cmp);
-    let (least, most) = (numbers[0], numbers[numbers.len() - 1]);
-    let (low, high) = (numbers[numbers.len() / 16], numbers[numbers.len() - 1 - numbers.len() / 16]);
-    let reach = 0.125 * (high - low);
-    let (start, end) = (greater(least, low - reach), lesser(most, high + reach));
-    (start, end - start)
 }

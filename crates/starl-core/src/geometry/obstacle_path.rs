@@ -16,10 +16,20 @@ impl Obstacle {
     /// than `clearance` metres, measured as by [`Obstacle::distance`].
     #[inline]
     pub fn blocks_segment(&self, a: Point, b: Point, clearance: f64) -> bool {
-        match &self.shape {
-            Shape::Cuboid { low, high } if clearance <= 0.0 => meets_box(a, b, *low, *high),
-            _ => self.comes_within(a, b, clearance),
+        let clearance = greater(clearance, 0.0);
+        if let Shape::Cuboid { low, high } = &self.shape {
+            // Decides alone without a clearance; otherwise it rules out most.
+            let grown = Bounds {
+                low: *low,
+                high: *high,
+            }
+            .inflated(clearance);
+            let meets = meets_box(a, b, grown.low, grown.high);
+            if !meets || clearance == 0.0 {
+                return meets;
+            }
         }
+        self.comes_within(a, b, clearance)
     }
 
     /// Whether an upright cylinder whose base centre moves straight from `a` to `b`, radius and
@@ -27,13 +37,13 @@ impl Obstacle {
     /// [`Obstacle::body_gap`] falls below zero somewhere.
     pub fn blocks_body(&self, a: Point, b: Point, radius: f64, body_height: f64) -> bool {
         let Some(span) = self.height() else {
-            return self.comes_within_planar(a, b, radius);
+            return self.comes_within_planar(a, b, greater(radius, 0.0));
         };
         if !overlaps_in_height(span, lesser(a.z, b.z), greater(a.z, b.z) + body_height) {
             return false;
         }
         clip_height(a, b, span.low - body_height, span.high)
-            .is_some_and(|(a, b)| self.comes_within_planar(a, b, radius))
+            .is_some_and(|(a, b)| self.comes_within_planar(a, b, greater(radius, 0.0)))
     }
 
     /// Distance in metres along a horizontal ray to where it first meets the obstacle, zero if it
@@ -63,11 +73,11 @@ impl Obstacle {
         entry.filter(|&distance| distance <= range)
     }
 
+    /// Whether the segment touches the obstacle or comes nearer than `clearance` metres, not negative.
     fn comes_within(&self, a: Point, b: Point, clearance: f64) -> bool {
         let Some(span) = self.height() else {
             return self.comes_within_planar(a, b, clearance);
         };
-        let clearance = greater(clearance, 0.0);
         let Some((a, b)) = clip_height(a, b, span.low - clearance, span.high + clearance) else {
             return false;
         };
@@ -82,9 +92,9 @@ impl Obstacle {
         clearance > 0.0 && self.comes_within_rim(a, b, clearance)
     }
 
-    /// The same in space for a segment whose nearest point is above or below the obstacle. The squared
-    /// distance along a segment from a convex body is convex with a known slope, so bisection finds
-    /// its least value; the tangents bound it from below and usually end the search at once.
+    /// The same for a segment whose nearest point is above or below the obstacle. The squared distance
+    /// from a convex body along a segment is convex with a known slope, so bisection finds its least
+    /// value; the tangents bound it from below and usually end the search at once.
     fn comes_within_rim(&self, a: Point, b: Point, clearance: f64) -> bool {
         let Some(span) = self.height() else {
             return false;
@@ -119,12 +129,16 @@ impl Obstacle {
     /// Whether the segment touches the base or comes nearer than `clearance` metres, heights left out.
     fn comes_within_planar(&self, a: Point, b: Point, clearance: f64) -> bool {
         let near = |squared: f64, reach: f64| {
-            if clearance > 0.0 { squared < reach * reach } else { squared <= reach * reach }
+            if clearance > 0.0 {
+                squared < reach * reach
+            } else {
+                squared <= reach * reach
+            }
         };
         match &self.shape {
             Shape::Polygon { base, .. } => polygon_near(base, a, b, clearance),
             Shape::Circle { center, radius, .. } => {
-                near(squared_to_segment(*center, a, b), radius + greater(clearance, 0.0))
+                near(squared_to_segment(*center, a, b), radius + clearance)
             }
             Shape::Cuboid { low, high } => rectangle_near(*low, *high, a, b, clearance),
         }
@@ -133,7 +147,7 @@ impl Obstacle {
 
 /// Whether the segment touches the rectangle or comes nearer than `clearance` metres.
 fn rectangle_near(low: Point, high: Point, a: Point, b: Point, clearance: f64) -> bool {
-    if clearance <= 0.0 {
+    if clearance == 0.0 {
         return meets_rectangle(a, b, low, high);
     }
     let grown = Bounds { low, high }.inflated(clearance);
@@ -145,14 +159,18 @@ fn rectangle_near(low: Point, high: Point, a: Point, b: Point, clearance: f64) -
     }
     // Apart, so an end of the segment or a corner of the rectangle is nearest.
     let limit = clearance * clearance;
-    let corners = [low, high, Point::planar(low.x, high.y), Point::planar(high.x, low.y)];
+    let corners = [
+        low,
+        high,
+        Point::planar(low.x, high.y),
+        Point::planar(high.x, low.y),
+    ];
     let end_near = |p: Point| rectangle_distance(p, low, high) < clearance;
     end_near(a) || end_near(b) || corners.iter().any(|&p| squared_to_segment(p, a, b) < limit)
 }
 
 /// Whether the segment touches the polygon or comes nearer than `clearance` metres.
 fn polygon_near(base: &ConvexPolygon, a: Point, b: Point, clearance: f64) -> bool {
-    let clearance = greater(clearance, 0.0);
     let limit = clearance * clearance;
     // Separating lines: the edges of the polygon, and the segment itself.
     let (mut apart, mut left, mut right) = (false, false, false);
@@ -182,7 +200,8 @@ fn polygon_near(base: &ConvexPolygon, a: Point, b: Point, clearance: f64) -> boo
     }
     // Apart, so an end of the segment or a corner of the polygon is nearest.
     let near = |p: Point, a: Point, b: Point| squared_to_segment(p, a, b) < limit;
-    base.edges().any(|(from, to)| near(a, from, to) || near(b, from, to) || near(to, a, b))
+    base.edges()
+        .any(|(from, to)| near(a, from, to) || near(b, from, to) || near(to, a, b))
 }
 
 /// Distance along a ray to a convex outline given counter-clockwise (Cyrus and Beck, 1978).

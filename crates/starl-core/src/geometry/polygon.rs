@@ -54,7 +54,10 @@ impl fmt::Display for PolygonError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             PolygonError::TooFew => {
-                write!(f, "a polygon needs at least three corners, a wall its two ends")
+                write!(
+                    f,
+                    "a polygon needs at least three corners, a wall its two ends"
+                )
             }
             PolygonError::NotFinite { index } => write!(
                 f,
@@ -90,14 +93,15 @@ impl ConvexPolygon {
         if points.len() < 2 {
             return Err(PolygonError::TooFew);
         }
-        let usable = |p: &Point| {
-            p.x.abs() <= FARTHEST && p.y.abs() <= FARTHEST && p.z.is_finite()
-        };
+        let usable = |p: &Point| p.x.abs() <= FARTHEST && p.y.abs() <= FARTHEST && p.z.is_finite();
         if let Some(index) = points.iter().position(|p| !usable(p)) {
             return Err(PolygonError::NotFinite { index });
         }
         for (second, p) in points.iter().enumerate() {
-            if let Some(first) = points[..second].iter().position(|q| q.x == p.x && q.y == p.y) {
+            if let Some(first) = points[..second]
+                .iter()
+                .position(|q| q.x == p.x && q.y == p.y)
+            {
                 return Err(PolygonError::Repeated { first, second });
             }
         }
@@ -194,7 +198,9 @@ impl From<ConvexPolygon> for Vec<Point> {
 
 /// The corners among three or more distinct points, counter-clockwise, the first kept first.
 fn corners(points: &[Point]) -> Result<Vec<Point>, PolygonError> {
-    let largest = points.iter().fold(0.0, |most, p| greater(greater(p.x.abs(), p.y.abs()), most));
+    let largest = points
+        .iter()
+        .fold(0.0, |most, p| greater(greater(p.x.abs(), p.y.abs()), most));
     let neighbours = |list: &[usize], at: usize| {
         let count = list.len();
         let point = |at: usize| points[list[at % count]];
@@ -204,7 +210,11 @@ fn corners(points: &[Point]) -> Result<Vec<Point>, PolygonError> {
     let bend = |(a, b, c): (Point, Point, Point)| {
         let reach = (b.x - a.x).abs() + (b.y - a.y).abs() + (c.x - b.x).abs() + (c.y - b.y).abs();
         let twice_area = turn(a, b, c);
-        if twice_area.abs() <= 4.0 * f64::EPSILON * largest * reach { 0.0 } else { twice_area }
+        if twice_area.abs() <= 4.0 * f64::EPSILON * largest * reach {
+            0.0
+        } else {
+            twice_area
+        }
     };
 
     let all: Vec<usize> = (0..points.len()).collect();
@@ -217,7 +227,9 @@ fn corners(points: &[Point]) -> Result<Vec<Point>, PolygonError> {
     }
     let mut kept: Vec<usize> = all.iter().copied().filter(|at| !straight_on(at)).collect();
     let origin = points[0];
-    let twice_area: f64 = (2..points.len()).map(|at| turn(origin, points[at - 1], points[at])).sum();
+    let twice_area: f64 = (2..points.len())
+        .map(|at| turn(origin, points[at - 1], points[at]))
+        .sum();
     if twice_area < 0.0 {
         kept[1..].reverse();
     }
@@ -231,7 +243,9 @@ fn corners(points: &[Point]) -> Result<Vec<Point>, PolygonError> {
         let (_, from, to) = neighbours(&kept, at);
         to.y > from.y || (to.y == from.y && to.x > from.x)
     };
-    let rounds = (0..kept.len()).filter(|&at| !upward(at) && upward((at + 1) % kept.len())).count();
+    let rounds = (0..kept.len())
+        .filter(|&at| !upward(at) && upward((at + 1) % kept.len()))
+        .count();
     if rounds != 1 {
         return Err(PolygonError::SelfCrossing);
     }

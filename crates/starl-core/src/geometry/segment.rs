@@ -72,7 +72,11 @@ pub(super) fn outside_both(planar: f64, vertical: f64) -> f64 {
 pub(super) fn rectangle_distance(p: Point, low: Point, high: Point) -> f64 {
     let x = greater(low.x - p.x, p.x - high.x);
     let y = greater(low.y - p.y, p.y - high.y);
-    if x <= 0.0 && y <= 0.0 { greater(x, y) } else { outside_both(x, y) }
+    if x <= 0.0 && y <= 0.0 {
+        greater(x, y)
+    } else {
+        outside_both(x, y)
+    }
 }
 
 /// The part of the segment from `a` to `b` whose height lies in `[low, high]` metres.
@@ -93,8 +97,16 @@ pub(super) fn clip_height(a: Point, b: Point, low: f64, high: f64) -> Option<(Po
 /// to the start of a segment in two axes, (`x`, `y`) the segment's direction in them.
 #[inline]
 fn line_meets(x: f64, y: f64, low: (f64, f64), high: (f64, f64)) -> bool {
-    let (near_x, far_x) = if y > 0.0 { (low.0, high.0) } else { (high.0, low.0) };
-    let (near_y, far_y) = if x > 0.0 { (high.1, low.1) } else { (low.1, high.1) };
+    let (near_x, far_x) = if y > 0.0 {
+        (low.0, high.0)
+    } else {
+        (high.0, low.0)
+    };
+    let (near_y, far_y) = if x > 0.0 {
+        (high.1, low.1)
+    } else {
+        (low.1, high.1)
+    };
     // The corners farthest to the left and to the right of the line.
     x * near_y - y * near_x >= 0.0 && x * far_y - y * far_x <= 0.0
 }
