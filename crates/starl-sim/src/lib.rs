@@ -6,8 +6,11 @@
 //! on any number of threads and on any target.
 
 pub mod engine;
+pub mod properties;
 pub mod read;
+pub mod run;
 pub mod scenario;
 
 pub use engine::Simulation;
+pub use run::{Outcome, Run, Verdict};
 pub use scenario::Scenario;

@@ -1,0 +1,84 @@
+//! What breaks and when: the schedule, with the seeded random faults drawn into it.
+
+use super::{Stream, stream};
+use crate::scenario::{Fault, FaultKind, Scenario};
+use starl_core::{Duration, Random, RobotId, Time};
+
+/// All faults of a run in the order in which they set in. Faults of the same time keep the order of
+/// the scenario; random ones come after those.
+pub fn timeline(scenario: &Scenario) -> Vec<Fault> {
+    let mut faults = scenario.faults.schedule.clone();
+    let rates = &scenario.faults.rates;
+    let end = Time::ZERO + scenario.duration;
+    let mut draw = |purpose: u64, robot: u64, rate: f64, make: &mut dyn FnMut(Time, &mut Random)| {
+        if rate <= 0.0 {
+            return;
+        }
+        let mut random = stream(scenario.seed, Stream::Faults, &[purpose, robot]);
+        let mut at = Time::ZERO;
+        loop {
+            at += Duration::from_seconds_f64(random.exponential(1.0 / rate));
+            if at >= end {
+                return;
+            }
+            make(at, &mut random);
+        }
+    };
+    let robots: Vec<RobotId> = (0..scenario.fleet.len() as u32).map(RobotId).collect();
+    for &robot in &robots {
+        let id = u64::from(robot.0);
+        let mut both = |at: Time, kind: FaultKind, after: Duration, mend: FaultKind| {
+            faults.push(Fault { at, kind });
+            if !after.is_zero() {
+                faults.push(Fault { at: at + after, kind: mend });
+            }
+        };
+        let one = || vec![robot];
+        draw(1, id, rates.crash, &mut |at, _| {
+            both(at, FaultKind::Crash(one()), rates.restart_after, FaultKind::Restart(one()));
+        });
+        draw(2, id, rates.stuck_motor, &mut |at, _| {
+            both(at, FaultKind::StuckMotor(one()), rates.repair_after, FaultKind::Repair(one()));
+        });
+        draw(3, id, rates.frozen_sensor, &mut |at, _| {
+            both(at, FaultKind::FrozenSensor(one()), rates.repair_after, FaultKind::Repair(one()));
+        });
+        draw(4, id, rates.corrupt_state, &mut |at, _| {
+            both(at, FaultKind::CorruptState(one()), Duration::ZERO, FaultKind::Heal);
+        });
+    }
+    draw(5, 0, rates.partition, &mut |at, random| {
+        let half = robots.iter().copied().filter(|_| random.chance(0.5)).collect();
+        faults.push(Fault { at, kind: FaultKind::Partition(vec![half]) });
+        if !rates.heal_after.is_zero() {
+            faults.push(Fault { at: at + rates.heal_after, kind: FaultKind::Heal });
+        }
+    });
+    faults.sort_by_key(|fault| fault.at);
+    faults
+}
+
+/// What the trace calls a fault.
+pub fn name(kind: &FaultKind) -> &'static str {
+    match kind {
+        FaultKind::Crash(_) => "crash",
+        FaultKind::Restart(_) => "restart",
+        FaultKind::Partition(_) => "partition",
+        FaultKind::Heal => "heal",
+        FaultKind::StuckMotor(_) => "stuck motor",
+        FaultKind::FrozenSensor(_) => "frozen sensor",
+        FaultKind::Repair(_) => "repair",
+        FaultKind::CorruptState(_) => "corrupt state",
+    }
+}
+
+/// Each robot's part of a network partitioned so; those in no group form part 0.
+pub fn parts(groups: &[Vec<RobotId>], robots: usize) -> Vec<u32> {
+    let mut parts = vec![0; robots];
+    for (group, members) in groups.iter().enumerate() {
+        for robot in members {
+            parts[robot.index()] = group as u32 + 1;
+        }
+    }
+    parts
+}

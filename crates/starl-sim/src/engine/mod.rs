@@ -1,0 +1,39 @@
+//! The engine: robots in shards that step independently, and what is settled between steps.
+
+mod act;
+mod collide;
+mod fault;
+mod grid;
+mod inbox;
+mod mind;
+mod position;
+mod radio;
+mod record;
+mod sense;
+mod shard;
+mod shared;
+mod simulation;
+mod timers;
+
+pub use record::Tally;
+pub use simulation::{Progress, Simulation, StartError};
+
+use starl_core::Random;
+
+/// What random draws are for; part of every key, so that no two purposes share a stream.
+#[derive(Clone, Copy, Debug)]
+enum Stream {
+    Program = 1,
+    Clock,
+    Positioning,
+    Motion,
+    Link,
+    Pilot,
+    Faults,
+    Corruption,
+}
+
+fn stream(seed: u64, purpose: Stream, key: &[u64]) -> Random {
+    let purpose = starl_core::random::hash_key(seed, &[purpose as u64]);
+    Random::keyed(purpose, key)
+}

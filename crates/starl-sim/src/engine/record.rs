@@ -1,0 +1,64 @@
+//! What is kept of events: a digest a robot, counts, and the records themselves if wanted.
+
+use starl_core::event::DropReason;
+use starl_core::{Digest, Event, Record, RobotId, Time};
+
+/// Counts of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Datagrams handed to the network.
+    pub sent: u64,
+    /// Arrivals.
+    pub delivered: u64,
+    /// Datagrams lost at random.
+    pub lost: u64,
+    /// Datagrams dropped for any other reason.
+    pub dropped: u64,
+    /// Datagrams that primitives sent again.
+    pub retransmitted: u64,
+    /// Times that two bodies, or a body and an obstacle, came to touch.
+    pub collisions: u64,
+}
+
+impl Tally {
+    /// Adds another count.
+    pub fn add(&mut self, other: &Tally) {
+        self.sent += other.sent;
+        self.delivered += other.delivered;
+        self.lost += other.lost;
+        self.dropped += other.dropped;
+        self.retransmitted += other.retransmitted;
+        self.collisions += other.collisions;
+    }
+
+    fn count(&mut self, event: &Event) {
+        match event {
+            Event::Sent { .. } => self.sent += 1,
+            Event::Delivered { .. } => self.delivered += 1,
+            Event::Dropped { reason: DropReason::Loss, .. } => self.lost += 1,
+            Event::Dropped { .. } => self.dropped += 1,
+            Event::Primitive { name, .. } if name == "retransmit" => self.retransmitted += 1,
+            _ => {}
+        }
+    }
+}
+
+/// Where the robots of one shard leave their events.
+#[derive(Clone, Debug, Default)]
+pub struct Log {
+    /// Whether records are kept, not only counted and hashed.
+    pub recording: bool,
+    pub records: Vec<Record>,
+    pub tally: Tally,
+}
+
+impl Log {
+    /// Takes note of an event of a robot whose digest is given.
+    pub fn record(&mut self, digest: &mut Digest, robot: RobotId, at: Time, event: Event) {
+        digest.event(at, &event);
+        self.tally.count(&event);
+        if self.recording {
+            self.records.push(Record { at, robot: Some(robot), event });
+        }
+    }
+}

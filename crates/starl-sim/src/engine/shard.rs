@@ -1,0 +1,141 @@
+//! A fixed number of robots that step together; the unit of parallel work.
+//!
+//! Invariant: which robots share a shard depends on the fleet alone, never on the number of threads.
+
+use super::act::Turn;
+use super::collide;
+use super::inbox::Delivery;
+use super::mind::{Mind, Outgoing};
+use super::radio::{self, Posted};
+use super::record::Log;
+use super::sense::Readings;
+use super::shared::{Shared, Window};
+use starl_core::effect::Effects;
+use starl_core::event::Hit;
+use starl_core::sensor::Contact;
+use starl_core::{Command, Event, Point, RobotId, math};
+use starl_motion::{Impact, Neighbour, State};
+
+/// How many robots a shard holds.
+pub const SIZE: usize = 256;
+
+/// Robots with neighbouring numbers.
+#[derive(Clone, Default)]
+pub struct Shard {
+    pub first: u32,
+    pub minds: Vec<Mind>,
+    pub states: Vec<State>,
+    pub predicted: Vec<State>,
+    pub outbox: Vec<Outgoing>,
+    pub posted: Vec<Posted>,
+    pub log: Log,
+    scratch: Scratch,
+}
+
+/// Room for work, used over and over.
+#[derive(Clone, Default)]
+pub struct Scratch {
+    pub effects: Effects,
+    pub readings: Readings,
+    pub arrivals: Vec<Delivery>,
+    pub neighbours: Vec<Neighbour>,
+}
+
+impl Shard {
+    /// Lets each robot take its inputs of this step and predicts its motion; `next` receives the
+    /// predicted positions.
+    pub fn act(&mut self, shared: &Shared, window: Window, next: &mut [Point]) {
+        self.outbox.clear();
+        for (index, mind) in self.minds.iter_mut().enumerate() {
+            let kind = &shared.kinds[mind.group as usize];
+            let state = &self.states[index];
+            let mut turn = Turn {
+                shared,
+                kind,
+                window,
+                state,
+                mind,
+                outbox: &mut self.outbox,
+                log: &mut self.log,
+                scratch: &mut self.scratch,
+                sensed: false,
+            };
+            turn.run();
+            let command = if mind.condition.down {
+                kind.at_a_loss
+            } else if mind.condition.motor_stuck {
+                Command::Stop
+            } else {
+                mind.command
+            };
+            let disturbance = shared.disturbance(mind.id, window.from);
+            let elapsed = shared.scenario.physics.step;
+            let predicted = kind.model.predict(state, &command, &disturbance, elapsed);
+            next[index] = predicted.pose.position;
+            self.predicted[index] = predicted;
+        }
+    }
+
+    /// Finds what each robot's predicted motion meets first.
+    pub fn look_ahead(&mut self, shared: &Shared, next: &[Point], reach: f64, hits: &mut [Option<Hit>]) {
+        for (index, hit) in hits.iter_mut().enumerate() {
+            *hit = collide::first_hit(shared, RobotId(self.first + index as u32), next, reach);
+        }
+    }
+
+    /// Moves each robot to where it was predicted, or lets it be stopped, and shows where it is.
+    pub fn settle(
+        &mut self,
+        shared: &Shared,
+        window: Window,
+        hits: &[Option<Hit>],
+        bodies: &mut [Neighbour],
+        perceived: &mut [Neighbour],
+    ) {
+        for (index, mind) in self.minds.iter_mut().enumerate() {
+            let (state, body) = (&mut self.states[index], &mut bodies[index]);
+            let kind = &shared.kinds[mind.group as usize];
+            let hit = hits.get(mind.id.index()).copied().flatten();
+            let direction = hit.map(|hit| collide::direction(shared, mind.id, hit));
+            let impact = direction.map(|direction| Impact { direction });
+            kind.model.update(state, &self.predicted[index], impact);
+            let before = shared.bodies[mind.id.index()].position;
+            mind.distance += state.pose.position.distance(before);
+            body.position = state.pose.position;
+            body.velocity = state.twist.linear;
+            if let Some(seen) = perceived.get_mut(index) {
+                seen.position = mind.estimate.pose.position;
+                seen.velocity = mind.estimate.twist.linear;
+            }
+            mind.contact = direction.map(|direction| Contact {
+                bearing: math::wrap_angle(direction.heading() - state.pose.yaw),
+            });
+            if hit != mind.touching {
+                mind.touching = hit;
+                if let Some(with) = hit {
+                    let event = Event::Collided { with };
+                    self.log.record(&mut mind.digest, mind.id, window.to, event);
+                    // Two robots that meet are one collision, not two.
+                    let counted_there = matches!(with, Hit::Robot(other)
+                        if other < mind.id && hits[other.index()] == Some(Hit::Robot(mind.id)));
+                    self.log.tally.collisions += u64::from(!counted_there);
+                }
+            }
+            if mind.next_pose_record <= window.to {
+                mind.next_pose_record += shared.scenario.trace.pose_period;
+                let event = Event::Moved(state.pose);
+                self.log.record(&mut mind.digest, mind.id, window.to, event);
+            }
+        }
+    }
+
+    /// Decides who receives what this shard's robots have sent.
+    pub fn route(&mut self, shared: &Shared) {
+        self.posted.clear();
+        for (index, outgoing) in self.outbox.iter().enumerate() {
+            let sender = (outgoing.message.from.0 - self.first) as usize;
+            let digest = &mut self.minds[sender].digest;
+            radio::route(shared, (index as u32, outgoing), digest, &mut self.log, &mut self.posted);
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! What all robots may read during a step; nothing here changes while robots act.
+
+use super::grid::Grid;
+use super::inbox::Inboxes;
+use crate::scenario::{Scenario, SensorSuite};
+use starl_core::geometry::ObstacleIndex;
+use starl_core::motion::{Body, Obstacles};
+use starl_core::{Command, Duration, Point, Program, RobotId, Time};
+use starl_motion::{Disturbance, Model, Neighbour};
+use std::sync::Arc;
+
+/// The step under way.
+#[derive(Clone, Copy, Debug)]
+pub struct Window {
+    /// Its start.
+    pub from: Time,
+    /// Its end, which belongs to the next step.
+    pub to: Time,
+}
+
+/// What the robots of one group have in common.
+#[derive(Clone)]
+pub struct Kind {
+    /// A fresh program.
+    pub program: Box<dyn Program>,
+    pub model: Arc<dyn Model>,
+    pub body: Body,
+    /// What the body does when nobody commands it.
+    pub at_a_loss: Command,
+    pub control_period: Duration,
+    pub sensors: SensorSuite,
+}
+
+/// The world between two steps.
+#[derive(Clone)]
+pub struct Shared {
+    pub scenario: Arc<Scenario>,
+    pub fleet: Arc<[RobotId]>,
+    /// By group.
+    pub kinds: Vec<Kind>,
+    /// The obstacles that stand now, with the indices they have in the scenario.
+    pub map: ObstacleIndex,
+    pub standing: Vec<u32>,
+    /// Those of them that all robots know.
+    pub known: Obstacles,
+    /// Those of them that robots have to discover, as indices into `map`.
+    pub hidden: Vec<u32>,
+    /// True positions and velocities at the step's start.
+    pub bodies: Vec<Neighbour>,
+    /// Estimated ones; empty where no robot avoids others.
+    pub perceived: Vec<Neighbour>,
+    pub grid: Grid,
+    pub inboxes: Inboxes,
+    /// Each robot's part of a partitioned network; empty while there is none.
+    pub parts: Vec<u32>,
+    pub wind: Point,
+}
+
+impl Shared {
+    /// Whether a partition keeps two robots apart.
+    pub fn parted(&self, a: RobotId, b: RobotId) -> bool {
+        !self.parts.is_empty() && self.parts[a.index()] != self.parts[b.index()]
+    }
+
+    /// What disturbs a robot's motion during a step.
+    pub fn disturbance(&self, robot: RobotId, from: Time) -> Disturbance {
+        let motion = &self.scenario.motion;
+        let mut disturbance = Disturbance { wind: self.wind, speed_error: 0.0, turn_error: 0.0 };
+        if motion.speed_noise > 0.0 || motion.turn_noise > 0.0 {
+            let draw = from.0 / motion.noise_period.0.max(1);
+            let mut random =
+                super::stream(self.scenario.seed, super::Stream::Motion, &[u64::from(robot.0), draw]);
+            disturbance.speed_error = random.normal(0.0, motion.speed_noise);
+            disturbance.turn_error = random.normal(0.0, motion.turn_noise);
+        }
+        disturbance
+    }
+}

@@ -1,0 +1,53 @@
+//! Properties that are checked on every run, apart from the programs they are about.
+//!
+//! A checker sees the stream of records and nothing else, so it judges a live run and a trace from a
+//! file alike.
+
+use crate::scenario::Scenario;
+use starl_core::motion::Body;
+use starl_core::{Obstacle, Record, RobotId, Time};
+
+/// What a checker knows before the first record.
+#[derive(Clone, Debug)]
+pub struct Setting {
+    /// The robots' bodies, by number.
+    pub bodies: Vec<Body>,
+    /// The obstacles of the world, by index, with the time at which each vanishes.
+    pub obstacles: Vec<(Obstacle, Time)>,
+}
+
+/// A property that does not hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Violation {
+    /// Which property, e.g. `reach_avoid.safety`.
+    pub property: &'static str,
+    /// When it was seen.
+    pub at: Time,
+    /// The robots concerned.
+    pub robots: Vec<RobotId>,
+    /// What was seen, in one sentence.
+    pub text: String,
+}
+
+/// Watches one primitive's properties, or one property of the world.
+pub trait Checker: dyn_clone::DynClone + Send + Sync {
+    /// The properties it checks.
+    fn properties(&self) -> &'static [&'static str];
+
+    /// Takes the next record; records come in the order of their times.
+    fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>);
+
+    /// Time has come to `now`, with all records before it observed: bounds that have run out are
+    /// violated.
+    fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
+        let _ = (now, violations);
+    }
+}
+
+dyn_clone::clone_trait_object!(Checker);
+
+/// The checkers that a scenario asks for.
+pub fn checkers(scenario: &Scenario, setting: &Setting) -> Vec<Box<dyn Checker>> {
+    let _ = (scenario, setting);
+    Vec::new()
+}

@@ -1,0 +1,143 @@
+//! A run from start to end: the simulation, the checkers that watch it, and what comes of it.
+
+use crate::engine::{Simulation, StartError};
+use crate::properties::{self, Checker, Setting, Violation};
+use crate::scenario::{Goal, Group, Scenario};
+use starl_core::event::Event;
+use starl_core::{Program, Record, Time};
+
+/// A scenario under way and under watch.
+#[derive(Clone)]
+pub struct Run {
+    simulation: Simulation,
+    checkers: Vec<Box<dyn Checker>>,
+    violations: Vec<Violation>,
+    records: Vec<Record>,
+}
+
+/// What a run has come to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// The application's goal was reached and no property was violated.
+    Reached,
+    /// The goal was reached, but a property was violated.
+    Violated,
+    /// The time was up before the goal was reached.
+    TimedOut,
+    /// A program failed, or no robot is left.
+    Failed,
+}
+
+/// What the checkers say of one property.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// The property.
+    pub property: &'static str,
+    /// How often it was violated.
+    pub violations: usize,
+    /// The first time.
+    pub first: Option<Violation>,
+}
+
+impl Run {
+    /// Sets up a run: see [`Simulation::new`].
+    pub fn new(
+        scenario: Scenario,
+        programs: &dyn Fn(&Group) -> Result<Box<dyn Program>, String>,
+    ) -> Result<Run, StartError> {
+        let setting = Setting::of(&scenario);
+        let checkers = properties::checkers(&scenario, &setting);
+        let mut simulation = Simulation::new(scenario, programs)?;
+        simulation.set_recording(true);
+        Ok(Run { simulation, checkers, violations: Vec::new(), records: Vec::new() })
+    }
+
+    /// The simulation.
+    pub fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    /// Whether to step on several threads: see [`Simulation::set_parallel`].
+    pub fn set_parallel(&mut self, parallel: bool) {
+        self.simulation.set_parallel(parallel);
+    }
+
+    /// Advances by one physics step and returns what happened, violations included.
+    pub fn step(&mut self) -> &[Record] {
+        self.simulation.step();
+        let known = self.violations.len();
+        for checker in &mut self.checkers {
+            for record in self.simulation.records() {
+                checker.observe(record, &mut self.violations);
+            }
+            checker.advance(self.simulation.now(), &mut self.violations);
+        }
+        self.records.clear();
+        self.records.extend_from_slice(self.simulation.records());
+        self.records.extend(self.violations[known..].iter().map(|violation| Record {
+            at: violation.at,
+            robot: violation.robots.first().copied(),
+            event: Event::Violated {
+                property: violation.property.into(),
+                text: violation.text.clone().into(),
+            },
+        }));
+        &self.records
+    }
+
+    /// Whether the run has come to its end.
+    pub fn is_over(&self) -> bool {
+        let scenario = self.simulation.scenario();
+        let progress = self.simulation.progress();
+        self.simulation.now() >= Time::ZERO + scenario.duration
+            || scenario.goal == Goal::AllFinished
+                && (progress.finished == progress.up && progress.failed == 0
+                    || progress.failed == progress.up)
+    }
+
+    /// What the run has come to, once it is over.
+    pub fn outcome(&self) -> Outcome {
+        let progress = self.simulation.progress();
+        let reached = match self.simulation.scenario().goal {
+            Goal::AllFinished => progress.up > 0 && progress.finished == progress.up,
+            Goal::Duration => progress.up > 0,
+        };
+        match (reached, progress.failed > 0 || progress.up == 0) {
+            (_, true) => Outcome::Failed,
+            (false, false) => Outcome::TimedOut,
+            (true, false) if self.violations.is_empty() => Outcome::Reached,
+            (true, false) => Outcome::Violated,
+        }
+    }
+
+    /// All violations so far.
+    pub fn violations(&self) -> &[Violation] {
+        &self.violations
+    }
+
+    /// What the checkers say of each property they watch.
+    pub fn verdicts(&self) -> Vec<Verdict> {
+        let properties = self.checkers.iter().flat_map(|checker| checker.properties());
+        properties
+            .map(|&property| {
+                let mut against = self.violations.iter().filter(|v| v.property == property);
+                let first = against.next().cloned();
+                let violations = usize::from(first.is_some()) + against.count();
+                Verdict { property, violations, first }
+            })
+            .collect()
+    }
+}
+
+impl Setting {
+    /// What a scenario says of bodies and obstacles.
+    pub fn of(scenario: &Scenario) -> Setting {
+        let groups = &scenario.fleet.groups;
+        let body = |group: &Group| vec![group.model.body(); group.starts.len()];
+        let obstacles = &scenario.world.obstacles;
+        Setting {
+            bodies: groups.iter().flat_map(body).collect(),
+            obstacles: obstacles.iter().map(|o| (o.obstacle.clone(), o.expires)).collect(),
+        }
+    }
+}
