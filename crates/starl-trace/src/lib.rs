@@ -1,0 +1,35 @@
+//! The trace format of StarL: one MCAP file that holds everything that happened in a run, for replay,
+//! for checking from outside, and for looking at in Foxglove.
+//!
+//! [`Writer`] puts records and views of them into anything that takes bytes; [`Reader`] gives the
+//! records back, equal to the last bit; [`Comparison`] finds where two runs part. The format itself,
+//! topic by topic, is described in `docs/reference/trace.md`.
+//!
+//! The file begins with the metadata record `starl` and attachments that together are the
+//! [`Header`]; then come chunks of messages; the last message, on `/starl/summary`, is the
+//! [`Summary`]. Everything under `/starl/` is a record of the run, one topic for each kind of event;
+//! all other topics are views.
+
+mod compare;
+mod container;
+mod decode;
+mod encode;
+mod error;
+mod header;
+mod json;
+mod reader;
+mod schema;
+mod summary;
+mod topic;
+mod views;
+mod wire;
+mod writer;
+
+pub use compare::{Comparison, Difference, first_difference};
+pub use error::{Progress, TraceError, WriteError};
+pub use header::{FORMAT_VERSION, Header, RobotEntry};
+pub use reader::{Reader, Trace, read};
+pub use summary::{Outcome, Summary};
+pub use topic::Topic;
+pub use views::ViewOptions;
+pub use writer::Writer;

@@ -1,0 +1,270 @@
+//! Reads a trace record by record, in bounded memory.
+
+use crate::container::{Container, Fields, RawRecord};
+use crate::error::Progress;
+use crate::summary::Tally;
+use crate::{FORMAT_VERSION, Header, Summary, Topic, TraceError, decode, header, summary, topic};
+use mcap::records::op;
+use starl_core::{Record, Time};
+use std::collections::BTreeMap;
+use std::io::Read;
+
+/// Reads a trace: first its header, then, as an iterator, its records. The iterator ends after the
+/// last record of a whole trace, or with an error; then [`Reader::summary`] says how the run ended.
+///
+/// Holds one chunk of the file at a time, about a mebibyte.
+pub struct Reader<R> {
+    container: Container<R>,
+    header: Header,
+    /// The topic of each of our channels; other channels are views.
+    channels: BTreeMap<u16, Topic>,
+    tally: Tally,
+    summary: Option<Summary>,
+    finished: bool,
+}
+
+impl<R: Read> Reader<R> {
+    /// Reads the header. A file should come through a [`std::io::BufReader`].
+    pub fn new(source: R) -> Result<Reader<R>, TraceError> {
+        let mut reader = Reader {
+            container: Container::new(source)?,
+            header: Header::default(),
+            channels: BTreeMap::new(),
+            tally: Tally::default(),
+            summary: None,
+            finished: false,
+        };
+        reader.read_header()?;
+        Ok(reader)
+    }
+
+    /// What stands before the records.
+    pub fn header(&self) -> &Header {
+        &self.header
+    }
+
+    /// How the run ended; none until the last record was read.
+    pub fn summary(&self) -> Option<&Summary> {
+        self.summary.as_ref()
+    }
+
+    /// How far reading has come.
+    pub fn progress(&self) -> Progress {
+        self.container.progress
+    }
+
+    /// The metadata and attachments come before the first channel, the world last of all.
+    fn read_header(&mut self) -> Result<(), TraceError> {
+        let header = &mut self.header;
+        let mut versioned = false;
+        loop {
+            let raw = self.container.next()?;
+            let Some(RawRecord { opcode, body }) = raw else {
+                return Err(TraceError::NotStarl);
+            };
+            let done = match opcode {
+                op::METADATA => metadata(body, header, &mut versioned),
+                op::ATTACHMENT if versioned => attachment(body, header),
+                op::SCHEMA | op::CHANNEL | op::MESSAGE if !versioned => {
+                    return Err(TraceError::NotStarl);
+                }
+                op::SCHEMA | op::CHANNEL | op::MESSAGE => {
+                    Err(Fault::Damaged("the world is missing before the messages".into()))
+                }
+                _ => Ok(false),
+            };
+            match done {
+                Ok(false) => {}
+                Ok(true) => return Ok(()),
+                Err(Fault::Version(found)) => return Err(TraceError::Version { found }),
+                Err(Fault::Damaged(what)) => return Err(self.container.damaged(what)),
+            }
+        }
+    }
+
+    fn read_record(&mut self) -> Result<Option<Record>, TraceError> {
+        loop {
+            let Some(RawRecord { opcode, body }) = self.container.next()? else {
+                return match self.summary {
+                    Some(_) => Ok(None),
+                    None => Err(TraceError::NoEnd(self.container.progress)),
+                };
+            };
+            match opcode {
+                op::CHANNEL => {
+                    let known = channel(body, &mut self.channels);
+                    known.map_err(|what| self.container.damaged(what))?;
+                }
+                op::MESSAGE => {
+                    let Some((id, at, data)) = message(body) else {
+                        return Err(self.container.damaged("a message is cut short"));
+                    };
+                    let Some(&topic) = self.channels.get(&id) else { continue };
+                    let read = if self.summary.is_some() {
+                        Err("there are messages after the end record".to_string())
+                    } else if topic == Topic::Summary {
+                        summary::decode(data).and_then(|end| {
+                            self.summary = Some(end);
+                            self.check_counts()
+                        })
+                    } else {
+                        decode::event(topic, data).map(|(robot, event)| {
+                            self.tally.add(topic);
+                            Some(Record { at, robot, event })
+                        })
+                    };
+                    match read {
+                        Ok(None) => {}
+                        Ok(Some(record)) => {
+                            self.container.progress.records += 1;
+                            self.container.progress.last = Some(at);
+                            return Ok(Some(record));
+                        }
+                        Err(what) => {
+                            let (progress, topic) = (self.container.progress, topic.name().into());
+                            return Err(TraceError::Message { progress, topic, at, what });
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Compares what was read with what the end record says was written.
+    fn check_counts(&self) -> Result<Option<Record>, String> {
+        let read = self.tally.total();
+        match &self.summary {
+            Some(end) if end.records != read || end.counts != self.tally.counts() => Err(format!(
+                "the end record counts {} records, but {read} were read",
+                end.records
+            )),
+            _ => Ok(None),
+        }
+    }
+}
+
+impl<R: Read> Iterator for Reader<R> {
+    type Item = Result<Record, TraceError>;
+
+    fn next(&mut self) -> Option<Result<Record, TraceError>> {
+        if self.finished {
+            return None;
+        }
+        let next = self.read_record().transpose();
+        self.finished = !matches!(next, Some(Ok(_)));
+        next
+    }
+}
+
+/// A whole trace in memory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trace {
+    /// What stands before the records.
+    pub header: Header,
+    /// All records in the order in which they were written.
+    pub records: Vec<Record>,
+    /// How the run ended.
+    pub summary: Summary,
+}
+
+/// Reads a whole trace from memory; the first thing wrong with it is an error.
+pub fn read(bytes: &[u8]) -> Result<Trace, TraceError> {
+    let mut reader = Reader::new(bytes)?;
+    let records = reader.by_ref().collect::<Result<Vec<Record>, TraceError>>()?;
+    let Reader { header, summary, .. } = reader;
+    Ok(Trace { header, records, summary: summary.unwrap_or_default() })
+}
+
+/// What is wrong with a record of the header.
+enum Fault {
+    Damaged(String),
+    Version(String),
+}
+
+/// Takes the metadata record `starl`.
+fn metadata(body: &[u8], header: &mut Header, versioned: &mut bool) -> Result<bool, Fault> {
+    let damaged = |what: &str| Fault::Damaged(what.into());
+    let mut fields = Fields(body);
+    let Some((name, pairs)) = fields.text().zip(fields.pairs()) else {
+        return Err(damaged("a metadata record is cut short"));
+    };
+    if name != topic::METADATA {
+        return Ok(false);
+    }
+    let get = |wanted: &str| pairs.iter().find(|(key, _)| *key == wanted).map(|(_, value)| *value);
+    let version = get("format_version").ok_or_else(|| damaged("`format_version` is missing"))?;
+    if version != FORMAT_VERSION.to_string() {
+        return Err(Fault::Version(version.into()));
+    }
+    let seed = get("seed").and_then(|seed| seed.parse().ok());
+    header.seed = seed.ok_or_else(|| damaged("`seed` is missing or not a number"))?;
+    header.program = get("program").unwrap_or_default().into();
+    header.starl_version = get("starl_version").unwrap_or_default().into();
+    *versioned = true;
+    Ok(false)
+}
+
+/// Takes an attachment; the world is the last.
+fn attachment(body: &[u8], header: &mut Header) -> Result<bool, Fault> {
+    let damaged = |what: String| Fault::Damaged(what);
+    let mut fields = Fields(body);
+    let parts = (|| {
+        let (_logged, _created) = (fields.u64()?, fields.u64()?);
+        let (name, _media) = (fields.text()?, fields.text()?);
+        let length = fields.u64()?;
+        Some((name, fields.bytes(length)?, fields.u32()?))
+    })();
+    let Some((name, data, saved)) = parts else {
+        return Err(damaged("an attachment is cut short".into()));
+    };
+    if saved != 0 && saved != crc32fast::hash(&body[..body.len() - 4]) {
+        return Err(damaged(format!("the checksum of the attachment `{name}` does not match")));
+    }
+    let text = || {
+        let text = core::str::from_utf8(data).map(String::from);
+        text.map_err(|_| damaged(format!("the attachment `{name}` is not text")))
+    };
+    if name == topic::WORLD {
+        header::decode_world(data, header)
+            .map_err(|what| damaged(format!("the attachment `{name}`: {what}")))?;
+        return Ok(true);
+    }
+    if name == topic::SCENARIO {
+        header.scenario = text()?;
+    } else if let Some(file) = name.strip_prefix(topic::FILES) {
+        header.files.insert(file.into(), text()?);
+    }
+    Ok(false)
+}
+
+/// Notes which topic a channel carries, if it is one of ours.
+fn channel(body: &[u8], channels: &mut BTreeMap<u16, Topic>) -> Result<(), String> {
+    let mut fields = Fields(body);
+    let parts = (|| {
+        let (id, _schema) = (fields.u16()?, fields.u16()?);
+        Some((id, fields.text()?, fields.text()?))
+    })();
+    let Some((id, name, encoding)) = parts else {
+        return Err("a channel record is cut short".into());
+    };
+    if !name.starts_with(topic::PREFIX) {
+        return Ok(());
+    }
+    let topic = Topic::named(name).ok_or_else(|| format!("the topic `{name}` is not known"))?;
+    if encoding != "json" {
+        return Err(format!("the topic `{name}` is not in JSON but `{encoding}`"));
+    }
+    if channels.insert(id, topic).is_some_and(|before| before != topic) {
+        return Err(format!("channel {id} has two topics"));
+    }
+    Ok(())
+}
+
+/// The channel, time and data of a message.
+fn message(body: &[u8]) -> Option<(u16, Time, &[u8])> {
+    let mut fields = Fields(body);
+    let (id, _sequence) = (fields.u16()?, fields.u32()?);
+    let (at, _published) = (fields.u64()?, fields.u64()?);
+    Some((id, Time(at), fields.0))
+}

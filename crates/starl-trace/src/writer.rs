@@ -1,0 +1,157 @@
+//! Writes a trace: every event as it happens, and views of it for display.
+
+use crate::json::Json;
+use crate::summary::Tally;
+use crate::views::{ViewOptions, Views};
+use crate::{
+    FORMAT_VERSION, Header, Outcome, Summary, Topic, WriteError, encode, header, schema, summary,
+    topic,
+};
+use mcap::records::MessageHeader;
+use mcap::write::{Metadata, NoSeek, WriteOptions};
+use starl_core::{Event, Record, RobotId, Time};
+use std::collections::BTreeMap;
+use std::io::Write;
+
+/// Writes one trace to anything that takes bytes in order; what it writes to is not read or rewound.
+///
+/// The records are kept exactly, on the topics under `/starl/`. Beside them the writer makes the
+/// views that [`ViewOptions`] ask for; a reader leaves those out.
+pub struct Writer<W: Write> {
+    output: Output<W>,
+    views: Views,
+    tally: Tally,
+    last: Time,
+}
+
+/// Puts messages into the file. Messages carry their place in the whole file as sequence number, so
+/// that sorting by time and number gives back the order in which things happened.
+pub(crate) struct Output<W: Write> {
+    mcap: mcap::Writer<NoSeek<W>>,
+    /// The message in the making.
+    pub json: Json,
+    sequence: u32,
+}
+
+impl<W: Write> Output<W> {
+    /// Writes the message that stands in `json`.
+    pub fn send(&mut self, channel: u16, at: Time) -> Result<(), WriteError> {
+        let header = MessageHeader {
+            channel_id: channel,
+            sequence: self.sequence,
+            log_time: at.0,
+            publish_time: at.0,
+        };
+        self.sequence = self.sequence.wrapping_add(1);
+        Ok(self.mcap.write_to_known_channel(&header, self.json.bytes())?)
+    }
+
+    /// Makes a channel for JSON with this schema.
+    pub fn channel(&mut self, topic: &str, name: &str, text: &str) -> Result<u16, WriteError> {
+        let schema = self.mcap.add_schema(name, "jsonschema", text.as_bytes())?;
+        Ok(self.mcap.add_channel(schema, topic, "json", &BTreeMap::new())?)
+    }
+
+    fn attach(&mut self, name: &str, media_type: &str, data: &[u8]) -> Result<(), WriteError> {
+        Ok(self.mcap.attach(&mcap::Attachment {
+            log_time: 0,
+            create_time: 0,
+            name: name.into(),
+            media_type: media_type.into(),
+            data: data.into(),
+        })?)
+    }
+}
+
+impl<W: Write> Writer<W> {
+    /// Starts a trace. The output need not be buffered: it is given about a mebibyte at a time.
+    pub fn new(output: W, header: &Header, options: &ViewOptions) -> Result<Writer<W>, WriteError> {
+        let mcap = WriteOptions::new()
+            .compression(None)
+            .disable_seeking(true)
+            .profile("starl")
+            .library(format!("starl {}", header.starl_version))
+            .create(NoSeek::new(output))?;
+        let mut output = Output { mcap, json: Json::default(), sequence: 0 };
+        write_header(&mut output, header)?;
+        for (index, topic) in Topic::ALL.into_iter().enumerate() {
+            let text = schema::text(topic);
+            let channel = output.channel(topic.name(), schema::name(topic), &text)?;
+            debug_assert_eq!(usize::from(channel), index + 1);
+        }
+        let views = Views::new(&mut output, header, options)?;
+        Ok(Writer { output, views, tally: Tally::default(), last: Time::ZERO })
+    }
+
+    /// Writes a record.
+    pub fn write(&mut self, record: &Record) -> Result<(), WriteError> {
+        self.event(record.at, record.robot, &record.event)
+    }
+
+    /// Writes an event.
+    pub fn event(
+        &mut self,
+        at: Time,
+        robot: Option<RobotId>,
+        event: &Event,
+    ) -> Result<(), WriteError> {
+        let topic = Topic::of(event);
+        self.output.json.clear();
+        encode::event(&mut self.output.json, robot, event);
+        if !self.output.json.is_finite() {
+            return Err(WriteError::NotFinite { at, robot, topic: topic.name() });
+        }
+        self.output.send(topic as u16 + 1, at)?;
+        self.tally.add(topic);
+        self.last = at;
+        self.views.event(&mut self.output, at, robot, event)
+    }
+
+    /// How many records were written.
+    pub fn records(&self) -> u64 {
+        self.tally.total()
+    }
+
+    /// Writes the end record and the file's index, and gives the output back. A trace that is dropped
+    /// instead reads as cut short.
+    pub fn finish(mut self, outcome: &Outcome) -> Result<W, WriteError> {
+        self.views.finish(&mut self.output, outcome.end)?;
+        let end = Summary {
+            outcome: outcome.clone(),
+            records: self.tally.total(),
+            counts: self.tally.counts(),
+        };
+        self.output.json.clear();
+        summary::encode(&mut self.output.json, &end);
+        // A later time than any record's keeps it last for readers that sort by time.
+        let at = Time(outcome.end.0.max(self.last.0));
+        self.output.send(Topic::Summary as u16 + 1, at)?;
+        self.output.mcap.finish()?;
+        let mut output = self.output.mcap.into_inner().into_inner();
+        output.flush().map_err(|error| WriteError::Output { what: error.to_string() })?;
+        Ok(output)
+    }
+}
+
+fn write_header<W: Write>(output: &mut Output<W>, header: &Header) -> Result<(), WriteError> {
+    let metadata = [
+        ("format_version", FORMAT_VERSION.to_string()),
+        ("starl_version", header.starl_version.clone()),
+        ("program", header.program.clone()),
+        ("seed", header.seed.to_string()),
+    ];
+    output.mcap.write_metadata(&Metadata {
+        name: topic::METADATA.into(),
+        metadata: metadata.into_iter().map(|(key, value)| (key.to_string(), value)).collect(),
+    })?;
+    output.attach(topic::SCENARIO, "application/toml", header.scenario.as_bytes())?;
+    for (name, text) in &header.files {
+        output.attach(&format!("{}{name}", topic::FILES), "text/plain", text.as_bytes())?;
+    }
+    let mut json = Json::default();
+    header::encode_world(&mut json, header);
+    if !json.is_finite() {
+        return Err(WriteError::NotFinite { at: Time::ZERO, robot: None, topic: topic::WORLD });
+    }
+    output.attach(topic::WORLD, "application/json", json.bytes())
+}
