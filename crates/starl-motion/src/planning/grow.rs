@@ -1,0 +1,142 @@
+//! From the obstacles and robots of the world to the space of a planner.
+
+use super::free_space::FreeSpace;
+use super::grown::GrownList;
+use super::vector::Vector;
+use crate::Neighbour;
+use starl_core::geometry::{HeightSpan, Obstacle, Point, Shape};
+use starl_core::motion::{Body, Workspace};
+
+/// A robot's body and how far it should stay away from things beyond its own size.
+#[derive(Clone, Copy, Debug)]
+pub struct Mover {
+    /// The body.
+    pub body: Body,
+    /// Metres; in the air also above and below.
+    pub margin: f64,
+}
+
+impl Mover {
+    /// The planner's point for a place in the world.
+    pub fn to_space<const D: usize>(point: Point) -> Vector<D> {
+        let all = [point.x, point.y, point.z];
+        core::array::from_fn(|axis| all[axis])
+    }
+
+    /// The place in the world of a planner's point; on the floor if that has no height.
+    pub fn to_world<const D: usize>(point: &Vector<D>) -> Point {
+        Point::new(point[0], point[1], if D > 2 { point[2] } else { 0.0 })
+    }
+
+    /// The heights at which the body's base would touch something in this span; none if it cannot.
+    fn blocked_heights(&self, span: Option<HeightSpan>) -> Option<(f64, f64)> {
+        let Some(span) = span else {
+            return Some((f64::NEG_INFINITY, f64::INFINITY));
+        };
+        match self.body.workspace {
+            // Standing on top of a thing is allowed, on a thing of no thickness is not.
+            Workspace::Ground => {
+                let met = self.body.height >= span.low && (0.0 < span.high || 0.0 <= span.low);
+                met.then_some((f64::NEG_INFINITY, f64::INFINITY))
+            }
+            Workspace::Air { lowest } => {
+                let low = span.low - self.body.height - self.margin;
+                let high = span.high + self.margin;
+                (high >= lowest).then_some((low, high))
+            }
+        }
+    }
+
+    /// Adds what the body's base must keep out of because of an obstacle.
+    fn push_obstacle<const D: usize>(&self, obstacle: &Obstacle, list: &mut GrownList<D>) {
+        let Some(span) = self.blocked_heights(obstacle.height()) else {
+            return;
+        };
+        let reach = self.body.radius + self.margin;
+        match &obstacle.shape {
+            Shape::Polygon { base, .. } => {
+                list.push_round(base.vertices().iter().map(|p| [p.x, p.y]), reach, span);
+            }
+            Shape::Circle { center, radius, .. } => {
+                list.push_round(core::iter::once([center.x, center.y]), radius + reach, span);
+            }
+            Shape::Cuboid { low, high } => {
+                let corners = [
+                    [low.x, low.y],
+                    [high.x, low.y],
+                    [high.x, high.y],
+                    [low.x, high.y],
+                ];
+                list.push_round(corners.into_iter(), reach, span);
+            }
+        }
+    }
+
+    /// Adds what the body's base must keep out of because of another robot.
+    fn push_robot<const D: usize>(&self, robot: &Neighbour, list: &mut GrownList<D>) {
+        let span = HeightSpan::new(robot.position.z, robot.position.z + robot.height);
+        if let Some(span) = self.blocked_heights(Some(span)) {
+            let center = core::iter::once([robot.position.x, robot.position.y]);
+            list.push_round(center, robot.radius + self.body.radius + self.margin, span);
+        }
+    }
+
+    /// The space in which the robot's base centre can move from `start` to `target`.
+    ///
+    /// It ends half the longest side of the box around start, target and obstacles beyond that box,
+    /// and no less than eight radii. In height it reaches from the lowest height of travel to two
+    /// bodies above start, target and whatever can be flown over.
+    pub fn space<const D: usize>(
+        &self,
+        start: Point,
+        target: Point,
+        obstacles: &[Obstacle],
+        robots: &[Neighbour],
+    ) -> FreeSpace<D> {
+        let mut list = GrownList::new();
+        for obstacle in obstacles.iter().filter(|obstacle| obstacle.is_valid()) {
+            self.push_obstacle(obstacle, &mut list);
+        }
+        for robot in robots.iter().filter(|robot| robot.position.is_finite()) {
+            self.push_robot(robot, &mut list);
+        }
+        let (low, high) = self.bounds(start, target, &list);
+        FreeSpace::new(low, high, list)
+    }
+
+    fn bounds<const D: usize>(
+        &self,
+        start: Point,
+        target: Point,
+        list: &GrownList<D>,
+    ) -> (Vector<D>, Vector<D>) {
+        let (start, target): (Vector<D>, Vector<D>) =
+            (Mover::to_space(start), Mover::to_space(target));
+        let lesser = |a: f64, b: f64| if a < b { a } else { b };
+        let greater = |a: f64, b: f64| if a > b { a } else { b };
+        let mut low: Vector<D> = core::array::from_fn(|axis| lesser(start[axis], target[axis]));
+        let mut high: Vector<D> = core::array::from_fn(|axis| greater(start[axis], target[axis]));
+        for grown in list.all() {
+            for axis in 0..D {
+                // A thing without a top cannot be flown over.
+                if axis < 2 || grown.high[axis] < f64::INFINITY {
+                    high[axis] = greater(high[axis], grown.high[axis]);
+                }
+                if axis < 2 {
+                    low[axis] = lesser(low[axis], grown.low[axis]);
+                }
+            }
+        }
+        let longest = greater(high[0] - low[0], high[1] - low[1]);
+        let beyond = greater(0.5 * longest, 8.0 * self.body.radius);
+        for axis in 0..2 {
+            low[axis] -= beyond;
+            high[axis] += beyond;
+        }
+        if let (Workspace::Air { lowest }, 3) = (self.body.workspace, D) {
+            low[D - 1] = lesser(low[D - 1], lowest);
+            high[D - 1] += 2.0 * self.body.height;
+        }
+        (low, high)
+    }
+}

@@ -1,0 +1,156 @@
+//! Finding a way: from where a robot is to where it should be, clear of everything unsafe.
+//!
+//! [`plan`] is what hosts call. It grows the obstacles by the robot's body, looks whether the
+//! straight way is free (most often it is, and nothing else is done), and otherwise lets one of the
+//! planners search: [`rrt`], [`rrt_connect`] or [`rrt_star`], in the plane for robots on the floor and
+//! in space for those in the air. Paths are then made taut ([`shorten`]).
+//!
+//! The planners know nothing of robots: they search a [`space::Space`]. Everything is exact, no path
+//! is tested at sample points, and the same request gives the same path on every machine.
+
+pub mod box_tree;
+pub mod escape;
+pub mod free_space;
+mod grow;
+pub mod grown;
+pub mod nearest;
+pub mod rrt_connect;
+pub mod shorten;
+pub mod space;
+pub mod tree;
+pub mod vector;
+
+use crate::{Model, Neighbour};
+use alloc::vec::Vec;
+use grow::Mover;
+use space::Space;
+use starl_core::geometry::Obstacle;
+use starl_core::motion::{Body, Estimate, Path, PlanRequest};
+use starl_core::{Point, Random};
+use vector::Vector;
+
+/// What a host may change about planning.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// How far paths stay away from things beyond the body's own radius, as a part of that radius.
+    /// Where the target itself is nearer to something, half of what is left.
+    pub margin_radii: f64,
+    /// How far a robot that is too near to something may go to get clear of it, in radii.
+    pub escape_radii: f64,
+}
+
+impl Default for Options {
+    fn default() -> Options {
+        Options {
+            margin_radii: 0.15,
+            escape_radii: 4.0,
+        }
+    }
+}
+
+/// Way-points from the estimated pose to the target of the request, the last of them exactly the
+/// target; none if the planner gave up.
+///
+/// - The body keeps out of the unsafe set all along the way, `margin_radii` further off than it must.
+/// - If the target is not free, the free point nearest to it takes its place, unless that is more
+///   than the request's vicinity away.
+/// - If the start is too near to something, the first way-point is the nearest free place that can be
+///   reached by moving away from it. A robot whose centre is inside an obstacle gets no path.
+/// - A robot in the air that is below its lowest height of travel is taken to have risen there.
+pub fn plan(
+    model: &dyn Model,
+    start: &Estimate,
+    request: &PlanRequest,
+    robots: &[Neighbour],
+) -> Option<Path> {
+    plan_with(&Options::default(), model, start, request, robots)
+}
+
+/// [`plan`] with options.
+pub fn plan_with(
+    options: &Options,
+    model: &dyn Model,
+    start: &Estimate,
+    request: &PlanRequest,
+    robots: &[Neighbour],
+) -> Option<Path> {
+    let body = model.body();
+    let from = body.reachable(start.pose.position);
+    let target = body.reachable(request.target);
+    if !from.is_finite() || !target.is_finite() {
+        return None;
+    }
+    let robots = if request.around_robots { robots } else { &[] };
+    let task = Task {
+        options,
+        model,
+        request,
+        robots,
+        body,
+        from,
+        target,
+    };
+    if body.flies() {
+        task.solve::<3>()
+    } else {
+        task.solve::<2>()
+    }
+}
+
+struct Task<'a> {
+    options: &'a Options,
+    model: &'a dyn Model,
+    request: &'a PlanRequest,
+    robots: &'a [Neighbour],
+    body: Body,
+    from: Point,
+    target: Point,
+}
+
+impl Task<'_> {
+    fn solve<const D: usize>(&self) -> Option<Path> {
+        let obstacles: &[Obstacle] = &self.request.unsafe_set;
+        let mover = Mover {
+            body: self.body,
+            margin: self.margin(obstacles),
+        };
+        let space = mover.space::<D>(self.from, self.target, obstacles, self.robots);
+        let (from, target) = (Mover::to_space(self.from), Mover::to_space(self.target));
+        if space.sees(&from, &target) {
+            return Some(alloc::vec![self.target]);
+        }
+        let target = escape::nearest_free(&space, &target, self.request.vicinity)?;
+        let mut path: Vec<Vector<D>> = Vec::new();
+        let mut root = from;
+        if !space.is_free(&from) {
+            let within = self.options.escape_radii * self.body.radius;
+            root = escape::escape(&space, &from, within)?;
+            path.push(root);
+        }
+        let mut random = Random::keyed(self.request.seed, &[]);
+        let options = rrt_connect::Options {
+            most_nodes: self.request.most_nodes,
+            longest_step: f64::INFINITY,
+            shortest_step: 1e-3,
+        };
+        let mut found = rrt_connect::rrt_connect(&space, &root, &target, &options, &mut random)?;
+        shorten::shorten(&space, &mut found, 8);
+        path.extend(found.into_iter().skip(1));
+        let _ = self.model;
+        Some(path.iter().map(Mover::to_world).collect())
+    }
+
+    /// The margin in metres: the one asked for, or half of what the target leaves.
+    fn margin(&self, obstacles: &[Obstacle]) -> f64 {
+        let most = self.options.margin_radii * self.body.radius;
+        let gap = obstacles.iter().fold(f64::INFINITY, |least, obstacle| {
+            let gap = obstacle.body_gap(self.target, self.body.radius, self.body.height);
+            if gap < least { gap } else { least }
+        });
+        if gap > 0.0 && 0.5 * gap < most {
+            0.5 * gap
+        } else {
+            most
+        }
+    }
+}
