@@ -1,8 +1,9 @@
 //! The contract of a robot model: its body, its commands and its dynamics (thesis, section 4.3).
 
+use crate::tracking::{Goal, Tracking};
 use core::fmt::Debug;
 use serde::{Deserialize, Serialize};
-use starl_core::motion::Body;
+use starl_core::motion::{Body, Estimate};
 use starl_core::{Command, Duration, Point, Pose, Twist};
 
 /// The physical state of a robot, the same shape for every model so that hosts can keep states in
@@ -37,11 +38,14 @@ pub struct Impact {
     pub direction: Point,
 }
 
-/// The bounds that a model's motion keeps to. The conformance suite holds every model to them.
+/// The bounds that a model's motion keeps to while nothing disturbs it and it meets nothing. The
+/// conformance suite holds every model to them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Greatest speed in the floor plane, metres per second.
     pub speed: f64,
+    /// Speed in the floor plane at which tracking travels, metres per second.
+    pub cruise_speed: f64,
     /// Greatest rate of climb and descent, metres per second; 0 on the ground.
     pub vertical_speed: f64,
     /// Greatest change of velocity, metres per second squared; infinite where the model changes its
@@ -52,11 +56,11 @@ pub struct Limits {
     /// Smallest radius of a turn while driving, metres; 0 where the robot turns on the spot.
     pub turn_radius: f64,
     /// An upper bound of the distance, metres, in which tracking brings the robot to a halt from
-    /// its greatest speed, overshoot included.
+    /// its cruise speed, overshoot included, with estimates every 100 ms or faster and calm air.
     pub stopping_distance: f64,
 }
 
-/// A kind of robot: immutable, shared by all robots of the kind.
+/// A kind of robot with its parameters: immutable, shared by all robots of the kind.
 ///
 /// A host advances a robot in two halves: [`Model::predict`] says where it would be after a step;
 /// the host looks whether anything is in the way; [`Model::update`] makes it so, or lets the body be
@@ -87,6 +91,11 @@ pub trait Model: Debug + Send + Sync {
         disturbance: &Disturbance,
         elapsed: Duration,
     ) -> State;
+
+    /// The command that tracks the way-point `goal` from the estimated pose, closed loop, to be
+    /// driven until the next estimate (the thesis's RobotMotion). `tracking` is what the tracker
+    /// remembers from one estimate to the next.
+    fn track(&self, tracking: &mut Tracking, estimate: &Estimate, goal: &Goal) -> Command;
 
     /// Goes over to the predicted state; if an impact is given, the body stays where it was and
     /// loses its speed into the obstacle.

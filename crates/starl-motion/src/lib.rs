@@ -1,0 +1,20 @@
+//! How robots move: models of their dynamics, way-point tracking, path planning and avoidance.
+//!
+//! Everything here is pure and deterministic. A host owns a [`State`] per robot, asks a [`Pilot`] for
+//! the command that follows the program's wish, and advances the state through the robot's [`Model`].
+
+#![no_std]
+extern crate alloc;
+
+pub mod avoidance;
+pub mod model;
+pub mod models;
+pub mod parameters;
+pub mod pilot;
+pub mod planning;
+pub mod tracking;
+
+pub use model::{Disturbance, Impact, Limits, Model, State};
+pub use parameters::ParameterError;
+pub use pilot::{Neighbour, Pilot};
+pub use tracking::{Goal, Tracking};

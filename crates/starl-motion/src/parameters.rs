@@ -1,0 +1,172 @@
+//! Parameters of robot models: named numbers with a unit, a default and a range, from which a model
+//! is built, and which a scenario may set by name.
+
+use alloc::string::String;
+use core::fmt;
+
+/// One parameter of a model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Field {
+    /// Its name, as a scenario spells it.
+    pub name: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Its value unless set.
+    pub default: f64,
+    /// Its smallest value.
+    pub low: f64,
+    /// Its greatest value.
+    pub high: f64,
+}
+
+/// Why a model cannot be built.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ParameterError {
+    /// There is no model of this name.
+    UnknownModel {
+        /// The name.
+        name: String,
+    },
+    /// The model has no such parameter.
+    UnknownField {
+        /// The model's name.
+        model: &'static str,
+        /// The name that is not among its parameters.
+        field: String,
+        /// Those it has.
+        allowed: &'static [Field],
+    },
+    /// A parameter is out of its range or not a number.
+    OutOfRange {
+        /// The parameter.
+        field: Field,
+        /// The value it was to have.
+        value: f64,
+    },
+    /// Two parameters contradict each other.
+    Inconsistent {
+        /// The parameter that should be the smaller one.
+        lesser: &'static str,
+        /// The parameter that should be the greater one.
+        greater: &'static str,
+    },
+}
+
+impl fmt::Display for ParameterError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ParameterError::UnknownModel { name } => {
+                write!(f, "there is no robot model `{name}`; the models are ")?;
+                list(f, crate::models::NAMES.iter().map(|(name, _)| *name))
+            }
+            ParameterError::UnknownField {
+                model,
+                field,
+                allowed,
+            } => {
+                write!(f, "model `{model}` has no parameter `{field}`; it has ")?;
+                list(f, allowed.iter().map(|field| field.name))
+            }
+            ParameterError::OutOfRange { field, value } => {
+                let Field {
+                    name,
+                    unit,
+                    low,
+                    high,
+                    ..
+                } = field;
+                write!(f, "`{name}` is {value}, but must be {low} to {high} {unit}")
+            }
+            ParameterError::Inconsistent { lesser, greater } => {
+                write!(f, "`{lesser}` must not exceed `{greater}`")
+            }
+        }
+    }
+}
+
+impl core::error::Error for ParameterError {}
+
+fn list(f: &mut fmt::Formatter<'_>, names: impl Iterator<Item = &'static str>) -> fmt::Result {
+    for (i, name) in names.enumerate() {
+        write!(f, "{}`{name}`", if i == 0 { "" } else { ", " })?;
+    }
+    Ok(())
+}
+
+/// A set of parameters that can be set by name; [`parameters!`] writes the implementations.
+pub(crate) trait ParameterSet: Default {
+    /// The parameters in the order of their declaration.
+    const FIELDS: &'static [Field];
+
+    /// The parameter called `name`.
+    fn field(&mut self, name: &str) -> Option<&mut f64>;
+
+    /// Whether every parameter is in its range.
+    fn check_ranges(&self) -> Result<(), ParameterError>;
+}
+
+/// Fails unless `lesser` is at most `greater`; each is a name and a value.
+pub(crate) fn ordered(
+    lesser: (&'static str, f64),
+    greater: (&'static str, f64),
+) -> Result<(), ParameterError> {
+    if lesser.1 <= greater.1 {
+        return Ok(());
+    }
+    Err(ParameterError::Inconsistent {
+        lesser: lesser.0,
+        greater: greater.0,
+    })
+}
+
+/// Declares a struct of parameters; each line reads `name: "unit" = default, low to high;`.
+macro_rules! parameters {
+    (
+        $(#[$outer:meta])*
+        pub struct $name:ident {
+            $( $(#[$inner:meta])* $field:ident: $unit:literal = $default:expr, $low:literal => $high:literal; )*
+        }
+    ) => {
+        $(#[$outer])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $name {
+            $( $(#[$inner])* #[doc = concat!("\n\nUnit: ", $unit, ".")] pub $field: f64, )*
+        }
+
+        impl Default for $name {
+            fn default() -> $name {
+                $name { $( $field: $default, )* }
+            }
+        }
+
+        impl $crate::parameters::ParameterSet for $name {
+            const FIELDS: &'static [$crate::parameters::Field] = &[
+                $( $crate::parameters::Field {
+                    name: stringify!($field),
+                    unit: $unit,
+                    default: $default,
+                    low: $low,
+                    high: $high,
+                }, )*
+            ];
+
+            fn field(&mut self, name: &str) -> Option<&mut f64> {
+                match name {
+                    $( stringify!($field) => Some(&mut self.$field), )*
+                    _ => None,
+                }
+            }
+
+            fn check_ranges(&self) -> Result<(), $crate::ParameterError> {
+                let values = [$( self.$field ),*];
+                for (field, value) in Self::FIELDS.iter().zip(values) {
+                    if !(field.low..=field.high).contains(&value) {
+                        return Err($crate::ParameterError::OutOfRange { field: *field, value });
+                    }
+                }
+                Ok(())
+            }
+        }
+    };
+}
+pub(crate) use parameters;

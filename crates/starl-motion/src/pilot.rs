@@ -1,0 +1,117 @@
+//! The motion layer of one robot: turns what the program asks for into commands of the model.
+//!
+//! It is called at every new estimate. A way-point that is tracked passes through avoidance, which may
+//! put a nearer point and a limit of speed in its place; commands that the program drives itself, and
+//! standing still, do not.
+
+use crate::Model;
+use crate::avoidance::{Avoidance, Options};
+use crate::tracking::{Goal, Tracking};
+use starl_core::motion::Estimate;
+use starl_core::{Command, MotionRequest, Obstacle, Point, Random};
+
+/// Another robot as this one perceives it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Neighbour {
+    /// Base centre, metres.
+    pub position: Point,
+    /// Metres per second.
+    pub velocity: Point,
+    /// Metres.
+    pub radius: f64,
+    /// Metres.
+    pub height: f64,
+}
+
+/// What the program wants of the motion layer now.
+#[derive(Clone, Debug, Default)]
+enum Wish {
+    #[default]
+    Halt,
+    Drive(Command),
+    Track(Goal),
+}
+
+/// The motion layer of one robot.
+#[derive(Clone, Debug)]
+pub struct Pilot {
+    wish: Wish,
+    tracking: Tracking,
+    avoidance: Option<Avoidance>,
+    /// How far avoidance needs to see, metres.
+    sight: f64,
+}
+
+impl Pilot {
+    /// A pilot for a robot of this model, which stands still; without options it does not avoid
+    /// other robots.
+    pub fn new(model: &dyn Model, avoidance: Option<Options>) -> Pilot {
+        let avoidance = avoidance.map(Avoidance::new);
+        let sight = avoidance.as_ref().map_or(0.0, |avoidance| {
+            avoidance.range(&model.body(), &model.limits())
+        });
+        Pilot {
+            wish: Wish::Halt,
+            tracking: Tracking::default(),
+            avoidance,
+            sight,
+        }
+    }
+
+    /// Takes a request, which replaces the one before it. Planning is not the pilot's.
+    pub fn request(&mut self, request: &MotionRequest) {
+        self.wish = match *request {
+            MotionRequest::Plan(_) => return,
+            MotionRequest::Drive(command) => Wish::Drive(command),
+            MotionRequest::Halt => Wish::Halt,
+            MotionRequest::Track { target, next } => Wish::Track(Goal {
+                target,
+                next,
+                speed_limit: f64::INFINITY,
+            }),
+        };
+    }
+
+    /// The distance in metres within which [`Pilot::command`] needs to be told of neighbours now;
+    /// none if it needs none.
+    pub fn wants_neighbours(&self) -> Option<f64> {
+        let tracks = matches!(self.wish, Wish::Track(_));
+        (tracks && self.avoidance.is_some()).then_some(self.sight)
+    }
+
+    /// The command to drive until the next estimate. `neighbours` are the robots within the distance
+    /// that [`Pilot::wants_neighbours`] names, `obstacles` the obstacles known that near.
+    pub fn command(
+        &mut self,
+        model: &dyn Model,
+        estimate: &Estimate,
+        neighbours: &[Neighbour],
+        obstacles: &[Obstacle],
+        random: &mut Random,
+    ) -> Command {
+        let goal = match self.wish {
+            Wish::Halt => return Command::Stop,
+            Wish::Drive(command) if model.accepts(&command) => return command,
+            Wish::Drive(_) => return Command::Stop,
+            Wish::Track(goal) => goal,
+        };
+        let body = model.body();
+        let goal = Goal {
+            target: body.reachable(goal.target),
+            ..goal
+        };
+        if !goal.target.is_finite() {
+            return Command::Stop;
+        }
+        let goal = match &mut self.avoidance {
+            None => goal,
+            Some(avoidance) => {
+                let limits = model.limits();
+                avoidance.guide(
+                    &body, &limits, estimate, &goal, neighbours, obstacles, random,
+                )
+            }
+        };
+        model.track(&mut self.tracking, estimate, &goal)
+    }
+}

@@ -1,0 +1,115 @@
+//! Tracking for a quadcopter: take off, then fly by tilting, in cascaded loops.
+//!
+//! Position to velocity is proportional and limited to the speed of travel; velocity to acceleration
+//! is proportional and integral; acceleration to tilt is geometry. The integral holds against wind; it
+//! adds up no more than a bounded error, so that a long acceleration does not wind it up. Vertically
+//! the drone's own speed loop does the rest. The thesis names such a controller (section 4.3) but
+//! gives none.
+
+use super::{Goal, Tracking};
+use starl_core::math::sincos;
+use starl_core::motion::Estimate;
+use starl_core::{Command, Point, Pose};
+
+/// What the drone is like, for its tracker.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gains {
+    /// Lowest height of travel, metres.
+    pub lowest: f64,
+    /// Metres per second in the floor plane.
+    pub cruise_speed: f64,
+    /// Metres per second.
+    pub climb_speed: f64,
+    /// Drag per mass, 1/s.
+    pub drag: f64,
+    /// Greatest tilt, radians.
+    pub tilt: f64,
+    /// Metres per second squared.
+    pub gravity: f64,
+}
+
+/// [`Tracking::phase`] when the drone has been high enough to travel.
+const FLYING: u32 = 1;
+
+/// Desired speed per distance left, 1/s.
+const POSITION_GAIN: f64 = 0.75;
+/// Acceleration per error of velocity, 1/s.
+const VELOCITY_GAIN: f64 = 1.8;
+/// Growth of acceleration per error of velocity, 1/s squared.
+const INTEGRAL_GAIN: f64 = 0.7;
+/// The integral takes no more of the error than this, metres per second.
+const INTEGRAL_ERROR: f64 = 0.3;
+/// Climb per height left, 1/s.
+const HEIGHT_GAIN: f64 = 1.2;
+
+impl Gains {
+    /// See [`crate::Limits::stopping_distance`]. The tilt needs time to build up and to settle,
+    /// between which the drone brakes with most of its greatest tilt.
+    pub fn stopping_distance(&self) -> f64 {
+        let speed = self.cruise_speed;
+        let brake = 0.9 * self.tilt * self.gravity;
+        0.35 * speed + speed * speed / (2.0 * brake)
+    }
+
+    /// One step of tracking.
+    pub fn track(&self, tracking: &mut Tracking, estimate: &Estimate, goal: &Goal) -> Command {
+        let period = tracking.period(estimate);
+        let Pose { position, yaw, .. } = estimate.pose;
+        let part = if tracking.phase == FLYING { 0.5 } else { 0.9 };
+        if position.z < part * self.lowest {
+            *tracking = Tracking {
+                previous: tracking.previous,
+                ..Tracking::default()
+            };
+            // A way-point that low tells it to stay down.
+            let stay = goal.target.z < self.lowest;
+            return if stay {
+                Command::Stop
+            } else {
+                Command::TakeOff
+            };
+        }
+        tracking.phase = FLYING;
+
+        let desired = self.desired_velocity(position, goal);
+        let error = (desired - estimate.twist.linear).at_height(0.0);
+        tracking.integral = shortened(
+            tracking.integral + shortened(error, INTEGRAL_ERROR) * (INTEGRAL_GAIN * period),
+            0.5 * self.tilt * self.gravity,
+        );
+        let acceleration = error * VELOCITY_GAIN + desired * self.drag + tracking.integral;
+
+        let (sin, cos) = sincos(yaw);
+        let tilt = shortened(acceleration / self.gravity, self.tilt);
+        let height = goal.target.z.max(self.lowest) - position.z;
+        Command::Attitude {
+            yaw_rate: 0.0,
+            pitch: cos * tilt.x + sin * tilt.y,
+            roll: sin * tilt.x - cos * tilt.y,
+            gaz: (HEIGHT_GAIN * height).clamp(-self.climb_speed, self.climb_speed),
+        }
+    }
+
+    fn desired_velocity(&self, position: Point, goal: &Goal) -> Point {
+        let way = (goal.target - position).at_height(0.0);
+        let distance = way.planar_length();
+        if distance <= 0.0 {
+            return Point::ZERO;
+        }
+        let speed = (POSITION_GAIN * distance)
+            .max(goal.through_speed(position, self.cruise_speed))
+            .min(self.cruise_speed)
+            .min(goal.speed_limit);
+        way * (speed / distance)
+    }
+}
+
+/// A planar vector, scaled down to `limit` if it is longer.
+fn shortened(vector: Point, limit: f64) -> Point {
+    let length = vector.planar_length();
+    if length <= limit {
+        vector
+    } else {
+        vector * (limit / length)
+    }
+}

@@ -1,0 +1,187 @@
+//! Way-point tracking reaches where it is told to go, in time, and stays there.
+
+mod conformance;
+
+use conformance::{Positioning, Run, every_model, place, start};
+use starl_core::{Duration, Point, Random};
+use starl_motion::{Goal, Model};
+
+/// How near a robot must come to its target, and stay, metres.
+fn tolerance(model: &dyn Model) -> f64 {
+    if model.body().flies() { 0.1 } else { 0.075 }
+}
+
+/// Seconds that tracking may take over `distance` metres: turning, taking off and shunting included.
+fn time_bound(model: &dyn Model, distance: f64) -> f64 {
+    let limits = model.limits();
+    let shunting = 40.0 * limits.turn_radius / limits.cruise_speed;
+    12.0 + 1.6 * distance / limits.cruise_speed + shunting
+}
+
+/// How near the robot stays to its target during some seconds, metres.
+fn farthest(run: &mut Run<'_>, target: Point, seconds: f64) -> f64 {
+    let end = run.now + Duration::from_seconds_f64(seconds);
+    let mut farthest: f64 = 0.0;
+    while run.now < end {
+        run.turn(&Goal::stop_at(target));
+        farthest = farthest.max(run.distance(target));
+    }
+    farthest
+}
+
+/// Tracks random targets one after the other, from random poses, and asks for arrival in time.
+fn reaches_targets(positioning: Positioning, targets: u32, slack: f64) {
+    for model in every_model() {
+        let model = &*model;
+        let (mut slowest, mut worst): (f64, f64) = (0.0, 0.0);
+        for seed in 0..u64::from(targets) / 5 {
+            let mut random = Random::keyed(seed, &[5]);
+            let mut run = Run::new(model, start(model, &mut random), positioning, seed);
+            for _ in 0..5 {
+                // Near and far, and to fly to, low and high.
+                let height = random.between(0.0, 2.0);
+                let far = place(model, &mut random, height);
+                let near = run.state.pose.position + (far - run.state.pose.position) * 0.1;
+                let target = if random.chance(0.3) {
+                    model.body().reachable(near)
+                } else {
+                    far
+                };
+                let bound = time_bound(model, run.distance(target));
+                let began = run.now;
+                let mut since = None;
+                // Arrived is to be within tolerance for a second.
+                while since.is_none_or(|since| run.now.since(since).seconds() < 1.0) {
+                    run.turn(&Goal::stop_at(target));
+                    let near = run.distance(target) <= tolerance(model) * slack;
+                    since = if near { since.or(Some(run.now)) } else { None };
+                    let seconds = run.now.since(began).seconds();
+                    assert!(
+                        seconds <= bound,
+                        "{}: seed {seed}: {seconds} s to {target}, now {:?}",
+                        model.name(),
+                        run.state
+                    );
+                    slowest = slowest.max(seconds / bound);
+                }
+                let stays = farthest(&mut run, target, 3.0);
+                worst = worst.max(stays);
+                assert!(
+                    stays <= tolerance(model) * slack,
+                    "{}: seed {seed}: leaves {target} by {stays} m",
+                    model.name()
+                );
+            }
+        }
+        println!(
+            "{}: {slowest:.2} of the time, stays within {worst:.3} m",
+            model.name()
+        );
+    }
+}
+
+#[test]
+fn reaches_500_targets() {
+    reaches_targets(Positioning::EXACT, 500, 1.0);
+}
+
+#[test]
+fn reaches_500_targets_with_noise() {
+    let period = Duration::from_millis(50);
+    reaches_targets(
+        Positioning {
+            period,
+            noise: [0.01, 0.02, 0.05],
+        },
+        500,
+        1.0,
+    );
+}
+
+#[test]
+fn reaches_targets_with_slow_and_noisy_estimates() {
+    let period = Duration::from_millis(200);
+    reaches_targets(
+        Positioning {
+            period,
+            noise: [0.02, 0.03, 0.05],
+        },
+        200,
+        1.6,
+    );
+}
+
+#[test]
+fn stands_still_at_its_target_despite_noise() {
+    let period = Duration::from_millis(50);
+    let positioning = Positioning {
+        period,
+        noise: [0.01, 0.02, 0.05],
+    };
+    for model in every_model().iter().filter(|model| !model.body().flies()) {
+        for seed in 0..20 {
+            let mut random = Random::keyed(seed, &[6]);
+            let mut run = Run::new(&**model, start(&**model, &mut random), positioning, seed);
+            let target = place(&**model, &mut random, 0.0);
+            farthest(&mut run, target, 60.0);
+            let settled = run.state.pose.position;
+            let mut way = 0.0;
+            let mut last = settled;
+            for _ in 0..400 {
+                run.turn(&Goal::stop_at(target));
+                way += run.state.pose.position.distance(last);
+                last = run.state.pose.position;
+            }
+            assert!(
+                way < 0.05,
+                "{}: seed {seed}: moved {way} m in 20 s",
+                model.name()
+            );
+        }
+    }
+}
+
+#[test]
+fn halts_within_its_stopping_distance() {
+    let periods = [20, 50, 100].map(Duration::from_millis);
+    for model in every_model() {
+        let mut farthest: f64 = 0.0;
+        for (seed, period) in periods.into_iter().cycle().take(60).enumerate() {
+            let mut random = Random::keyed(seed as u64, &[8]);
+            let positioning = Positioning {
+                period,
+                noise: [0.0; 3],
+            };
+            let start = start(&*model, &mut random);
+            let mut run = Run::new(&*model, start, positioning, 0);
+            let far = model
+                .body()
+                .reachable(Point::polar(100.0, random.between(-3.0, 3.0)));
+            for _ in 0..20_000 / period.0.div_euclid(1_000_000) {
+                run.turn(&Goal::stop_at(far));
+            }
+            // Now it is to be where it already is; the estimate comes a period late at worst.
+            let here = run.state.pose.position;
+            run.turn(&Goal::stop_at(far));
+            for _ in 0..5_000 / period.0.div_euclid(1_000_000) {
+                run.turn(&Goal::stop_at(here));
+                farthest = farthest.max(run.state.pose.position.planar_distance(here));
+            }
+        }
+        let bound = model.limits().stopping_distance;
+        println!(
+            "{}: halts within {farthest:.3} of {bound:.3} m",
+            model.name()
+        );
+        assert!(
+            farthest <= bound,
+            "{}: {farthest} m > {bound} m",
+            model.name()
+        );
+        assert!(
+            farthest >= 0.3 * bound,
+            "{}: the bound is idle: {farthest} m",
+            model.name()
+        );
+    }
+}
