@@ -1,0 +1,152 @@
+//! A robot's cell: the convex part of the plane in which it may stop.
+//!
+//! Every neighbour gives one half-plane. Its border is perpendicular to the line between the two
+//! centres and splits the gap between the two bodies, not the distance of their centres, so that
+//! robots of unequal size get equal room. The nearest point of the cell is found by the incremental
+//! method for convex programs in the plane (Seidel 1991, "Small-dimensional linear programming and
+//! convex hulls made easy"; used for velocities by van den Berg et al. 2011), in the order given
+//! instead of a random one: there are few half-planes and the answer must not depend on chance.
+
+use smallvec::SmallVec;
+use starl_core::{Point, math};
+
+/// The border towards one neighbour or obstacle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Border {
+    /// Unit vector in the plane, from the robot towards the neighbour.
+    pub normal: Point,
+    /// Metres the robot's centre may move that way; negative if it is too near already.
+    pub room: f64,
+    /// Metres per second the robot may have that way; negative if it must move away.
+    pub speed: f64,
+    /// Place of the neighbour in the list handed in.
+    pub neighbour: u32,
+}
+
+/// Borders relative to the robot's centre.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Cell {
+    borders: SmallVec<[Border; 12]>,
+}
+
+/// Borders closer to parallel than this are taken as parallel (sine of the angle).
+const PARALLEL: f64 = 1e-9;
+
+impl Cell {
+    /// Adds a border.
+    pub fn push(&mut self, border: Border) {
+        self.borders.push(border);
+    }
+
+    /// The borders.
+    pub fn borders(&self) -> &[Border] {
+        &self.borders
+    }
+
+    /// Whether nothing bounds the cell.
+    pub fn is_empty(&self) -> bool {
+        self.borders.is_empty()
+    }
+
+    /// The velocity nearest to `wish` that all borders allow. Where the robot is too near to its
+    /// neighbours to satisfy all of them, the one that moves away from those as far as the others
+    /// allow.
+    pub fn velocity(&self, wish: Point) -> Point {
+        if let Some(found) = self.solve(wish, f64::NEG_INFINITY) {
+            return found;
+        }
+        let away = self
+            .borders
+            .iter()
+            .filter(|border| border.speed < 0.0)
+            .fold(Point::ZERO, |sum, border| {
+                sum + border.normal * border.speed
+            });
+        // Where no border asks for moving away, standing still is always allowed.
+        self.solve(away, 0.0).unwrap_or(Point::ZERO)
+    }
+
+    /// The velocity nearest to `wish` behind every border, none of which asks for less than
+    /// `least_speed`.
+    fn solve(&self, wish: Point, least_speed: f64) -> Option<Point> {
+        let mut best = wish.at_height(0.0);
+        for (index, border) in self.borders.iter().enumerate() {
+            let speed = larger(border.speed, least_speed);
+            if best.dot(border.normal) > speed {
+                best = self.nearest_on_border(index, speed, wish, least_speed)?;
+            }
+        }
+        Some(best)
+    }
+
+    /// The velocity nearest to `wish` on one border that is behind all earlier ones.
+    fn nearest_on_border(
+        &self,
+        index: usize,
+        speed: f64,
+        wish: Point,
+        least_speed: f64,
+    ) -> Option<Point> {
+        let normal = self.borders[index].normal;
+        let along = Point::planar(-normal.y, normal.x);
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        for other in &self.borders[..index] {
+            let slope = along.dot(other.normal);
+            let left = larger(other.speed, least_speed) - speed * normal.dot(other.normal);
+            if slope > PARALLEL {
+                high = smaller(high, left / slope);
+            } else if slope < -PARALLEL {
+                low = larger(low, left / slope);
+            } else if left < -PARALLEL {
+                return None;
+            }
+        }
+        if low > high {
+            return None;
+        }
+        let at = smaller(larger(wish.dot(along), low), high);
+        Some(normal * speed + along * at)
+    }
+
+    /// How far the robot may go in a direction of length one before it meets a border, metres; not
+    /// negative, infinite if nothing is that way.
+    pub fn reach(&self, direction: Point) -> f64 {
+        self.least_along(direction, |border| border.room)
+    }
+
+    /// How fast the robot may go in a direction of length one, metres per second; not negative,
+    /// infinite if nothing is that way.
+    pub fn speed(&self, direction: Point) -> f64 {
+        self.least_along(direction, |border| border.speed)
+    }
+
+    fn least_along(&self, direction: Point, bound: impl Fn(&Border) -> f64) -> f64 {
+        let mut least = f64::INFINITY;
+        for border in &self.borders {
+            let slope = direction.dot(border.normal);
+            if slope > PARALLEL {
+                least = smaller(least, bound(border) / slope);
+            }
+        }
+        larger(least, 0.0)
+    }
+}
+
+/// The displacement in the plane turned to the left by an angle in radians.
+pub(super) fn turned(vector: Point, angle: f64) -> Point {
+    let (sine, cosine) = math::sincos(angle);
+    Point::planar(
+        vector.x * cosine - vector.y * sine,
+        vector.x * sine + vector.y * cosine,
+    )
+}
+
+/// The smaller number.
+pub(super) fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The larger number.
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}

@@ -1,0 +1,292 @@
+//! Reciprocal avoidance: keeps robots from colliding with each other, and from blocking each other
+//! for ever.
+//!
+//! Each robot, at each position estimate, confines the point where it can stop to its own buffered
+//! Voronoi cell (Zhou, Wang, Bandyopadhyay and Schwager 2017, "Fast, on-line collision avoidance for
+//! dynamic vehicles using buffered Voronoi cells"), from nothing but what it perceives of its
+//! neighbours: no messages, no agreement, no order among robots.
+//!
+//! Where ours differs: a border splits the gap between two bodies instead of the distance of their
+//! centres; it is the stopping point that stays inside, so robots with inertia are covered; a limit
+//! of speed per direction replaces the paper's receding-horizon programme; heights count; and a robot
+//! without progress yields at random (`yielding.rs`) instead of by a fixed right-hand rule.
+//!
+//! What is guaranteed, and under which assumptions, is in `docs/explanation/avoidance.md`.
+
+mod cell;
+mod height;
+mod options;
+mod yielding;
+
+pub use options::Options;
+
+use crate::Limits;
+use crate::pilot::Neighbour;
+use crate::tracking::Goal;
+use cell::{Border, Cell, larger, smaller};
+use starl_core::motion::{Body, Estimate};
+use starl_core::{Obstacle, Point, Random, Time};
+use yielding::Yielding;
+
+/// Estimates that a robot waits for until it may have used up its room: the stopping point closes in
+/// on a border by this fraction of the room a period, or less. Anything above Euler's number keeps
+/// two robots that see each other one period late from overshooting.
+const PERIODS_AHEAD: f64 = 3.0;
+
+/// Room kept to obstacles while a robot is off its planned path, metres.
+const OBSTACLE_MARGIN: f64 = 0.02;
+
+/// The avoidance of one robot.
+#[derive(Clone, Debug)]
+pub struct Avoidance {
+    options: Options,
+    last: Option<Time>,
+    period: f64,
+    yielding: Yielding,
+}
+
+impl Avoidance {
+    /// Avoidance for a robot that has not moved yet.
+    pub fn new(options: Options) -> Avoidance {
+        let period = options.period;
+        Avoidance {
+            options,
+            last: None,
+            period,
+            yielding: Yielding::default(),
+        }
+    }
+
+    /// Distance between centres, metres, within which neighbours must be handed to
+    /// [`Avoidance::guide`].
+    pub fn range(&self, body: &Body, limits: &Limits) -> f64 {
+        let room = Pace::new(limits, self.period).room_needed + self.options.margin;
+        // A neighbour that comes as fast is known a period late.
+        let late = limits.speed * self.period;
+        body.radius + self.options.largest_radius + 2.0 * room + late
+    }
+
+    /// The goal to track until the next estimate: a point of the robot's own cell and a limit of
+    /// speed at which it cannot leave the cell. Without a neighbour near enough to matter this is
+    /// `goal` itself.
+    ///
+    /// A robot that flies and is still on the ground is to stay there while the height of the goal
+    /// returned is below its lowest height of travel: someone is above it.
+    #[allow(clippy::too_many_arguments)]
+    pub fn guide(
+        &mut self,
+        body: &Body,
+        limits: &Limits,
+        estimate: &Estimate,
+        goal: &Goal,
+        neighbours: &[Neighbour],
+        obstacles: &[Obstacle],
+        random: &mut Random,
+    ) -> Goal {
+        let elapsed = self.note_time(estimate.at);
+        let pace = Pace::new(limits, self.period);
+        let mut cell = self.cell(body, &pace, estimate, neighbours);
+        let height = self.height(body, &pace, estimate, goal.target.z, neighbours);
+        let position = estimate.pose.position;
+        let destination = self
+            .yielding
+            .destination(position, goal.target, estimate.at);
+        let on_course = destination == goal.target;
+        if cell.is_empty() && on_course {
+            self.yielding.unhindered();
+            return Goal {
+                target: goal.target.at_height(height),
+                ..*goal
+            };
+        }
+
+        let way = (destination - position).at_height(0.0);
+        let distance = way.planar_length();
+        let wish = pace.wish(way, distance, goal.speed_limit);
+        let mut velocity = cell.velocity(wish);
+        if velocity != wish || !on_course {
+            add_obstacles(&mut cell, &pace, body, estimate, obstacles);
+            velocity = cell.velocity(wish);
+        }
+        let hindered = velocity != wish && on_course;
+        let scene = yielding::Scene {
+            body,
+            position,
+            target: goal.target,
+            neighbours,
+            cell: &cell,
+        };
+        self.yielding.observe(
+            &self.options,
+            &scene,
+            hindered,
+            elapsed,
+            estimate.at,
+            random,
+        );
+
+        let ahead = velocity.normalized().unwrap_or(Point::ZERO);
+        if velocity == wish && on_course && cell.reach(ahead) >= distance {
+            let speed_limit = smaller(goal.speed_limit, speed_limit(body, estimate, &cell, ahead));
+            return Goal {
+                target: goal.target.at_height(height),
+                next: goal.next,
+                speed_limit,
+            };
+        }
+        let step = ahead * smaller(cell.reach(ahead), larger(distance, body.radius));
+        let speed = smaller(
+            velocity.planar_length(),
+            speed_limit(body, estimate, &cell, ahead),
+        );
+        Goal {
+            target: (position + step).at_height(height),
+            next: None,
+            speed_limit: smaller(goal.speed_limit, speed),
+        }
+    }
+
+    /// Seconds since the last estimate; remembers the longest of late.
+    fn note_time(&mut self, now: Time) -> f64 {
+        let elapsed = self.last.map_or(0.0, |last| now.since(last).seconds());
+        self.last = Some(now);
+        self.period = larger(self.options.period, elapsed);
+        elapsed
+    }
+
+    /// The robot's cell, without borders so far away that they do not matter before the next
+    /// estimate.
+    fn cell(
+        &self,
+        body: &Body,
+        pace: &Pace,
+        estimate: &Estimate,
+        neighbours: &[Neighbour],
+    ) -> Cell {
+        let mut cell = Cell::default();
+        let position = estimate.pose.position;
+        for (index, neighbour) in neighbours.iter().enumerate() {
+            let offset = (neighbour.position - position).at_height(0.0);
+            let distance = offset.planar_length();
+            let gap = distance - body.radius - neighbour.radius;
+            // Two robots at the very same place: any direction will do, if they take opposite ones.
+            let normal = if distance > 0.0 {
+                offset / distance
+            } else {
+                Point::planar(1.0, 0.0)
+            };
+            // What is known of the neighbour may be a period old.
+            let approach = larger(-neighbour.velocity.dot(normal), 0.0) * self.period;
+            let room = 0.5 * (gap - approach) - self.options.margin;
+            if room < pace.room_needed && !self.is_clear_in_height(body, pace, estimate, neighbour)
+            {
+                let speed = pace.speed_towards(normal, room, estimate);
+                cell.push(Border {
+                    normal,
+                    room,
+                    speed,
+                    neighbour: index as u32,
+                });
+            }
+        }
+        cell
+    }
+}
+
+/// How a robot stops and how far ahead it has to think.
+#[derive(Clone, Copy, Debug)]
+struct Pace {
+    cruise_speed: f64,
+    /// Seconds for which its speed carries on when it brakes: stopping distance over cruise speed.
+    /// As the distance grows faster than the speed, or just as fast, this does for lower speeds too.
+    /// Nothing for a robot that changes its speed at once.
+    braking_time: f64,
+    /// Seconds in which it may use up the room left beyond its stopping point, or more.
+    horizon: f64,
+    /// Metres that it needs to stop from its cruise speed, until it has noticed included.
+    room_needed: f64,
+}
+
+impl Pace {
+    fn new(limits: &Limits, period: f64) -> Pace {
+        let cruise_speed = limits.cruise_speed;
+        let at_once = limits.acceleration == f64::INFINITY || cruise_speed <= 0.0;
+        let braking_time = if at_once {
+            0.0
+        } else {
+            limits.stopping_distance / cruise_speed
+        };
+        let horizon = PERIODS_AHEAD * period;
+        let room_needed = cruise_speed * (braking_time + horizon);
+        Pace {
+            cruise_speed,
+            braking_time,
+            horizon,
+            room_needed,
+        }
+    }
+
+    /// The velocity that the robot would like to have `way` before its destination.
+    fn wish(&self, way: Point, distance: f64, speed_limit: f64) -> Point {
+        if distance <= 0.0 {
+            return Point::ZERO;
+        }
+        let slowing = distance / (self.braking_time + self.horizon);
+        way * (smaller(smaller(self.cruise_speed, speed_limit), slowing) / distance)
+    }
+
+    /// How fast it may go along a normal when the border is `room` metres ahead: so that its stopping
+    /// point stays behind the border; backwards where it is beyond the border itself.
+    fn speed_towards(&self, normal: Point, room: f64, estimate: &Estimate) -> f64 {
+        let coast = larger(estimate.twist.linear.dot(normal), 0.0) * self.braking_time;
+        smaller(larger(room - coast, 0.0), room) / self.horizon
+    }
+}
+
+/// The greatest speed in a direction, metres per second, at which the stopping point is still in the
+/// cell when the next estimates have come.
+fn speed_limit(body: &Body, estimate: &Estimate, cell: &Cell, ahead: Point) -> f64 {
+    let speed = cell.speed(ahead);
+    let course = estimate.twist.linear.at_height(0.0).normalized();
+    match course {
+        // Wheels: until it has turned, the robot goes where it is heading now.
+        Some(course) if !body.flies() => {
+            let between = (course + ahead).normalized().unwrap_or(course);
+            smaller(speed, smaller(cell.speed(course), cell.speed(between)))
+        }
+        _ => speed,
+    }
+}
+
+/// Adds the borders of nearby obstacles, which no robot shares: they keep a robot that is off its
+/// planned path from sliding into a wall.
+fn add_obstacles(
+    cell: &mut Cell,
+    pace: &Pace,
+    body: &Body,
+    estimate: &Estimate,
+    obstacles: &[Obstacle],
+) {
+    let position = estimate.pose.position;
+    for obstacle in obstacles {
+        let beside = obstacle
+            .height()
+            .is_none_or(|span| span.low < position.z + body.height && position.z < span.high);
+        let room = obstacle.body_gap(position, body.radius, body.height) - OBSTACLE_MARGIN;
+        // A body that reaches into an obstacle is not the business of avoidance: it may go anywhere.
+        if !beside || room >= pace.room_needed || obstacle.contains(position) {
+            continue;
+        }
+        let room = larger(room, 0.0);
+        let towards = (obstacle.nearest_point(position) - position).at_height(0.0);
+        if let Some(normal) = towards.normalized() {
+            let speed = pace.speed_towards(normal, room, estimate);
+            cell.push(Border {
+                normal,
+                room,
+                speed,
+                neighbour: u32::MAX,
+            });
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! Getting out of each other's way: what a robot does when its neighbours leave it no progress.
+//!
+//! Cells alone keep robots apart but let them block each other: two that meet head-on, or a crowd
+//! around one way-point, stop at the borders between them. A robot that has made no progress for its
+//! patience while a neighbour was in the way leaves its course for a while: to the side (mostly the
+//! right), or backwards. Direction and time are drawn at random, so robots in the same situation do
+//! different things, and the times grow with every vain attempt, as in Ethernet's back-off (Metcalfe
+//! and Boggs 1976), until some robot has the room it needs. The robot that is nearest to its own
+//! target mostly stands its ground: of robots that want the same point, the others make way.
+
+use super::Options;
+use super::cell::{Cell, larger, smaller, turned};
+use crate::pilot::Neighbour;
+use starl_core::motion::Body;
+use starl_core::{Duration, Point, Random, Time, math};
+
+/// Coming nearer to the target by this counts as progress, metres.
+const PROGRESS: f64 = 0.03;
+/// Coming nearer to the target by this ends the growth of the back-off, metres.
+const GOOD_PROGRESS: f64 = 0.2;
+/// After this many vain attempts times grow no further.
+const MOST_LEVELS: u32 = 4;
+
+/// What a robot sees when it judges its progress.
+pub(super) struct Scene<'a> {
+    pub body: &'a Body,
+    pub position: Point,
+    pub target: Point,
+    pub neighbours: &'a [Neighbour],
+    pub cell: &'a Cell,
+}
+
+/// A place off the course, and how long to stay away.
+#[derive(Clone, Copy, Debug)]
+struct Detour {
+    place: Point,
+    until: Time,
+}
+
+/// Progress towards the target, and the detour that the robot is on.
+#[derive(Clone, Debug)]
+pub(super) struct Yielding {
+    target: Option<Point>,
+    nearest: f64,
+    record: f64,
+    stuck: f64,
+    level: u32,
+    detour: Option<Detour>,
+}
+
+impl Default for Yielding {
+    fn default() -> Yielding {
+        Yielding {
+            target: None,
+            nearest: f64::INFINITY,
+            record: f64::INFINITY,
+            stuck: 0.0,
+            level: 0,
+            detour: None,
+        }
+    }
+}
+
+impl Yielding {
+    /// Where to go now: the target, or the place of a detour.
+    pub fn destination(&mut self, position: Point, target: Point, now: Time) -> Point {
+        if self.target != Some(target) {
+            self.target = Some(target);
+            self.nearest = f64::INFINITY;
+            self.record = f64::INFINITY;
+            self.stuck = 0.0;
+            self.detour = None;
+        }
+        match self.detour {
+            Some(detour) if now < detour.until => detour.place.at_height(position.z),
+            _ => {
+                if self.detour.take().is_some() {
+                    self.nearest = f64::INFINITY;
+                    self.stuck = 0.0;
+                }
+                target
+            }
+        }
+    }
+
+    /// Nobody is near.
+    pub fn unhindered(&mut self) {
+        self.stuck = 0.0;
+    }
+
+    /// Takes note of the progress made and starts a detour when patience has run out.
+    pub fn observe(
+        &mut self,
+        options: &Options,
+        scene: &Scene,
+        hindered: bool,
+        elapsed: f64,
+        now: Time,
+        random: &mut Random,
+    ) {
+        if self.detour.is_some() {
+            return;
+        }
+        let distance = scene.target.planar_distance(scene.position);
+        if distance < self.nearest - PROGRESS {
+            self.nearest = distance;
+            self.stuck = 0.0;
+        } else if hindered {
+            self.stuck += elapsed;
+        }
+        if distance < self.record - GOOD_PROGRESS {
+            self.record = distance;
+            self.level = 0;
+        }
+        if self.stuck <= options.patience {
+            return;
+        }
+        self.stuck = 0.0;
+        let first = !scene.cell.borders().iter().any(|border| {
+            scene
+                .neighbours
+                .get(border.neighbour as usize)
+                .is_some_and(|neighbour| {
+                    neighbour.position.planar_distance(scene.target) < distance
+                })
+        });
+        if random.chance(if first { 0.25 } else { 0.75 }) {
+            self.detour = Some(self.draw(options, scene, now, random));
+            self.level = (self.level + 1).min(MOST_LEVELS);
+        }
+    }
+
+    fn draw(&self, options: &Options, scene: &Scene, now: Time, random: &mut Random) -> Detour {
+        let towards = (scene.target - scene.position).at_height(0.0);
+        let towards = towards.normalized().unwrap_or(Point::planar(1.0, 0.0));
+        let growth = f64::from(1u32 << self.level);
+        let angle = if random.chance(0.5) {
+            -random.between(0.3 * math::PI, 0.6 * math::PI)
+        } else {
+            random.between(0.6 * math::PI, 1.4 * math::PI)
+        };
+        let distance =
+            random.between(1.0, 2.0) * (scene.body.radius + 0.1) * larger(1.0, 0.5 * growth);
+        let time =
+            smaller(options.patience * growth, options.longest_yield) * random.between(0.5, 1.5);
+        Detour {
+            place: scene.position + turned(towards, angle) * distance,
+            until: now + Duration::from_seconds_f64(time),
+        }
+    }
+}
