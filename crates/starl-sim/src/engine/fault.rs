@@ -10,7 +10,7 @@ pub fn timeline(scenario: &Scenario) -> Vec<Fault> {
     let mut faults = scenario.faults.schedule.clone();
     let rates = &scenario.faults.rates;
     let end = Time::ZERO + scenario.duration;
-    let mut draw = |purpose: u64, robot: u64, rate: f64, make: &mut dyn FnMut(Time, &mut Random)| {
+    let draw = |purpose: u64, robot: u64, rate: f64, make: &mut dyn FnMut(Time, &mut Random)| {
         if rate <= 0.0 {
             return;
         }

@@ -42,6 +42,11 @@ pub struct Scratch {
 }
 
 impl Shard {
+    /// An empty shard whose first robot will have this number.
+    pub fn starting_at(first: u32) -> Shard {
+        Shard { first, ..Shard::default() }
+    }
+
     /// Lets each robot take its inputs of this step and predicts its motion; `next` receives the
     /// predicted positions.
     pub fn act(&mut self, shared: &Shared, window: Window, next: &mut [Point]) {

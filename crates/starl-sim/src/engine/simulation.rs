@@ -439,7 +439,7 @@ fn populate(shared: &mut Shared) -> Vec<Shard> {
             shared.perceived.push(body);
         }
         if index % SIZE == 0 {
-            shards.push(Shard { first: index as u32, ..Shard::default() });
+            shards.push(Shard::starting_at(index as u32));
         }
         if let Some(shard) = shards.last_mut() {
             let robot = RobotId(index as u32);

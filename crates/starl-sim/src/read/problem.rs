@@ -1,0 +1,105 @@
+//! What is wrong with an input, where, and how to mend it.
+//!
+//! Invariant: every problem names a place a person can go to: a file with line and column, or a
+//! command-line option.
+
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Where a value was written.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Place {
+    /// In a file.
+    File {
+        /// Its name, as it was given.
+        name: String,
+        /// Counted from 1.
+        line: u32,
+        /// In characters, counted from 1.
+        column: u32,
+    },
+    /// On the command line: `--set network.loss`.
+    Option(String),
+}
+
+/// One thing that is wrong with an input.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Problem {
+    /// Where.
+    pub place: Place,
+    /// The field it concerns, as a dotted path such as `robots.0.count`; empty where the text is no
+    /// field, as in a world file.
+    pub field: String,
+    /// What is wrong.
+    pub message: String,
+    /// How to mend it.
+    pub help: Option<String>,
+}
+
+/// All that is wrong with an input; at least one problem, in the order of the text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problems(pub Vec<Problem>);
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::File { name, line, column } => write!(f, "{name}:{line}:{column}"),
+            Place::Option(option) => write!(f, "{option}"),
+        }
+    }
+}
+
+impl fmt::Display for Problem {
+    /// On one line: `race.toml:14:8: network.loss: 1.5 is not a probability; give a number from 0
+    /// to 1`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: ", self.place)?;
+        let named_already = match &self.place {
+            Place::Option(option) => option.ends_with(&self.field),
+            Place::File { .. } => self.field.is_empty(),
+        };
+        if !named_already {
+            write!(f, "{}: ", self.field)?;
+        }
+        write!(f, "{}", self.message)?;
+        match &self.help {
+            Some(help) => write!(f, "; {help}"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for Problems {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, problem) in self.0.iter().enumerate() {
+            if index > 0 {
+                writeln!(f)?;
+            }
+            write!(f, "{problem}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Problem {}
+
+impl std::error::Error for Problems {}
+
+impl From<Problem> for Problems {
+    fn from(problem: Problem) -> Problems {
+        Problems(vec![problem])
+    }
+}
+
+/// Line and column, both from 1, of a byte offset in a text; offsets beyond the end count as the end.
+pub(super) fn line_and_column(text: &str, offset: usize) -> (u32, u32) {
+    let mut end = offset.min(text.len());
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    let before = &text[..end];
+    let start_of_line = before.rfind('\n').map_or(0, |at| at + 1);
+    let line = 1 + before.matches('\n').count();
+    let column = 1 + before[start_of_line..].chars().count();
+    (line as u32, column as u32)
+}

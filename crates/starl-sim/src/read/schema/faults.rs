@@ -1,0 +1,57 @@
+//! The fields of `fault` and `fault_rates`.
+
+use super::*;
+
+/// A fault on the schedule.
+pub(super) const FAULT: &[Field] = &[
+    field("at", TIME, Default::Required, "When it sets in."),
+    field(
+        "kind",
+        Kind::Choice(&[
+            "crash",
+            "restart",
+            "partition",
+            "heal",
+            "stuck_motor",
+            "frozen_sensor",
+            "repair",
+            "corrupt_state",
+        ]),
+        Default::Required,
+        "What happens; see the list below.",
+    ),
+    field(
+        "robots",
+        Kind::Robots,
+        Default::Depends("required, but not for `partition` and `heal`"),
+        "Whom it concerns.",
+    ),
+    field(
+        "groups",
+        Kind::RobotGroups,
+        Default::Depends("required for `partition`, not for others"),
+        "The parts of the fleet; robots in none of them form one more.",
+    ),
+];
+
+/// Faults at random.
+pub(super) const RATES: &[Field] = &[
+    field("crash", RATE, Default::Value("0/s"), "Crashes of each robot."),
+    field("restart_after", PERIOD, Default::Word("never"), "A crashed robot restarts after this time."),
+    field(
+        "partition",
+        RATE,
+        Default::Value("0/s"),
+        "Partitions of the fleet into two random halves.",
+    ),
+    field("heal_after", PERIOD, Default::Value("5s"), "A partition heals after this time."),
+    field("stuck_motor", RATE, Default::Value("0/s"), "Stuck motors of each robot."),
+    field("frozen_sensor", RATE, Default::Value("0/s"), "Frozen sensors of each robot."),
+    field(
+        "repair_after",
+        PERIOD,
+        Default::Value("5s"),
+        "Motors and sensors are repaired after this time.",
+    ),
+    field("corrupt_state", RATE, Default::Value("0/s"), "Corruptions of each robot's state."),
+];

@@ -1,0 +1,198 @@
+//! Every field of a scenario: name, kind, default and meaning, in one table.
+//!
+//! The reader takes defaults, ranges and units from here and refuses what is not here;
+//! `docs/reference/scenario.md` is compared with it by a test. So a field cannot be read without
+//! being documented, nor documented without being read.
+
+mod faults;
+mod network;
+mod robots;
+mod settings;
+mod world;
+
+pub use super::unit::Dimension;
+pub use settings::SCENARIO;
+
+/// A field of a table.
+#[derive(Clone, Copy, Debug)]
+pub struct Field {
+    /// Its name in the file.
+    pub name: &'static str,
+    /// What it holds.
+    pub kind: Kind,
+    /// What holds where it is left out.
+    pub default: Default,
+    /// What it means, in a sentence.
+    pub about: &'static str,
+}
+
+/// What holds where a field is left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Default {
+    /// This value, as it would be written in the file without quotes.
+    Value(&'static str),
+    /// Nothing; this word says so, and may be written too.
+    Word(&'static str),
+    /// Something that depends on other fields, in words.
+    Depends(&'static str),
+    /// It must not be left out.
+    Required,
+}
+
+/// Which numbers are allowed; all must be finite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Range {
+    /// All.
+    Any,
+    /// Zero and above.
+    NotNegative,
+    /// Above zero.
+    Positive,
+}
+
+/// What a field holds.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    /// A text that is not empty.
+    Text,
+    /// A list of texts.
+    Texts,
+    /// `true` or `false`.
+    Flag,
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// The name of a robot model.
+    Model,
+    /// A whole number, both ends included.
+    Count(u64, u64),
+    /// A number from 0 to 1, or a percentage.
+    Probability,
+    /// A number with a unit.
+    Quantity(Dimension, Range),
+    /// `[x, y]` or `[x, y, z]`, lengths.
+    Point,
+    /// `[x, y]`, lengths.
+    PlanarPoint,
+    /// Two or more of `[x, y]`.
+    Outline,
+    /// `[x, y]` or `[x, y, z]`, speeds.
+    Velocity,
+    /// `[low, high]`, lengths.
+    Heights,
+    /// Robots: a list of names of robots or of groups, or `"all"`.
+    Robots,
+    /// A list of such lists.
+    RobotGroups,
+    /// Values under names of the program's own.
+    Parameters,
+    /// Numbers under names of the model's own.
+    ModelParameters,
+    /// A table.
+    Table(&'static [Field]),
+    /// Any number of tables.
+    Tables(&'static [Field]),
+    /// A table that may also be `true`, all its fields at their defaults, or `false`.
+    Switch(&'static [Field]),
+}
+
+const fn field(
+    name: &'static str,
+    kind: Kind,
+    default: Default,
+    about: &'static str,
+) -> Field {
+    Field { name, kind, default, about }
+}
+
+const fn table(name: &'static str, fields: &'static [Field], about: &'static str) -> Field {
+    field(name, Kind::Table(fields), Default::Value("all at their defaults"), about)
+}
+
+const fn tables(name: &'static str, fields: &'static [Field], about: &'static str) -> Field {
+    field(name, Kind::Tables(fields), Default::Word("none"), about)
+}
+
+/// A box in the floor plane, given by two corners.
+const CORNERS: &[Field] = &[
+    field("low", Kind::PlanarPoint, Default::Required, "Corner with the lowest x and y."),
+    field("high", Kind::PlanarPoint, Default::Required, "Corner with the highest x and y."),
+];
+
+/// A duration above zero.
+const PERIOD: Kind = Kind::Quantity(Dimension::Time, Range::Positive);
+/// A duration.
+const TIME: Kind = Kind::Quantity(Dimension::Time, Range::NotNegative);
+/// A length above zero.
+const SIZE: Kind = Kind::Quantity(Dimension::Length, Range::Positive);
+/// A length.
+const LENGTH: Kind = Kind::Quantity(Dimension::Length, Range::NotNegative);
+/// A standard deviation or bound of a relative error.
+const RATIO: Kind = Kind::Quantity(Dimension::Ratio, Range::NotNegative);
+/// Events in a second.
+const RATE: Kind = Kind::Quantity(Dimension::Rate, Range::NotNegative);
+
+/// The robot models there are.
+pub(super) fn model_names() -> impl Iterator<Item = &'static str> {
+    starl_motion::models::NAMES.into_iter().map(|(name, _)| name)
+}
+
+impl Kind {
+    /// What it holds, for the reference.
+    pub fn describe(&self) -> String {
+        let range = |range: Range| match range {
+            Range::Any => "",
+            Range::NotNegative => ", at least 0",
+            Range::Positive => ", above 0",
+        };
+        match self {
+            Kind::Text => "text".to_string(),
+            Kind::Texts => "list of texts".to_string(),
+            Kind::Flag => "true or false".to_string(),
+            Kind::Choice(words) => words
+                .iter()
+                .map(|word| format!("`\"{word}\"`"))
+                .collect::<Vec<_>>()
+                .join(", "),
+            Kind::Model => model_names().map(|name| format!("`\"{name}\"`")).collect::<Vec<_>>().join(", "),
+            Kind::Count(least, u64::MAX) => format!("whole number, at least {least}"),
+            Kind::Count(least, most) => format!("whole number, {least} to {most}"),
+            Kind::Probability => "probability, 0 to 1 or a percentage".to_string(),
+            Kind::Quantity(dimension, limits) => {
+                let name = dimension.name().trim_start_matches("an ").trim_start_matches("a ");
+                format!("{name}{}", range(*limits))
+            }
+            Kind::Point => "point `[x, y]` or `[x, y, z]`".to_string(),
+            Kind::PlanarPoint => "point `[x, y]`".to_string(),
+            Kind::Outline => "list of points `[x, y]`".to_string(),
+            Kind::Velocity => "velocity `[x, y]` or `[x, y, z]`".to_string(),
+            Kind::Heights => "heights `[low, high]`".to_string(),
+            Kind::Robots => "robots".to_string(),
+            Kind::RobotGroups => "list of robots".to_string(),
+            Kind::Parameters => "table of anything".to_string(),
+            Kind::ModelParameters => "table of quantities".to_string(),
+            Kind::Table(_) => "table".to_string(),
+            Kind::Tables(_) => "list of tables".to_string(),
+            Kind::Switch(_) => "table, `true` or `false`".to_string(),
+        }
+    }
+
+    /// The fields of a table's kind.
+    pub fn fields(&self) -> &'static [Field] {
+        match self {
+            Kind::Table(fields) | Kind::Tables(fields) | Kind::Switch(fields) => fields,
+            _ => &[],
+        }
+    }
+}
+
+impl Default {
+    /// The default, for the reference.
+    pub fn describe(&self) -> String {
+        match self {
+            Default::Value(text) | Default::Word(text) | Default::Depends(text) => {
+                (*text).to_string()
+            }
+            Default::Required => "required".to_string(),
+        }
+    }
+}

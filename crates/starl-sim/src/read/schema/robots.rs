@@ -1,0 +1,132 @@
+//! The fields of a group of robots.
+
+use super::*;
+
+/// Robots of the same kind.
+pub(super) const ROBOTS: &[Field] = &[
+    field(
+        "model",
+        Kind::Model,
+        Default::Required,
+        "How they move.",
+    ),
+    field(
+        "count",
+        Kind::Count(0, 10_000_000),
+        Default::Depends("as many as `start` has, or 1"),
+        "How many there are.",
+    ),
+    field(
+        "name",
+        Kind::Text,
+        Default::Depends("the model's"),
+        "What they are called: this and a number.",
+    ),
+    field(
+        "numbered",
+        Kind::Flag,
+        Default::Value("true"),
+        "Whether the number is added; only a robot that is alone in its group can do without.",
+    ),
+    field(
+        "first_number",
+        Kind::Count(0, 1_000_000_000),
+        Default::Value("0"),
+        "The number of the first.",
+    ),
+    field("program", Kind::Text, Default::Depends("the scenario's `program`"), "What they run."),
+    field(
+        "parameters",
+        Kind::Parameters,
+        Default::Value("none"),
+        "Handed to their program, besides the scenario's `parameters` and before them.",
+    ),
+    tables(
+        "start",
+        START,
+        "Where they start, in the order of their numbers. A robot for which there is none starts \
+         where a world file says, or else at random in `area`, clear of obstacles and robots.",
+    ),
+    field(
+        "area",
+        Kind::Table(CORNERS),
+        Default::Depends("the world's `start_area`"),
+        "Where robots without a start are placed.",
+    ),
+    field(
+        "spacing",
+        LENGTH,
+        Default::Value("100mm"),
+        "Least gap between a robot placed at random and any other robot or obstacle.",
+    ),
+    field(
+        "control_period",
+        PERIOD,
+        Default::Value("100ms"),
+        "Time between two activations of the program.",
+    ),
+    table("sensors", SENSORS, "What they sense."),
+    table(
+        "clock",
+        CLOCK,
+        "How wrong their clocks are. A robot's clock reads offset + (1 + drift) * time; both are \
+         drawn evenly for each robot.",
+    ),
+    field(
+        "model_parameters",
+        Kind::ModelParameters,
+        Default::Value("the model's own"),
+        "Changes the model; see `models.md` for the names.",
+    ),
+];
+
+const START: &[Field] = &[
+    field("position", Kind::Point, Default::Required, "Centre of the body's base."),
+    field(
+        "heading",
+        Kind::Quantity(Dimension::Angle, Range::Any),
+        Default::Value("0deg"),
+        "Direction from the x axis, left positive.",
+    ),
+];
+
+const SENSORS: &[Field] = &[
+    field("bumper", Kind::Flag, Default::Value("true"), "Feels contacts."),
+    field(
+        "proximity",
+        Kind::Switch(PROXIMITY),
+        Default::Value("false"),
+        "Measures distances along rays evenly round the body, the first straight ahead.",
+    ),
+    field(
+        "detector",
+        Kind::Switch(DETECTOR),
+        Default::Value("false"),
+        "Sees things and robots in line of sight.",
+    ),
+    field(
+        "discovery_range",
+        LENGTH,
+        Default::Value("600mm"),
+        "Hidden obstacles this near to the body's edge and in line of sight become known. A robot \
+         that bumps into one knows it in any case.",
+    ),
+];
+
+const PROXIMITY: &[Field] = &[
+    field("rays", Kind::Count(1, 1024), Default::Value("24"), "How many."),
+    field("range", SIZE, Default::Value("100mm"), "How far they see beyond the body's edge."),
+];
+
+const DETECTOR: &[Field] =
+    &[field("range", SIZE, Default::Value("600mm"), "How far, from the robot's centre.")];
+
+const CLOCK: &[Field] = &[
+    field(
+        "offset",
+        TIME,
+        Default::Value("0s"),
+        "Greatest offset; clocks start between 0 and this.",
+    ),
+    field("drift", RATIO, Default::Value("0"), "Greatest drift either way, e.g. `\"50ppm\"`."),
+];

@@ -1,0 +1,184 @@
+//! The fields of a scenario's top level, and the tables that concern the run as a whole.
+
+use super::*;
+
+/// All fields of a scenario.
+pub const SCENARIO: &[Field] = &[
+    field("title", Kind::Text, Default::Depends("the file's name"), "What is run."),
+    field(
+        "program",
+        Kind::Text,
+        Default::Depends("each group names its own"),
+        "What the robots run, unless their group says otherwise.",
+    ),
+    field(
+        "seed",
+        Kind::Count(0, i64::MAX as u64),
+        Default::Value("1"),
+        "Decides every random draw of the run.",
+    ),
+    field("duration", PERIOD, Default::Value("120s"), "The run ends here at the latest."),
+    field(
+        "goal",
+        Kind::Choice(&["finished", "duration"]),
+        Default::Value("finished"),
+        "When the run has reached its goal: when every robot that is up has finished, and it ends \
+         then; or when it has lasted its duration.",
+    ),
+    field(
+        "parameters",
+        Kind::Parameters,
+        Default::Value("none"),
+        "Handed to every program, unless its group says otherwise.",
+    ),
+    table("world", world::WORLD, "What robots move in."),
+    field(
+        "robots",
+        Kind::Tables(robots::ROBOTS),
+        Default::Required,
+        "The fleet, a table for each group of robots of the same kind. They are numbered through \
+         from 0 in the order of the file.",
+    ),
+    table("physics", PHYSICS, "How finely motion is computed."),
+    table("positioning", POSITIONING, "How robots learn where they are."),
+    table("motion", MOTION, "How exactly robots move, and how they keep clear of each other."),
+    table(
+        "wind",
+        WIND,
+        "Moving air, the same everywhere: a steady part and a gust that swings as a sine. Robots \
+         on the ground do not feel it.",
+    ),
+    table("network", network::NETWORK, "How messages travel."),
+    tables("fault", faults::FAULT, "What breaks, and when."),
+    table(
+        "fault_rates",
+        faults::RATES,
+        "Faults at random, drawn from the seed as Poisson processes.",
+    ),
+    table("properties", PROPERTIES, "What is checked while the run goes on."),
+    table("trace", TRACE, "What is recorded."),
+];
+
+const PHYSICS: &[Field] = &[
+    field(
+        "step",
+        PERIOD,
+        Default::Value("20ms"),
+        "The physics step. A message takes at least until the next one.",
+    ),
+    field(
+        "collisions",
+        Kind::Flag,
+        Default::Value("true"),
+        "Whether bodies stop each other and are stopped by obstacles.",
+    ),
+];
+
+const POSITIONING: &[Field] = &[
+    field("period", PERIOD, Default::Value("50ms"), "Time between two estimates."),
+    field(
+        "position_noise",
+        LENGTH,
+        Default::Value("0m"),
+        "Standard deviation of each coordinate of an estimate.",
+    ),
+    field(
+        "heading_noise",
+        Kind::Quantity(Dimension::Angle, Range::NotNegative),
+        Default::Value("0deg"),
+        "Standard deviation of each angle of an estimate.",
+    ),
+    field(
+        "velocity_noise",
+        Kind::Quantity(Dimension::Speed, Range::NotNegative),
+        Default::Value("0m/s"),
+        "Standard deviation of each component of an estimated velocity.",
+    ),
+];
+
+const MOTION: &[Field] = &[
+    field(
+        "speed_noise",
+        RATIO,
+        Default::Value("0"),
+        "Standard deviation of the relative error of driven speeds.",
+    ),
+    field(
+        "turn_noise",
+        RATIO,
+        Default::Value("0"),
+        "Standard deviation of the relative error of rates of turn.",
+    ),
+    field(
+        "noise_period",
+        PERIOD,
+        Default::Value("500ms"),
+        "How long one draw of these errors lasts.",
+    ),
+    field(
+        "avoidance",
+        Kind::Switch(AVOIDANCE),
+        Default::Value("true"),
+        "Reciprocal avoidance of other robots; `false` switches it off.",
+    ),
+];
+
+const AVOIDANCE: &[Field] = &[
+    field(
+        "margin",
+        LENGTH,
+        Default::Value("30mm"),
+        "Room that each robot keeps on its side of the border between two bodies.",
+    ),
+    field(
+        "vertical_clearance",
+        LENGTH,
+        Default::Value("100mm"),
+        "Free height at which robots above one another need not avoid each other in the plane.",
+    ),
+    field(
+        "patience",
+        PERIOD,
+        Default::Value("800ms"),
+        "Time without progress, while a neighbour is in the way, after which a robot may yield.",
+    ),
+    field(
+        "longest_yield",
+        PERIOD,
+        Default::Value("6s"),
+        "Longest time a robot yields before it tries again.",
+    ),
+];
+
+const WIND: &[Field] = &[
+    field("steady", Kind::Velocity, Default::Value("[0, 0, 0]"), "Steady velocity of the air."),
+    field("gust", Kind::Velocity, Default::Value("[0, 0, 0]"), "Amplitude of the gust."),
+    field("gust_period", PERIOD, Default::Value("10s"), "Period of the gust."),
+];
+
+const PROPERTIES: &[Field] = &[
+    field("no_collision", Kind::Flag, Default::Value("true"), "Bodies never touch."),
+    field(
+        "reach_avoid",
+        Kind::Flag,
+        Default::Value("true"),
+        "Safety, goal and progress of ReachAvoid.",
+    ),
+    field(
+        "progress_bound",
+        PERIOD,
+        Default::Value("120s"),
+        "Within this time of its start a ReachAvoid is no longer active.",
+    ),
+    field("broadcast", Kind::Flag, Default::Value("true"), "Broadcasts reach every robot that is up."),
+    field("broadcast_bound", PERIOD, Default::Value("30s"), "Within this time, the thesis's d1."),
+    field("geocast", Kind::Flag, Default::Value("true"), "Exclusion and inclusion of Geocast."),
+    field("geocast_bound", PERIOD, Default::Value("30s"), "Within this time, the thesis's d2."),
+];
+
+const TRACE: &[Field] = &[field(
+    "pose_period",
+    PERIOD,
+    Default::Value("100ms"),
+    "Time between two records of each robot's true pose.",
+)];

@@ -1,0 +1,115 @@
+//! The fields of `world`.
+
+use super::*;
+
+/// What robots move in.
+pub(super) const WORLD: &[Field] = &[
+    field(
+        "files",
+        Kind::Texts,
+        Default::Word("none"),
+        "World files to read, by their paths from the scenario's folder; see `world-files.md`.",
+    ),
+    field(
+        "bounds",
+        Kind::Table(CORNERS),
+        Default::Word("none"),
+        "A rectangle whose sides are walls: no body leaves it.",
+    ),
+    field(
+        "start_area",
+        Kind::Table(CORNERS),
+        Default::Depends("`bounds`, or else everything in the world and 1 m around it"),
+        "Where robots without a start of their own are placed, their bodies wholly inside.",
+    ),
+    tables("obstacle", OBSTACLE, "What is in the way. Each has one of the four shapes."),
+    tables("occupancy", OCCUPANCY, "Obstacles drawn in an image, as maps of buildings often are."),
+    tables("way_point", WAY_POINT, "Places handed to every program, in this order."),
+    tables("thing", THING, "Things that detectors see."),
+];
+
+const OBSTACLE: &[Field] = &[
+    field(
+        "polygon",
+        Kind::Outline,
+        Default::Word("none"),
+        "Shape: a convex polygon, its corners in order; a wall without thickness if there are two.",
+    ),
+    field("circle", Kind::Table(CIRCLE), Default::Word("none"), "Shape: an upright cylinder."),
+    field(
+        "rectangle",
+        Kind::Table(CORNERS),
+        Default::Word("none"),
+        "Shape: a rectangle with sides along the axes.",
+    ),
+    field(
+        "box",
+        Kind::Table(BOX),
+        Default::Word("none"),
+        "Shape: a box with sides along the axes, heights included.",
+    ),
+    field(
+        "height",
+        Kind::Heights,
+        Default::Word("unbounded"),
+        "Lowest and highest point; without it the obstacle reaches from the floor to the sky. Not \
+         for a box, which has its own.",
+    ),
+    field(
+        "hidden",
+        Kind::Flag,
+        Default::Value("false"),
+        "Robots do not know it until they meet it.",
+    ),
+    field("expires", PERIOD, Default::Word("never"), "It vanishes at this time."),
+];
+
+const CIRCLE: &[Field] = &[
+    field("center", Kind::PlanarPoint, Default::Required, "Its centre."),
+    field("radius", SIZE, Default::Required, "Its radius."),
+];
+
+const BOX: &[Field] = &[
+    field("low", Kind::Point, Default::Required, "Corner with the lowest x, y and z."),
+    field("high", Kind::Point, Default::Required, "Corner with the highest x, y and z."),
+];
+
+const OCCUPANCY: &[Field] = &[
+    field(
+        "image",
+        Kind::Text,
+        Default::Required,
+        "A PGM or PNG image, by its path from the scenario's folder; dark is occupied.",
+    ),
+    field("resolution", SIZE, Default::Required, "Side of a pixel."),
+    field(
+        "origin",
+        Kind::PlanarPoint,
+        Default::Value("[0, 0]"),
+        "Where the lower left corner of the image lies.",
+    ),
+    field(
+        "threshold",
+        Kind::Probability,
+        Default::Value("0.65"),
+        "A pixel at least this dark is an obstacle: 0 is white, 1 is black.",
+    ),
+    field("height", Kind::Heights, Default::Word("unbounded"), "As for an obstacle."),
+    field("hidden", Kind::Flag, Default::Value("false"), "As for an obstacle."),
+];
+
+const WAY_POINT: &[Field] = &[
+    field("name", Kind::Text, Default::Required, "Its name; no two are called the same."),
+    field("position", Kind::Point, Default::Required, "Where it is."),
+    field(
+        "group",
+        Kind::Count(0, u32::MAX as u64),
+        Default::Value("0"),
+        "A number by which a program may tell way-points apart.",
+    ),
+];
+
+const THING: &[Field] = &[
+    field("name", Kind::Text, Default::Required, "Its name; no two are called the same."),
+    field("position", Kind::Point, Default::Required, "Where it is."),
+];

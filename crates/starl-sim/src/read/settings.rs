@@ -1,0 +1,115 @@
+//! Reads a scenario's top level and the tables that concern the run as a whole.
+
+use super::fleet::{self, Draft};
+use super::inputs::{Recorder, Request};
+use super::names::Names;
+use super::section::Section;
+use super::{fault, network, place, reach, world};
+use crate::scenario::*;
+use starl_motion::avoidance;
+
+/// The scenario, or none if so much is wrong that later checks would only confuse.
+pub(super) fn read(root: Section<'_>, request: &Request, files: &Recorder<'_>) -> Option<Scenario> {
+    let title = root.text("title").unwrap_or_else(|| stem(&request.source.name));
+    let seed = root.count("seed").unwrap_or_default();
+    let duration = root.duration("duration");
+    let goal = match root.choice("goal").as_deref() {
+        Some("duration") => Goal::Duration,
+        _ => Goal::AllFinished,
+    };
+    let physics = root.table("physics", physics);
+    let positioning = root.table("positioning", positioning);
+    let wind = root.table("wind", wind);
+    let properties = root.table("properties", properties);
+    let trace = root.table("trace", |table| Trace { pose_period: table.duration("pose_period") });
+    let drafts = fleet::read(root, request.robots.as_deref());
+    let names = Names::new(&drafts, root.report);
+    let network = root.table("network", |table| network::read(table, &names));
+    let faults = fault::read(root, &names, duration);
+    let contents = root.table("world", |table| world::read(table, &names, files));
+    let motion = root.table("motion", |table| motion(table, &positioning, &drafts));
+
+    // Places make sense only in a world and with a fleet that are right.
+    if root.report.count() > 0 {
+        return None;
+    }
+    let area = contents.start_area;
+    let starts = place::starts(&drafts, &names, &contents, area, seed, root.report)?;
+    let fleet = fleet::assemble(drafts, starts);
+    reach::check(&fleet, &contents, root.report);
+    let world = contents.world();
+    let scenario = Scenario {
+        title,
+        seed,
+        duration,
+        goal,
+        world,
+        fleet,
+        physics,
+        positioning,
+        motion,
+        wind,
+        network,
+        faults,
+        properties,
+        trace,
+    };
+    Some(scenario)
+}
+
+/// A file's name without folders and ending.
+fn stem(name: &str) -> String {
+    let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    base.strip_suffix(".toml").unwrap_or(base).to_string()
+}
+
+fn physics(table: Section<'_>) -> Physics {
+    Physics { step: table.duration("step"), collisions: table.flag("collisions") }
+}
+
+fn positioning(table: Section<'_>) -> Positioning {
+    Positioning {
+        period: table.duration("period"),
+        position_noise: table.number("position_noise"),
+        heading_noise: table.number("heading_noise"),
+        velocity_noise: table.number("velocity_noise"),
+    }
+}
+
+fn motion(table: Section<'_>, positioning: &Positioning, drafts: &[Draft]) -> Motion {
+    let largest = drafts.iter().map(|draft| draft.model.body().radius).fold(0.0, f64::max);
+    let avoidance = table.switch("avoidance", |table| avoidance::Options {
+        margin: table.number("margin"),
+        vertical_clearance: table.number("vertical_clearance"),
+        patience: table.number("patience"),
+        longest_yield: table.number("longest_yield"),
+        period: positioning.period.seconds(),
+        largest_radius: largest,
+    });
+    Motion {
+        speed_noise: table.number("speed_noise"),
+        turn_noise: table.number("turn_noise"),
+        noise_period: table.duration("noise_period"),
+        avoidance,
+    }
+}
+
+fn wind(table: Section<'_>) -> Wind {
+    Wind {
+        steady: table.velocity("steady"),
+        gust: table.velocity("gust"),
+        gust_period: table.duration("gust_period"),
+    }
+}
+
+fn properties(table: Section<'_>) -> Properties {
+    Properties {
+        no_collision: table.flag("no_collision"),
+        reach_avoid: table.flag("reach_avoid"),
+        progress_bound: table.duration("progress_bound"),
+        broadcast: table.flag("broadcast"),
+        broadcast_bound: table.duration("broadcast_bound"),
+        geocast: table.flag("geocast"),
+        geocast_bound: table.duration("geocast_bound"),
+    }
+}

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Installs what `make test` needs beyond a Rust toolchain, make and git: compilation targets, Python's
+# test tools in a folder of their own, and Node.js to run WebAssembly. Does nothing that is done.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+need() { # need COMMAND PACKAGE...: the command, from Debian's packages if it is missing
+    local command=$1
+    shift
+    if command -v "$command" >/dev/null; then
+        return
+    fi
+    if ! command -v apt-get >/dev/null; then
+        echo "setup: '$command' is missing; install it and run this again" >&2
+        exit 1
+    fi
+    local sudo=""
+    [ "$(id -u)" = 0 ] || sudo=sudo
+    $sudo apt-get update -q
+    $sudo apt-get install -qy "$@"
+}
+
+need cc gcc
+need python3 python3 python3-venv
+need node nodejs
+
+rustup target add wasm32-unknown-unknown thumbv7em-none-eabihf
+rustup component add rustfmt clippy
+
+venv=target/venv
+if ! cmp -s tools/requirements.txt "$venv/requirements.txt"; then
+    python3 -c 'import ensurepip' 2>/dev/null || need python3-venv-is-missing python3-venv
+    rm -rf "$venv"
+    python3 -m venv "$venv"
+    "$venv/bin/pip" install --quiet --disable-pip-version-check -r tools/requirements.txt
+    cp tools/requirements.txt "$venv/requirements.txt"
+fi
