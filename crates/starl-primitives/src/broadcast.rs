@@ -3,8 +3,7 @@
 //! Property (d1): over a network that delivers a datagram within `longest_delay` or not at all, every
 //! robot that receives the message does so within [`Broadcast::delivery_bound`] of the call, once; and
 //! every robot receives it that is up and for which not all copies are lost. Whoever did not
-//! acknowledge it is named by [`Broadcast::take_failures`]. In FIFO order a message may wait longer,
-//! by at most as long again, for one sent before it.
+//! acknowledge it is named by [`Broadcast::take_failures`].
 
 use crate::Failure;
 use crate::channel::{Channel, report_arrival};

@@ -7,7 +7,7 @@
 //!   receive the message. This needs no assumption on the network;
 //! - inclusion: a robot whose estimate is inside throughout receives it once within that time, if it
 //!   is up, the network delivers a datagram within `longest_delay` or not at all, and not all copies
-//!   are lost. In FIFO order it may wait longer, by at most as long again, for an earlier message;
+//!   are lost;
 //! - a robot that moves in or out meanwhile may or may not receive it, by where it is when the first
 //!   copy comes.
 //!

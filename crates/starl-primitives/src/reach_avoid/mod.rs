@@ -12,15 +12,16 @@
 //! The flags are the thesis's: `active` while it is under way, `done`, `failed`, and none of them once
 //! it has given up.
 
+mod following;
 mod options;
+mod planning;
 mod route;
 
 pub use options::Options;
 
-use alloc::vec::Vec;
 use route::Route;
-use starl_core::motion::{Body, Obstacles, Path, PlanRequest};
-use starl_core::{Input, Obstacle, Point, Port, Primitive, Robot, TimerKey, Value};
+use starl_core::motion::Obstacles;
+use starl_core::{Input, Point, Port, Primitive, Robot, TimerKey, Value};
 
 const KIND: &str = "reach_avoid";
 
@@ -161,239 +162,6 @@ impl ReachAvoid {
         self.command.take().is_some()
     }
 
-    /// Asks for a path from here.
-    fn plan(&mut self, robot: &mut Robot<'_>, around_robots: bool) {
-        let timer = self.timer();
-        let Some(command) = &mut self.command else {
-            return;
-        };
-        command.phase = Phase::Planning;
-        command.known = robot.obstacles();
-        self.ticket = self.ticket.wrapping_add(1);
-        let random = robot.random();
-        let seed = u64::from(random.bits()) << 32 | u64::from(random.bits());
-        robot.plan(PlanRequest {
-            ticket: self.ticket,
-            target: command.target,
-            vicinity: self.options.vicinity,
-            unsafe_set: union(&command.unsafe_set, &command.known),
-            around_robots,
-            planner: self.options.planner,
-            most_nodes: self.options.most_nodes,
-            seed,
-        });
-        // Should no answer come, it counts as no path.
-        robot.set_timer(timer, self.options.stuck_after);
-    }
-
-    /// Plans again, if it may.
-    fn replan(&mut self, robot: &mut Robot<'_>, reason: &'static str, around_robots: bool) {
-        let Some(command) = &mut self.command else {
-            return;
-        };
-        if command.replans >= self.options.most_replans {
-            return self.give_up(robot, reason);
-        }
-        command.replans += 1;
-        self.report(robot, "replan", [("reason", reason.into())]);
-        self.plan(robot, around_robots);
-    }
-
-    /// Takes the planner's answer.
-    fn planned(&mut self, robot: &mut Robot<'_>, path: Option<&Path>) {
-        let (body, position) = (*robot.body(), robot.position());
-        let route = path.and_then(|path| Route::new(position, path.clone(), &body));
-        let Some(command) = &mut self.command else {
-            return;
-        };
-        let Some(route) = route else {
-            return self.no_path(robot);
-        };
-        command.plan_failures = 0;
-        let mark = to_go(&route, position, &body);
-        let points = route.points().to_vec();
-        command.phase = Phase::Following { route, mark };
-        self.report(robot, "path", [("path", points.into())]);
-        robot.set_timer(self.timer(), self.options.stuck_after);
-        if !self.follow(robot) {
-            self.track(robot);
-        }
-    }
-
-    /// No path was found: waits and tries again, or gives up.
-    fn no_path(&mut self, robot: &mut Robot<'_>) {
-        let timer = self.timer();
-        let Some(command) = &mut self.command else {
-            return;
-        };
-        command.plan_failures += 1;
-        if command.plan_failures >= self.options.most_plan_failures {
-            return self.give_up(robot, "no path");
-        }
-        command.phase = Phase::Pausing;
-        robot.halt();
-        robot.set_timer(timer, self.options.plan_pause);
-    }
-
-    /// Takes a position estimate.
-    fn located(&mut self, robot: &mut Robot<'_>) {
-        if self.check_safety(robot) || self.check_arrival(robot) || self.check_path(robot) {
-            return;
-        }
-        if self.follow(robot) {
-            self.track(robot);
-        }
-    }
-
-    /// Whether the robot is in the unsafe set; then the command has failed.
-    fn check_safety(&mut self, robot: &mut Robot<'_>) -> bool {
-        let Some(command) = &self.command else {
-            return true;
-        };
-        let position = robot.position();
-        if !command
-            .unsafe_set
-            .iter()
-            .any(|obstacle| obstacle.contains(position))
-        {
-            return false;
-        }
-        self.clear();
-        self.failed = true;
-        robot.cancel_timer(self.timer());
-        robot.halt();
-        self.report(robot, "failed", [("position", position.into())]);
-        true
-    }
-
-    /// Whether the robot is at the target; then the command is done. It goes on tracking the target,
-    /// so that it comes to rest there and not short of it.
-    fn check_arrival(&mut self, robot: &mut Robot<'_>) -> bool {
-        let Some(command) = &self.command else {
-            return true;
-        };
-        let (target, position) = (command.target, robot.position());
-        let distance = match robot.body().flies() {
-            true => position.distance(target),
-            false => position.planar_distance(target),
-        };
-        if distance > self.options.vicinity {
-            return false;
-        }
-        self.clear();
-        self.done = true;
-        robot.cancel_timer(self.timer());
-        robot.track(target, None);
-        self.report(robot, "done", [("position", position.into())]);
-        true
-    }
-
-    /// Whether the path is of no use any more; then another one is asked for.
-    fn check_path(&mut self, robot: &mut Robot<'_>) -> bool {
-        let Some(command) = &mut self.command else {
-            return true;
-        };
-        let Phase::Following { route, .. } = &command.phase else {
-            return true;
-        };
-        let body = robot.body();
-        let position = body.reachable(robot.position());
-        let now_known = robot.obstacles();
-        if !alloc::sync::Arc::ptr_eq(&now_known, &command.known) {
-            let known = core::mem::replace(&mut command.known, now_known.clone());
-            let news = || {
-                now_known
-                    .iter()
-                    .filter(|obstacle| !known.contains(obstacle))
-            };
-            if route
-                .ahead(position)
-                .any(|(from, to)| news().any(|o| blocks(o, from, to, body)))
-            {
-                robot.halt();
-                self.replan(robot, "obstacle on the path", false);
-                return true;
-            }
-        }
-        if route.cross_track(position) > self.options.off_path {
-            self.replan(robot, "off the path", false);
-            return true;
-        }
-        false
-    }
-
-    /// Moves on along the path as far as the robot has come; says whether that gave a new way-point.
-    fn follow(&mut self, robot: &Robot<'_>) -> bool {
-        let Some(command) = &mut self.command else {
-            return false;
-        };
-        let Command {
-            unsafe_set,
-            known,
-            phase: Phase::Following { route, .. },
-            ..
-        } = command
-        else {
-            return false;
-        };
-        let body = robot.body();
-        let free = |from: Point, to: Point| {
-            let mut obstacles = unsafe_set.iter().chain(known.iter());
-            !obstacles.any(|obstacle| blocks(obstacle, from, to, body))
-        };
-        let Options {
-            vicinity,
-            pass_radius,
-            ..
-        } = self.options;
-        route.advance(
-            body.reachable(robot.position()),
-            vicinity,
-            pass_radius,
-            free,
-        )
-    }
-
-    /// Feeds the tracker the point to go to now.
-    fn track(&self, robot: &mut Robot<'_>) {
-        if let Some(Command {
-            phase: Phase::Following { route, .. },
-            ..
-        }) = &self.command
-        {
-            robot.track(route.current(), route.next());
-        }
-    }
-
-    /// The time-out of the phase is over.
-    fn timed_out(&mut self, robot: &mut Robot<'_>) {
-        let timer = self.timer();
-        let Some(command) = &mut self.command else {
-            return;
-        };
-        match &mut command.phase {
-            Phase::Planning => self.no_path(robot),
-            Phase::Pausing => self.replan(robot, "no path", false),
-            Phase::Following { route, mark } => {
-                let left = to_go(route, robot.position(), robot.body());
-                if left > *mark - self.options.least_progress {
-                    self.replan(robot, "stuck", true);
-                } else {
-                    *mark = left;
-                    robot.set_timer(timer, self.options.stuck_after);
-                }
-            }
-        }
-    }
-
-    /// Stops with all flags false.
-    fn give_up(&mut self, robot: &mut Robot<'_>, reason: &'static str) {
-        self.clear();
-        robot.cancel_timer(self.timer());
-        robot.halt();
-        self.report(robot, "give_up", [("reason", reason.into())]);
-    }
-
     fn report<const N: usize>(
         &self,
         robot: &mut Robot<'_>,
@@ -430,32 +198,5 @@ impl Primitive for ReachAvoid {
             }
             _ => {}
         }
-    }
-}
-
-/// Metres to go, the climb to the lowest height of travel included.
-fn to_go(route: &Route, position: Point, body: &Body) -> f64 {
-    let reachable = body.reachable(position);
-    let climb = if body.flies() {
-        position.distance(reachable)
-    } else {
-        0.0
-    };
-    climb + route.remaining(reachable)
-}
-
-fn blocks(obstacle: &Obstacle, from: Point, to: Point, body: &Body) -> bool {
-    obstacle.blocks_body(from, to, body.radius, body.height)
-}
-
-/// All obstacles of either set.
-fn union(a: &Obstacles, b: &Obstacles) -> Obstacles {
-    let extra: Vec<&Obstacle> = match alloc::sync::Arc::ptr_eq(a, b) {
-        true => Vec::new(),
-        false => b.iter().filter(|obstacle| !a.contains(obstacle)).collect(),
-    };
-    match extra.is_empty() {
-        true => a.clone(),
-        false => a.iter().chain(extra).cloned().collect(),
     }
 }

@@ -19,66 +19,22 @@
 //! earlier message is repeated meanwhile.
 
 mod inbox;
+mod notice;
 mod options;
 mod outbox;
 mod packet;
+mod sending;
 
+pub use notice::{Arrival, MessageId, Notice, Notices};
 pub use options::Options;
 
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use inbox::Inbox;
-use outbox::{Outbox, Outgoing};
+use outbox::Outbox;
 use packet::{Key, Packet, Stream};
-use smallvec::SmallVec;
 use starl_core::random::hash_key;
 use starl_core::{Destination, Input, Payload, Port, Robot, RobotId, TimerKey, message};
-
-/// Names a message of this robot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct MessageId {
-    /// The sender's incarnation: another one each time it starts.
-    pub incarnation: u32,
-    /// The receiver; none where it went to all.
-    pub to: Option<RobotId>,
-    /// Counts from 1 what this incarnation sent to `to`.
-    pub number: u32,
-}
-
-/// A message that reached this robot.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Arrival {
-    /// Its sender.
-    pub from: RobotId,
-    /// The sender's incarnation.
-    pub incarnation: u32,
-    /// Whether it went to all, and not to this robot alone.
-    pub to_all: bool,
-    /// The sender's number for it: see [`MessageId`].
-    pub number: u32,
-    /// The sender's bytes.
-    pub content: Payload,
-}
-
-/// What its owner learns from the protocol.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Notice {
-    /// A message reached this robot.
-    Arrived(Arrival),
-    /// All receivers have acknowledged a message of this robot.
-    Acknowledged(MessageId),
-    /// These receivers did not acknowledge a message of this robot within the retries. They may have
-    /// taken it all the same, if it was the acknowledgements that were lost.
-    Failed {
-        /// Which message.
-        message: MessageId,
-        /// Its receivers that were not heard of, in the order of their numbers.
-        unreached: Vec<RobotId>,
-    },
-}
-
-/// What the protocol learns at once; usually nothing or one thing.
-pub type Notices = SmallVec<[Notice; 1]>;
 
 /// One end of the protocol, the same on every robot that carries `port`.
 #[derive(Clone, Debug)]
@@ -202,83 +158,6 @@ impl Reliable {
         }
     }
 
-    fn dispatch(
-        &mut self,
-        robot: &mut Robot<'_>,
-        message: MessageId,
-        pending: Vec<RobotId>,
-        content: Payload,
-    ) -> (MessageId, Notices) {
-        let mut notices = Notices::new();
-        if pending.is_empty() {
-            notices.push(Notice::Acknowledged(message));
-            return (message, notices);
-        }
-        if self.outbox.len() >= self.options.most_outstanding.max(1) as usize
-            && let Some((ticket, oldest)) = self.outbox.pop_oldest()
-        {
-            robot.cancel_timer(self.timer(ticket));
-            notices.push(Notice::Failed {
-                message: oldest.message,
-                unreached: oldest.pending,
-            });
-        }
-        let ticket = self.outbox.insert(Outgoing {
-            message,
-            content,
-            pending,
-            attempt: 0,
-        });
-        self.transmit(robot, ticket);
-        (message, notices)
-    }
-
-    /// Sends a message of the outbox, to all the first time and then to each that is pending.
-    fn transmit(&mut self, robot: &mut Robot<'_>, ticket: u32) {
-        let Some(outgoing) = self.outbox.get(ticket) else {
-            return;
-        };
-        let MessageId {
-            incarnation,
-            to,
-            number,
-        } = outgoing.message;
-        let stream = if to.is_some() {
-            Stream::Direct
-        } else {
-            Stream::Multicast
-        };
-        let key = Key {
-            incarnation,
-            stream,
-            number,
-        };
-        let send = |robot: &mut Robot<'_>, destination, oldest: u32| {
-            let oldest_back = number.saturating_sub(oldest);
-            let packet = Packet::Data {
-                key,
-                oldest_back,
-                content: &outgoing.content[..],
-            };
-            robot.transmit(destination, self.port, &packet);
-        };
-        if to.is_none() && outgoing.attempt == 0 {
-            send(robot, Destination::All, self.outbox.oldest_to_all());
-        } else {
-            for &peer in &outgoing.pending {
-                send(
-                    robot,
-                    Destination::Robot(peer),
-                    self.outbox.oldest_to(peer, to),
-                );
-            }
-        }
-        let timeout = self.options.timeout(outgoing.attempt).seconds();
-        let stretched = timeout * (1.0 + self.options.safe_jitter() * robot.random().uniform());
-        let after = starl_core::Duration::from_seconds_f64(stretched);
-        robot.set_timer(self.timer(ticket), after);
-    }
-
     fn take(
         &mut self,
         robot: &mut Robot<'_>,
@@ -325,45 +204,6 @@ impl Reliable {
             })
         });
         arrivals.collect()
-    }
-
-    fn acknowledged(&mut self, robot: &mut Robot<'_>, from: RobotId, key: Key) -> Notices {
-        let Key {
-            incarnation,
-            stream,
-            number,
-        } = key;
-        let to = (stream == Stream::Direct).then_some(from);
-        let message = MessageId {
-            incarnation,
-            to,
-            number,
-        };
-        let mut notices = Notices::new();
-        if let Some(ticket) = self.outbox.acknowledge(message, from) {
-            robot.cancel_timer(self.timer(ticket));
-            notices.push(Notice::Acknowledged(message));
-        }
-        notices
-    }
-
-    fn timed_out(&mut self, robot: &mut Robot<'_>, ticket: u32) -> Notices {
-        let mut notices = Notices::new();
-        let Some(outgoing) = self.outbox.get_mut(ticket) else {
-            return notices;
-        };
-        if outgoing.attempt < self.options.retries {
-            outgoing.attempt += 1;
-            self.transmit(robot, ticket);
-        } else if let Some(outgoing) = self.outbox.remove(ticket) {
-            let Outgoing {
-                message,
-                pending: unreached,
-                ..
-            } = outgoing;
-            notices.push(Notice::Failed { message, unreached });
-        }
-        notices
     }
 
     /// This run's number. The clock is mixed in so that a robot whose random stream starts over draws

@@ -62,15 +62,23 @@ impl Options {
         self.span_before(self.retries)
     }
 
-    /// Success or failure of a message is known no later than this after it was sent.
+    /// Success or failure of a message is known no later than this after it was sent: in FIFO order
+    /// two time-outs more than otherwise, in which messages held back are released.
     pub fn failure_bound(&self) -> Duration {
-        self.span_before(self.retries.saturating_add(1))
+        let extra = if self.first_in_first_out { 3 } else { 1 };
+        self.span_before(self.retries.saturating_add(extra))
     }
 
     /// The thesis's d1 and d2: over a network that delivers a datagram within `longest_delay` or not
-    /// at all, a message arrives no later than this after it was sent, or never. Without FIFO order.
+    /// at all, a message arrives no later than this after it was sent, or never. In FIFO order a
+    /// receiver may hold it back as long as its sender tries it or a message before it.
     pub fn delivery_bound(&self, longest_delay: Duration) -> Duration {
-        self.retry_span() + longest_delay
+        let last = if self.first_in_first_out {
+            self.failure_bound()
+        } else {
+            self.retry_span()
+        };
+        last + longest_delay
     }
 
     /// Within this time a message arrives with probability at least `1 - miss`, if each datagram is

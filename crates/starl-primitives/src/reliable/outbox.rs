@@ -17,6 +17,22 @@ pub(super) struct Outgoing {
     pub pending: Vec<RobotId>,
     /// How often it was repeated.
     pub attempt: u32,
+    /// Whether an earlier message was still on its way to one of its receivers when it was last sent,
+    /// so that in FIFO order the receiver may be holding it back.
+    pub sent_behind: bool,
+    /// How far it is.
+    pub stage: Stage,
+}
+
+/// How far a message is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stage {
+    /// It is repeated until the retries are used up.
+    Trying,
+    /// They are used up, but an earlier message is still tried that may hold it back at a receiver.
+    Waiting,
+    /// It was sent a last time after that.
+    LastTry,
 }
 
 /// All messages on their way, by ticket.
@@ -85,6 +101,22 @@ impl Outbox {
     pub fn oldest_to(&self, peer: RobotId, to: Option<RobotId>) -> u32 {
         self.oldest(|outgoing| {
             outgoing.message.to == to && outgoing.pending.binary_search(&peer).is_ok()
+        })
+    }
+
+    /// Whether an earlier message of the same stream is still tried for one of the same receivers.
+    pub fn is_behind(&self, ticket: u32) -> bool {
+        let Some(outgoing) = self.messages.get(&ticket) else {
+            return false;
+        };
+        let mut earlier = self.messages.range(..ticket);
+        earlier.any(|(_, other)| {
+            other.stage == Stage::Trying
+                && other.message.to == outgoing.message.to
+                && other
+                    .pending
+                    .iter()
+                    .any(|peer| outgoing.pending.binary_search(peer).is_ok())
         })
     }
 

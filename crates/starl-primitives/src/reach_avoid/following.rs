@@ -1,0 +1,175 @@
+//! How ReachAvoid takes the robot along its path, and what it watches on the way.
+
+use super::route::Route;
+use super::{Command, Options, Phase, ReachAvoid};
+use alloc::sync::Arc;
+use starl_core::motion::Body;
+use starl_core::{Obstacle, Point, Robot};
+
+impl ReachAvoid {
+    /// Takes a position estimate.
+    pub(super) fn located(&mut self, robot: &mut Robot<'_>) {
+        if self.check_safety(robot) || self.check_arrival(robot) || self.check_path(robot) {
+            return;
+        }
+        if self.follow(robot) {
+            self.track(robot);
+        }
+    }
+
+    /// Whether the robot is in the unsafe set; then the command has failed.
+    pub(super) fn check_safety(&mut self, robot: &mut Robot<'_>) -> bool {
+        let Some(command) = &self.command else {
+            return true;
+        };
+        let position = robot.position();
+        if !command
+            .unsafe_set
+            .iter()
+            .any(|obstacle| obstacle.contains(position))
+        {
+            return false;
+        }
+        self.clear();
+        self.failed = true;
+        robot.cancel_timer(self.timer());
+        robot.halt();
+        self.report(robot, "failed", [("position", position.into())]);
+        true
+    }
+
+    /// Whether the robot is at the target; then the command is done. It goes on tracking the target,
+    /// so that it comes to rest there and not short of it.
+    fn check_arrival(&mut self, robot: &mut Robot<'_>) -> bool {
+        let Some(command) = &self.command else {
+            return true;
+        };
+        let (target, position) = (command.target, robot.position());
+        let distance = match robot.body().flies() {
+            true => position.distance(target),
+            false => position.planar_distance(target),
+        };
+        if distance > self.options.vicinity {
+            return false;
+        }
+        self.clear();
+        self.done = true;
+        robot.cancel_timer(self.timer());
+        robot.track(target, None);
+        self.report(robot, "done", [("position", position.into())]);
+        true
+    }
+
+    /// Whether the path is of no use any more; then another one is asked for.
+    fn check_path(&mut self, robot: &mut Robot<'_>) -> bool {
+        let Some(command) = &mut self.command else {
+            return true;
+        };
+        let Phase::Following { route, .. } = &command.phase else {
+            return true;
+        };
+        let body = robot.body();
+        let position = body.reachable(robot.position());
+        let now_known = robot.obstacles();
+        if !Arc::ptr_eq(&now_known, &command.known) {
+            let known = core::mem::replace(&mut command.known, now_known.clone());
+            let news = || {
+                now_known
+                    .iter()
+                    .filter(|obstacle| !known.contains(obstacle))
+            };
+            if route
+                .ahead(position)
+                .any(|(from, to)| news().any(|o| blocks(o, from, to, body)))
+            {
+                robot.halt();
+                self.replan(robot, "obstacle on the path", false);
+                return true;
+            }
+        }
+        if route.cross_track(position) > self.options.off_path {
+            self.replan(robot, "off the path", false);
+            return true;
+        }
+        false
+    }
+
+    /// Moves on along the path as far as the robot has come; says whether that gave a new way-point.
+    pub(super) fn follow(&mut self, robot: &Robot<'_>) -> bool {
+        let Some(command) = &mut self.command else {
+            return false;
+        };
+        let Command {
+            unsafe_set,
+            known,
+            phase: Phase::Following { route, .. },
+            ..
+        } = command
+        else {
+            return false;
+        };
+        let body = robot.body();
+        let free = |from: Point, to: Point| {
+            let mut obstacles = unsafe_set.iter().chain(known.iter());
+            !obstacles.any(|obstacle| blocks(obstacle, from, to, body))
+        };
+        let Options {
+            vicinity,
+            pass_radius,
+            ..
+        } = self.options;
+        route.advance(
+            body.reachable(robot.position()),
+            vicinity,
+            pass_radius,
+            free,
+        )
+    }
+
+    /// Feeds the tracker the point to go to now.
+    pub(super) fn track(&self, robot: &mut Robot<'_>) {
+        if let Some(Command {
+            phase: Phase::Following { route, .. },
+            ..
+        }) = &self.command
+        {
+            robot.track(route.current(), route.next());
+        }
+    }
+
+    /// The time-out of the phase is over.
+    pub(super) fn timed_out(&mut self, robot: &mut Robot<'_>) {
+        let timer = self.timer();
+        let Some(command) = &mut self.command else {
+            return;
+        };
+        match &mut command.phase {
+            Phase::Planning => self.no_path(robot),
+            Phase::Pausing => self.replan(robot, "no path", false),
+            Phase::Following { route, mark } => {
+                let left = to_go(route, robot.position(), robot.body());
+                if left > *mark - self.options.least_progress {
+                    self.replan(robot, "stuck", true);
+                } else {
+                    *mark = left;
+                    robot.set_timer(timer, self.options.stuck_after);
+                }
+            }
+        }
+    }
+}
+
+/// Metres to go, the climb to the lowest height of travel included.
+pub(super) fn to_go(route: &Route, position: Point, body: &Body) -> f64 {
+    let reachable = body.reachable(position);
+    let climb = if body.flies() {
+        position.distance(reachable)
+    } else {
+        0.0
+    };
+    climb + route.remaining(reachable)
+}
+
+fn blocks(obstacle: &Obstacle, from: Point, to: Point, body: &Body) -> bool {
+    obstacle.blocks_body(from, to, body.radius, body.height)
+}

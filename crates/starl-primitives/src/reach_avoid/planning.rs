@@ -1,0 +1,111 @@
+//! How ReachAvoid comes by a path: it asks, waits for the answer, asks again a bounded number of times,
+//! and gives up.
+
+use super::following::to_go;
+use super::route::Route;
+use super::{Phase, ReachAvoid};
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use starl_core::motion::{Obstacles, Path, PlanRequest};
+use starl_core::{Obstacle, Robot};
+
+impl ReachAvoid {
+    /// Asks for a path from here.
+    pub(super) fn plan(&mut self, robot: &mut Robot<'_>, around_robots: bool) {
+        let timer = self.timer();
+        let Some(command) = &mut self.command else {
+            return;
+        };
+        command.phase = Phase::Planning;
+        command.known = robot.obstacles();
+        self.ticket = self.ticket.wrapping_add(1);
+        let random = robot.random();
+        let seed = u64::from(random.bits()) << 32 | u64::from(random.bits());
+        robot.plan(PlanRequest {
+            ticket: self.ticket,
+            target: command.target,
+            vicinity: self.options.vicinity,
+            unsafe_set: union(&command.unsafe_set, &command.known),
+            around_robots,
+            planner: self.options.planner,
+            most_nodes: self.options.most_nodes,
+            seed,
+        });
+        // Should no answer come, it counts as no path.
+        robot.set_timer(timer, self.options.stuck_after);
+    }
+
+    /// Plans again, if it may.
+    pub(super) fn replan(
+        &mut self,
+        robot: &mut Robot<'_>,
+        reason: &'static str,
+        around_robots: bool,
+    ) {
+        let Some(command) = &mut self.command else {
+            return;
+        };
+        if command.replans >= self.options.most_replans {
+            return self.give_up(robot, reason);
+        }
+        command.replans += 1;
+        self.report(robot, "replan", [("reason", reason.into())]);
+        self.plan(robot, around_robots);
+    }
+
+    /// Takes the planner's answer.
+    pub(super) fn planned(&mut self, robot: &mut Robot<'_>, path: Option<&Path>) {
+        let (body, position) = (*robot.body(), robot.position());
+        let route = path.and_then(|path| Route::new(position, path.clone(), &body));
+        let Some(command) = &mut self.command else {
+            return;
+        };
+        let Some(route) = route else {
+            return self.no_path(robot);
+        };
+        command.plan_failures = 0;
+        let mark = to_go(&route, position, &body);
+        let points = route.points().to_vec();
+        command.phase = Phase::Following { route, mark };
+        self.report(robot, "path", [("path", points.into())]);
+        robot.set_timer(self.timer(), self.options.stuck_after);
+        if !self.follow(robot) {
+            self.track(robot);
+        }
+    }
+
+    /// No path was found: waits and tries again, or gives up.
+    pub(super) fn no_path(&mut self, robot: &mut Robot<'_>) {
+        let timer = self.timer();
+        let Some(command) = &mut self.command else {
+            return;
+        };
+        command.plan_failures += 1;
+        if command.plan_failures >= self.options.most_plan_failures {
+            return self.give_up(robot, "no path");
+        }
+        command.phase = Phase::Pausing;
+        robot.halt();
+        robot.set_timer(timer, self.options.plan_pause);
+    }
+
+    /// Stops with all flags false.
+    pub(super) fn give_up(&mut self, robot: &mut Robot<'_>, reason: &'static str) {
+        self.clear();
+        robot.cancel_timer(self.timer());
+        robot.halt();
+        self.report(robot, "give_up", [("reason", reason.into())]);
+    }
+}
+
+/// All obstacles of either set.
+fn union(a: &Obstacles, b: &Obstacles) -> Obstacles {
+    let extra: Vec<&Obstacle> = match Arc::ptr_eq(a, b) {
+        true => Vec::new(),
+        false => b.iter().filter(|obstacle| !a.contains(obstacle)).collect(),
+    };
+    match extra.is_empty() {
+        true => a.clone(),
+        false => a.iter().chain(extra).cloned().collect(),
+    }
+}

@@ -1,0 +1,51 @@
+//! What the protocol tells its owner.
+
+use alloc::vec::Vec;
+use smallvec::SmallVec;
+use starl_core::{Payload, RobotId};
+
+/// Names a message of this robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct MessageId {
+    /// The sender's incarnation: another one each time it starts.
+    pub incarnation: u32,
+    /// The receiver; none where it went to all.
+    pub to: Option<RobotId>,
+    /// Counts from 1 what this incarnation sent to `to`.
+    pub number: u32,
+}
+
+/// A message that reached this robot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arrival {
+    /// Its sender.
+    pub from: RobotId,
+    /// The sender's incarnation.
+    pub incarnation: u32,
+    /// Whether it went to all, and not to this robot alone.
+    pub to_all: bool,
+    /// The sender's number for it: see [`MessageId`].
+    pub number: u32,
+    /// The sender's bytes.
+    pub content: Payload,
+}
+
+/// What its owner learns from the protocol.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Notice {
+    /// A message reached this robot.
+    Arrived(Arrival),
+    /// All receivers have acknowledged a message of this robot.
+    Acknowledged(MessageId),
+    /// These receivers did not acknowledge a message of this robot within the retries. They may have
+    /// taken it all the same, if it was the acknowledgements that were lost.
+    Failed {
+        /// Which message.
+        message: MessageId,
+        /// Its receivers that were not heard of, in the order of their numbers.
+        unreached: Vec<RobotId>,
+    },
+}
+
+/// What the protocol learns at once; usually nothing or one thing.
+pub type Notices = SmallVec<[Notice; 1]>;
