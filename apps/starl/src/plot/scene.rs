@@ -1,0 +1,249 @@
+//! What a picture shows, from the back to the front: floor, obstacles, paths, bodies, way-points,
+//! collisions, heading, legend.
+
+use super::drawing::{Anchor, Drawing, Fill, Shape as Drawn, Spot, Stroke};
+use super::frame::Frame;
+use super::legend;
+use super::palette::{self, BLACK, INK, OBSTACLE, OBSTACLE_EDGE, WAY_POINT, WHITE};
+use super::{PlotData, RobotPath};
+use starl_core::{Obstacle, Point, Shape};
+
+/// Larger fleets are coloured by model: nobody tells more colours apart.
+pub const MOST_COLORS: usize = 24;
+
+/// Points of a path nearer to each other than this are drawn as one.
+const NEAREST: f64 = 0.4;
+
+/// The look of the robots.
+pub struct Looks {
+    /// The models in the order in which they first come.
+    pub models: Vec<String>,
+    /// Whether robots of a model share a colour.
+    pub by_model: bool,
+    count: usize,
+}
+
+impl Looks {
+    /// The looks of this fleet.
+    pub fn of(robots: &[RobotPath]) -> Looks {
+        let mut models: Vec<String> = Vec::new();
+        for robot in robots {
+            if !models.contains(&robot.model) {
+                models.push(robot.model.clone());
+            }
+        }
+        Looks {
+            models,
+            by_model: robots.len() > MOST_COLORS,
+            count: robots.len(),
+        }
+    }
+
+    /// The line with which a robot's path is drawn.
+    pub fn stroke(&self, index: usize, robot: &RobotPath) -> Stroke {
+        let color = if self.by_model {
+            let model = self.models.iter().position(|model| *model == robot.model);
+            palette::color(model.unwrap_or(0), self.models.len())
+        } else {
+            palette::color(index, self.count)
+        };
+        let (width, opacity) = match self.count {
+            0..=MOST_COLORS => (1.8, 1.0),
+            ..=300 => (1.2, 0.7),
+            _ => (0.8, 0.5),
+        };
+        Stroke {
+            color,
+            width,
+            opacity,
+            dashed: robot.flies,
+        }
+    }
+}
+
+/// Draws all of it.
+pub fn draw(data: &PlotData) -> Drawing {
+    let frame = Frame::around(data);
+    let looks = Looks::of(&data.robots);
+    let mut drawing = Drawing::default();
+    frame.draw_axes(&mut drawing);
+    let (upper_left, lower_right) = frame.corners();
+    drawing.push(Drawn::Clip(Some((upper_left, lower_right))));
+    for obstacle in &data.obstacles {
+        draw_obstacle(&mut drawing, &frame, obstacle);
+    }
+    for (index, robot) in data.robots.iter().enumerate() {
+        draw_path(&mut drawing, &frame, robot, looks.stroke(index, robot));
+    }
+    for (index, robot) in data.robots.iter().enumerate() {
+        draw_bodies(&mut drawing, &frame, robot, looks.stroke(index, robot));
+    }
+    for point in data.collisions.iter().filter(|point| Frame::shows(point)) {
+        drawing.cross(frame.spot(*point), 5.0, Stroke::solid(WHITE, 4.0));
+        drawing.cross(frame.spot(*point), 5.0, Stroke::solid(BLACK, 2.0));
+    }
+    drawing.push(Drawn::Clip(None));
+    frame.draw_edge(&mut drawing);
+    draw_way_points(&mut drawing, &frame, data);
+    let (left, top) = (14.0, upper_left.1);
+    drawing.text(
+        (left, top - 40.0),
+        Anchor::Start,
+        data.title.as_str(),
+        16.0,
+        BLACK,
+    );
+    let title_width = legend::text_width(&data.title, 16.0);
+    let after = (left + title_width + 14.0, top - 40.0);
+    drawing.text(after, Anchor::Start, data.subtitle.as_str(), 13.0, INK);
+    let right = legend::draw(
+        &mut drawing,
+        data,
+        &looks,
+        (lower_right.0 + 22.0, upper_left.1),
+    );
+    let heading = after.0 + legend::text_width(&data.subtitle, 13.0) + 14.0;
+    drawing.size = (right.0.max(heading), right.1.max(lower_right.1 + 48.0));
+    drawing
+}
+
+fn draw_obstacle(drawing: &mut Drawing, frame: &Frame, obstacle: &Obstacle) {
+    let look = (
+        Some(Fill::solid(OBSTACLE)),
+        Some(Stroke::solid(OBSTACLE_EDGE, 1.0)),
+    );
+    let points: Vec<Point> = match &obstacle.shape {
+        Shape::Polygon { base, .. } => base.vertices().to_vec(),
+        Shape::Cuboid { low, high } => {
+            let corner = Point::planar;
+            vec![*low, corner(high.x, low.y), *high, corner(low.x, high.y)]
+        }
+        Shape::Circle { center, radius, .. } => {
+            if Frame::shows(center) && radius.abs() < 1e12 {
+                let (center, radius) = (frame.spot(*center), radius * frame.scale);
+                drawing.push(Drawn::Circle {
+                    center,
+                    radius,
+                    fill: look.0,
+                    stroke: look.1,
+                });
+            }
+            return;
+        }
+    };
+    if points.iter().all(Frame::shows) {
+        let points: Vec<Spot> = points.into_iter().map(|point| frame.spot(point)).collect();
+        if points.len() == 2 {
+            return drawing.line(points, Stroke::solid(OBSTACLE_EDGE, 3.0));
+        }
+        drawing.push(Drawn::Line {
+            points,
+            closed: true,
+            fill: look.0,
+            stroke: look.1,
+        });
+    }
+}
+
+fn draw_path(drawing: &mut Drawing, frame: &Frame, robot: &RobotPath, stroke: Stroke) {
+    let spots = thinned(
+        robot
+            .path
+            .iter()
+            .filter(|p| Frame::shows(p))
+            .map(|&p| frame.spot(p)),
+    );
+    if spots.len() > 1 {
+        drawing.line(spots, stroke);
+    }
+}
+
+/// Leaves out what cannot be seen; first and last point stay.
+fn thinned(spots: impl Iterator<Item = Spot>) -> Vec<Spot> {
+    let mut kept: Vec<Spot> = Vec::new();
+    let mut left_out = None;
+    for spot in spots {
+        let near = kept.last().is_some_and(|last| {
+            (spot.0 - last.0).abs() < NEAREST && (spot.1 - last.1).abs() < NEAREST
+        });
+        if near {
+            left_out = Some(spot);
+        } else {
+            kept.push(spot);
+            left_out = None;
+        }
+    }
+    // A path that ends where it began to rest is longer than a point only if it moved.
+    kept.extend(left_out.filter(|spot| kept.last() != Some(spot)));
+    kept
+}
+
+/// The body at the start, hollow, and at the end, full, both to scale unless too small to see.
+fn draw_bodies(drawing: &mut Drawing, frame: &Frame, robot: &RobotPath, stroke: Stroke) {
+    let mut places = robot.path.iter().filter(|point| Frame::shows(point));
+    let Some(&first) = places.next() else { return };
+    let last = places.next_back().copied().unwrap_or(first);
+    let smallest = if stroke.opacity < 1.0 { 1.0 } else { 4.0 };
+    let radius = if robot.radius.abs() < 1e12 {
+        robot.radius * frame.scale
+    } else {
+        0.0
+    };
+    let radius = radius.max(smallest);
+    let (fill, outline) = body_look(stroke);
+    drawing.push(Drawn::Circle {
+        center: frame.spot(first),
+        radius,
+        fill: None,
+        stroke: Some(outline),
+    });
+    drawing.push(Drawn::Circle {
+        center: frame.spot(last),
+        radius,
+        fill: Some(fill),
+        stroke: Some(outline),
+    });
+}
+
+/// How a body is filled at the end, and its outline.
+pub fn body_look(stroke: Stroke) -> (Fill, Stroke) {
+    let outline = Stroke {
+        width: stroke.width.min(1.5),
+        dashed: false,
+        ..stroke
+    };
+    (
+        Fill {
+            color: stroke.color,
+            opacity: stroke.opacity * 0.3,
+        },
+        outline,
+    )
+}
+
+fn draw_way_points(drawing: &mut Drawing, frame: &Frame, data: &PlotData) {
+    for way_point in data
+        .way_points
+        .iter()
+        .filter(|way_point| Frame::shows(&way_point.position))
+    {
+        let center = frame.spot(way_point.position);
+        let ring = |color, width| Some(Stroke::solid(color, width));
+        for stroke in [ring(WHITE, 4.5), ring(WAY_POINT, 2.2)] {
+            drawing.push(Drawn::Circle {
+                center,
+                radius: 7.0,
+                fill: None,
+                stroke,
+            });
+        }
+        drawing.push(Drawn::Text {
+            at: (center.0 + 11.0, center.1 - 8.0),
+            anchor: Anchor::Start,
+            text: way_point.name.clone(),
+            size: 15.0,
+            color: WAY_POINT,
+            rim: true,
+        });
+    }
+}
