@@ -40,12 +40,18 @@ fn descend<'a>(
         }
         node = match &mut node.value {
             Value::Table(table) => {
-                let empty = || Entry { name_origin: origin, node: Node::empty(origin) };
+                let empty = || Entry {
+                    name_origin: origin,
+                    node: Node::empty(origin),
+                };
                 &mut table.entry((*name).to_string()).or_insert_with(empty).node
             }
             Value::List(list) => {
                 let count = list.len();
-                let element = name.parse::<usize>().ok().and_then(|index| list.get_mut(index));
+                let element = name
+                    .parse::<usize>()
+                    .ok()
+                    .and_then(|index| list.get_mut(index));
                 if element.is_none() {
                     let message = format!("{so_far} has no element {name}");
                     let help = format!("it has {count}, counted from 0");
@@ -101,7 +107,10 @@ fn add_schedule(table: &mut Table, entry: Entry) {
 }
 
 fn add_rates(table: &mut Table, entry: Entry) {
-    let Some(there) = table.get_mut("fault_rates").map(|entry| &mut entry.node.value) else {
+    let Some(there) = table
+        .get_mut("fault_rates")
+        .map(|entry| &mut entry.node.value)
+    else {
         table.insert("fault_rates".to_string(), entry);
         return;
     };

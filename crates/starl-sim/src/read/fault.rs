@@ -9,13 +9,18 @@ use starl_core::{Duration, Time};
 pub(super) fn read(root: Section<'_>, names: &Names, duration: Duration) -> Faults {
     let schedule = root.tables("fault", |table| fault(table, names, duration));
     let rates = root.table("fault_rates", rates);
-    Faults { schedule: schedule.into_iter().flatten().collect(), rates }
+    Faults {
+        schedule: schedule.into_iter().flatten().collect(),
+        rates,
+    }
 }
 
 fn rates(table: Section<'_>) -> FaultRates {
     FaultRates {
         crash: table.number("crash"),
-        restart_after: table.optional_duration("restart_after").unwrap_or(Duration::ZERO),
+        restart_after: table
+            .optional_duration("restart_after")
+            .unwrap_or(Duration::ZERO),
         partition: table.number("partition"),
         heal_after: table.duration("heal_after"),
         stuck_motor: table.number("stuck_motor"),
@@ -32,7 +37,11 @@ fn fault(table: Section<'_>, names: &Names, duration: Duration) -> Option<Fault>
         && at >= duration
     {
         let message = format!("this is not before the run ends, at {duration}");
-        table.problem("at", message, "let it happen earlier, or make the `duration` longer");
+        table.problem(
+            "at",
+            message,
+            "let it happen earlier, or make the `duration` longer",
+        );
     }
     let kind = kind?;
     let (robots, groups) = match kind.as_str() {
@@ -65,5 +74,8 @@ fn fault(table: Section<'_>, names: &Names, duration: Duration) -> Option<Fault>
         "corrupt_state" => FaultKind::CorruptState(some()),
         _ => return None,
     };
-    Some(Fault { at: Time(at?.0), kind })
+    Some(Fault {
+        at: Time(at?.0),
+        kind,
+    })
 }

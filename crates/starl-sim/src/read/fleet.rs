@@ -39,8 +39,9 @@ pub(super) fn read(root: Section<'_>, robots: Option<&str>) -> Vec<Draft> {
     let mut parameters = BTreeMap::new();
     add_parameters(root, &mut parameters);
     let before = root.report.count();
-    let groups =
-        root.tables("robots", |table| draft(table, program.as_deref(), &parameters));
+    let groups = root.tables("robots", |table| {
+        draft(table, program.as_deref(), &parameters)
+    });
     let read_whole = root.report.count() == before;
     let mut drafts: Vec<Draft> = groups.into_iter().flatten().collect();
     if let Some(robots) = robots {
@@ -51,12 +52,19 @@ pub(super) fn read(root: Section<'_>, robots: Option<&str>) -> Vec<Draft> {
         }
         if root.report.count() == before && drafts.iter().all(|draft| draft.count == 0) {
             let message = "this fleet is empty";
-            root.report.problem_with_help(origin, "", message, "give at least one robot");
+            root.report
+                .problem_with_help(origin, "", message, "give at least one robot");
         }
     } else if read_whole && drafts.iter().all(|draft| draft.count == 0) {
-        root.problem("robots", "the fleet is empty", "give a group with a count of at least 1");
+        root.problem(
+            "robots",
+            "the fleet is empty",
+            "give a group with a count of at least 1",
+        );
     }
-    let total = drafts.iter().fold(0_u64, |sum, draft| sum + draft.count as u64);
+    let total = drafts
+        .iter()
+        .fold(0_u64, |sum, draft| sum + draft.count as u64);
     if total > 10_000_000 {
         let message = format!("the fleet has {total} robots");
         root.problem("robots", message, "have at most 10000000");
@@ -80,7 +88,11 @@ fn draft(
     let numbered = table.flag("numbered");
     if !numbered && count > 1 {
         let message = format!("{count} robots cannot all have the same name");
-        table.problem("numbered", message, "leave `numbered` out, or have one robot");
+        table.problem(
+            "numbered",
+            message,
+            "leave `numbered` out, or have one robot",
+        );
     }
     let own_program = table.text("program");
     if own_program.is_none() && program.is_none() && !table.has("program") {
@@ -96,7 +108,9 @@ fn draft(
         name: String::new(),
         numbered,
         first_number: table.count("first_number").unwrap_or_default() as u32,
-        program: own_program.or(program.map(str::to_string)).unwrap_or_default(),
+        program: own_program
+            .or(program.map(str::to_string))
+            .unwrap_or_default(),
         parameters: own_parameters,
         starts: starts.into_iter().flatten().collect(),
         area,
@@ -108,7 +122,10 @@ fn draft(
         origin: table.origin,
         path: table.path_of(""),
     };
-    Some(Draft { name: name.or(model_name)?, ..draft })
+    Some(Draft {
+        name: name.or(model_name)?,
+        ..draft
+    })
 }
 
 fn sensors(table: Section<'_>) -> SensorSuite {
@@ -119,22 +136,31 @@ fn sensors(table: Section<'_>) -> SensorSuite {
             rays: table.count("rays").unwrap_or_default() as u32,
             range: range(&table),
         }),
-        detector: table.switch("detector", |table| Detector { range: range(&table) }),
+        detector: table.switch("detector", |table| Detector {
+            range: range(&table),
+        }),
         discovery_range: table.number("discovery_range"),
     }
 }
 
 fn clock(table: Section<'_>) -> Clock {
-    Clock { offset: table.duration("offset"), drift_ppm: table.number("drift") * 1e6 }
+    Clock {
+        offset: table.duration("offset"),
+        drift_ppm: table.number("drift") * 1e6,
+    }
 }
 
 /// Gives the groups of each model so many robots in all as are asked for: the last of them shrink
 /// first, and the last one grows.
 fn replace_counts(drafts: &mut [Draft], fleet: &robots_option::Fleet) {
-    let mut left: BTreeMap<&str, usize> =
-        fleet.iter().map(|(model, count)| (model.as_str(), *count as usize)).collect();
+    let mut left: BTreeMap<&str, usize> = fleet
+        .iter()
+        .map(|(model, count)| (model.as_str(), *count as usize))
+        .collect();
     for index in 0..drafts.len() {
-        let (draft, later) = drafts[index..].split_first_mut().expect("the index is in range");
+        let (draft, later) = drafts[index..]
+            .split_first_mut()
+            .expect("the index is in range");
         let model = draft.model.name();
         let Some(left) = left.get_mut(model) else {
             draft.count = 0;
@@ -202,5 +228,12 @@ pub(super) fn assemble(drafts: Vec<Draft>, starts: Vec<Vec<Pose>>) -> Fleet {
         clock: draft.clock,
     };
     let manned = |group: &Group| !group.starts.is_empty();
-    Fleet { groups: drafts.into_iter().zip(starts).map(group).filter(manned).collect() }
+    Fleet {
+        groups: drafts
+            .into_iter()
+            .zip(starts)
+            .map(group)
+            .filter(manned)
+            .collect(),
+    }
 }

@@ -69,7 +69,10 @@ pub trait Loader {
 impl Source {
     /// A text called `name`.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Source {
-        Source { name: name.into(), text: text.into() }
+        Source {
+            name: name.into(),
+            text: text.into(),
+        }
     }
 }
 
@@ -95,14 +98,23 @@ impl Override {
 
     /// An option of its own that sets the field at `path`, such as `--seed`.
     pub fn named(option: &str, path: &str, value: &str) -> Override {
-        Override { option: option.to_string(), path: path.to_string(), value: value.to_string() }
+        Override {
+            option: option.to_string(),
+            path: path.to_string(),
+            value: value.to_string(),
+        }
     }
 }
 
 impl Request {
     /// A scenario as it is.
     pub fn new(source: Source) -> Request {
-        Request { source, overrides: Vec::new(), robots: None, faults: None }
+        Request {
+            source,
+            overrides: Vec::new(),
+            robots: None,
+            faults: None,
+        }
     }
 }
 
@@ -147,12 +159,17 @@ pub(super) struct Recorder<'a> {
 
 impl<'a> Recorder<'a> {
     pub fn new(loader: &'a dyn Loader) -> Recorder<'a> {
-        Recorder { loader, files: RefCell::default() }
+        Recorder {
+            loader,
+            files: RefCell::default(),
+        }
     }
 
     pub fn load(&self, path: &str) -> Result<Vec<u8>, String> {
         let bytes = self.loader.load(path)?;
-        self.files.borrow_mut().insert(path.to_string(), Content::of(&bytes));
+        self.files
+            .borrow_mut()
+            .insert(path.to_string(), Content::of(&bytes));
         Ok(bytes)
     }
 

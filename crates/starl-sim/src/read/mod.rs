@@ -69,8 +69,15 @@ pub fn scenario(request: &Request, loader: &dyn Loader) -> Result<Resolved, Prob
         Some(scenario) => report.finish(scenario)?,
         None => return Err(failure(report)),
     };
-    let inputs = Inputs { request: request.clone(), files: files.brought() };
-    Ok(Resolved { scenario, inputs, places })
+    let inputs = Inputs {
+        request: request.clone(),
+        files: files.brought(),
+    };
+    Ok(Resolved {
+        scenario,
+        inputs,
+        places,
+    })
 }
 
 /// Reads a scenario again from all that it was read from.
@@ -93,11 +100,20 @@ impl Resolved {
             path = path.rsplit_once('.').map_or("", |(above, _)| above);
             if path.is_empty() {
                 let name = self.inputs.request.source.name.clone();
-                break Place::File { name, line: 1, column: 1 };
+                break Place::File {
+                    name,
+                    line: 1,
+                    column: 1,
+                };
             }
         };
         let (field, message) = (field.to_string(), message.to_string());
-        Problem { place, field, message, help: help.map(str::to_string) }
+        Problem {
+            place,
+            field,
+            message,
+            help: help.map(str::to_string),
+        }
     }
 }
 
@@ -106,9 +122,10 @@ impl Resolved {
 fn assemble(request: &Request, report: &Report) -> Option<Node> {
     let Source { name, text } = &request.source;
     let root = tree::parse_document(text, report.file(name, text), report);
-    let faults = request.faults.as_ref().map(|Source { name, text }| {
-        tree::parse_document(text, report.file(name, text), report)
-    });
+    let faults = request
+        .faults
+        .as_ref()
+        .map(|Source { name, text }| tree::parse_document(text, report.file(name, text), report));
     let mut root = root?;
     if let Some(faults) = faults {
         change::add_faults(&mut root, faults?, report);
@@ -131,7 +148,11 @@ fn failure(report: Report) -> Problems {
 /// Notes where each field was written, so that hosts can blame it too.
 fn note_places(node: &Node, path: &str, report: &Report, places: &mut BTreeMap<String, Place>) {
     let below = |name: &str| {
-        if path.is_empty() { name.to_string() } else { format!("{path}.{name}") }
+        if path.is_empty() {
+            name.to_string()
+        } else {
+            format!("{path}.{name}")
+        }
     };
     match &node.value {
         Value::Table(table) => {

@@ -49,7 +49,10 @@ impl NamedGroup {
 impl Names {
     /// The names of these groups; reports names that two robots would share.
     pub fn new(drafts: &[Draft], report: &Report) -> Names {
-        let mut names = Names { groups: Vec::new(), total: 0 };
+        let mut names = Names {
+            groups: Vec::new(),
+            total: 0,
+        };
         for draft in drafts {
             let group = NamedGroup {
                 name: draft.name.clone(),
@@ -78,10 +81,19 @@ impl Names {
     fn shared(&self, group: &NamedGroup) -> Option<String> {
         let shared = |other: &NamedGroup| {
             // One name must continue the other's for any to be equal; then try the smaller group.
-            let related = group.name.starts_with(&other.name) || other.name.starts_with(&group.name);
-            let (small, large) = if group.count < other.count { (group, other) } else { (other, group) };
+            let related =
+                group.name.starts_with(&other.name) || other.name.starts_with(&group.name);
+            let (small, large) = if group.count < other.count {
+                (group, other)
+            } else {
+                (other, group)
+            };
             let within = |name: &String| large.index(name).is_some_and(|index| index < large.count);
-            if related { (0..small.count).map(|at| small.name_of(at)).find(within) } else { None }
+            if related {
+                (0..small.count).map(|at| small.name_of(at)).find(within)
+            } else {
+                None
+            }
         };
         self.groups.iter().find_map(shared)
     }
@@ -133,7 +145,9 @@ impl Names {
             if let Some(&robot) = part.iter().find(|robot| taken.contains(*robot)) {
                 let message = format!("{} is in two groups", self.name(robot));
                 let help = "name each robot once";
-                table.report.problem_with_help(node.origin, &path, message, help);
+                table
+                    .report
+                    .problem_with_help(node.origin, &path, message, help);
             }
             taken.extend(part.iter().copied());
             parts.push(part);
@@ -179,7 +193,11 @@ impl Names {
             robots.push(robot);
             return;
         }
-        let mut groups = self.groups.iter().filter(|group| &group.name == name).peekable();
+        let mut groups = self
+            .groups
+            .iter()
+            .filter(|group| &group.name == name)
+            .peekable();
         if groups.peek().is_some() {
             robots.extend(groups.flat_map(NamedGroup::ids));
             return;

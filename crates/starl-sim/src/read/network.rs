@@ -51,7 +51,11 @@ fn link(table: Section<'_>, base: &Link) -> Link {
 /// Refuses distributions that would reach below zero, or that leave a given jitter without effect.
 fn check_delays(table: Section<'_>, link: &Link) {
     let (delay, jitter) = (link.delay, link.jitter);
-    let field = if table.has("jitter") || !table.has("delay") { "jitter" } else { "delay" };
+    let field = if table.has("jitter") || !table.has("delay") {
+        "jitter"
+    } else {
+        "delay"
+    };
     match link.distribution {
         DelayDistribution::Constant if table.has("jitter") && jitter > Duration::ZERO => {
             let help = "leave it out, or choose another distribution";

@@ -72,7 +72,11 @@ pub(super) fn model(table: Section<'_>, name: &str) -> Option<Arc<dyn Model>> {
     if let Some(node) = table.node("model_parameters") {
         let Value::Table(entries) = &node.value else {
             let message = format!("{} is not a table", node.value.describe());
-            table.problem("model_parameters", message, "write { radius = \"0.2m\" } or the like");
+            table.problem(
+                "model_parameters",
+                message,
+                "write { radius = \"0.2m\" } or the like",
+            );
             return models::by_name(name);
         };
         for (parameter, entry) in entries {
@@ -81,26 +85,32 @@ pub(super) fn model(table: Section<'_>, name: &str) -> Option<Arc<dyn Model>> {
                 let names: Vec<&str> = kind.fields.iter().map(|field| field.name).collect();
                 let message = format!("model `{name}` has no parameter `{parameter}`");
                 let help = suggest::help(parameter, &names, "it has").unwrap_or_default();
-                table.report.problem_with_help(entry.name_origin, &path, message, help);
+                table
+                    .report
+                    .problem_with_help(entry.name_origin, &path, message, help);
                 continue;
             };
             let (dimension, units_per_si) = unit_of(field.unit);
             let setting = value::quantity(&entry.node, dimension, Range::Any)
                 .map(|number| number * units_per_si)
-                .and_then(|number| match models::with_parameters(name, &[(parameter.clone(), number)]) {
-                    Err(starl_motion::ParameterError::OutOfRange { field, value }) => {
-                        let (low, high, unit) = (field.low, field.high, field.unit);
-                        let message = format!("{value} {unit} is out of range");
-                        Err((message, Some(format!("give {low} to {high} {unit}"))))
+                .and_then(|number| {
+                    match models::with_parameters(name, &[(parameter.clone(), number)]) {
+                        Err(starl_motion::ParameterError::OutOfRange { field, value }) => {
+                            let (low, high, unit) = (field.low, field.high, field.unit);
+                            let message = format!("{value} {unit} is out of range");
+                            Err((message, Some(format!("give {low} to {high} {unit}"))))
+                        }
+                        // How parameters go together is judged when all are known.
+                        _ => Ok(number),
                     }
-                    // How parameters go together is judged when all are known.
-                    _ => Ok(number),
                 });
             match setting {
                 Ok(number) => settings.push((parameter.clone(), number)),
                 Err((message, help)) => {
                     let help = help.unwrap_or_default();
-                    table.report.problem_with_help(entry.node.origin, &path, message, help);
+                    table
+                        .report
+                        .problem_with_help(entry.node.origin, &path, message, help);
                 }
             }
         }

@@ -32,7 +32,10 @@ pub(super) struct Report {
 impl Report {
     /// Takes in a file; the origin of its beginning.
     pub fn file(&self, name: &str, text: &str) -> Origin {
-        self.add(Text::File { name: name.to_string(), text: text.to_string() })
+        self.add(Text::File {
+            name: name.to_string(),
+            text: text.to_string(),
+        })
     }
 
     /// Takes in a command-line option.
@@ -43,7 +46,10 @@ impl Report {
     fn add(&self, text: Text) -> Origin {
         let mut texts = self.texts.borrow_mut();
         texts.push(text);
-        Origin { text: texts.len() as u32 - 1, offset: 0 }
+        Origin {
+            text: texts.len() as u32 - 1,
+            offset: 0,
+        }
     }
 
     /// Where a person finds what is at this origin.
@@ -51,7 +57,11 @@ impl Report {
         match self.texts.borrow().get(origin.text as usize) {
             Some(Text::File { name, text }) => {
                 let (line, column) = line_and_column(text, origin.offset as usize);
-                Place::File { name: name.clone(), line, column }
+                Place::File {
+                    name: name.clone(),
+                    line,
+                    column,
+                }
             }
             Some(Text::Option(option)) => Place::Option(option.clone()),
             None => Place::Option("command line".to_string()),
@@ -76,7 +86,12 @@ impl Report {
 
     fn push(&self, origin: Origin, field: &str, message: String, help: Option<String>) {
         let place = self.place(origin);
-        let problem = Problem { place, field: field.to_string(), message, help };
+        let problem = Problem {
+            place,
+            field: field.to_string(),
+            message,
+            help,
+        };
         self.problems.borrow_mut().push((origin, problem));
     }
 
@@ -93,6 +108,8 @@ impl Report {
         }
         problems.sort();
         problems.dedup();
-        Err(Problems(problems.into_iter().map(|(_, problem)| problem).collect()))
+        Err(Problems(
+            problems.into_iter().map(|(_, problem)| problem).collect(),
+        ))
     }
 }

@@ -16,7 +16,10 @@ pub(super) fn read(text: &str, report: &Report) -> (Fleet, Origin) {
     let mut fleet = Fleet::new();
     for part in text.split(',').map(str::trim) {
         let Some((model, count)) = part.split_once('=') else {
-            complain(format!("{part:?} says no number"), "write it like create=2,drone=2");
+            complain(
+                format!("{part:?} says no number"),
+                "write it like create=2,drone=2",
+            );
             continue;
         };
         let (model, count) = (model.trim(), count.trim());

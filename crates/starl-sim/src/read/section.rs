@@ -30,7 +30,10 @@ pub(super) struct Path<'a> {
 
 impl<'a> Path<'a> {
     /// The path of the whole scenario.
-    pub const ROOT: Path<'static> = Path { above: None, name: String::new() };
+    pub const ROOT: Path<'static> = Path {
+        above: None,
+        name: String::new(),
+    };
 
     /// The path of what is called `name` in here.
     pub fn join(&self, name: &str) -> String {
@@ -46,7 +49,10 @@ impl<'a> Path<'a> {
     }
 
     fn below(&'a self, name: impl ToString) -> Path<'a> {
-        Path { above: Some(self), name: name.to_string() }
+        Path {
+            above: Some(self),
+            name: name.to_string(),
+        }
     }
 }
 
@@ -68,7 +74,13 @@ impl<'a> Section<'a> {
         fields: &'static [Field],
         report: &'a Report,
     ) -> Section<'a> {
-        let mut section = Section { table: None, path, fields, origin, report };
+        let mut section = Section {
+            table: None,
+            path,
+            fields,
+            origin,
+            report,
+        };
         match node.map(|node| &node.value) {
             None => {}
             Some(Value::Table(table)) => {
@@ -151,7 +163,11 @@ impl<'a> Section<'a> {
         let Some(node) = self.node(name) else {
             if self.field(name).default == Default::Required {
                 let message = "is missing".to_string();
-                self.complain(self.origin, name, (message, Some("it must be given".to_string())));
+                self.complain(
+                    self.origin,
+                    name,
+                    (message, Some("it must be given".to_string())),
+                );
             }
             return None;
         };
@@ -177,7 +193,8 @@ impl<'a> Section<'a> {
                 Ok(text) => Some((text, node.origin, path)),
                 Err((message, help)) => {
                     let help = help.unwrap_or_default();
-                    self.report.problem_with_help(node.origin, &path, message, help);
+                    self.report
+                        .problem_with_help(node.origin, &path, message, help);
                     None
                 }
             })
@@ -191,11 +208,18 @@ impl<'a> Section<'a> {
             Value::List(list) => Ok(list),
             other => {
                 let message = format!("{} is not a list", other.describe());
-                Err((message, Some("write it in brackets: [..., ...]".to_string())))
+                Err((
+                    message,
+                    Some("write it in brackets: [..., ...]".to_string()),
+                ))
             }
         });
         let numbered = |(index, node)| (node, format!("{path}.{index}"));
-        list.map_or(&[][..], Vec::as_slice).iter().enumerate().map(numbered).collect()
+        list.map_or(&[][..], Vec::as_slice)
+            .iter()
+            .enumerate()
+            .map(numbered)
+            .collect()
     }
 
     /// `true` or `false`.
@@ -207,11 +231,16 @@ impl<'a> Section<'a> {
     /// One of a choice of words.
     pub fn choice(&self, name: &str) -> Option<String> {
         let Field { kind, default, .. } = self.field(name);
-        let words = if let Kind::Choice(words) = kind { words } else { &[][..] };
-        self.read(name, |node| value::choice(node, words)).or(match default {
-            Default::Value(word) => Some((*word).to_string()),
-            _ => None,
-        })
+        let words = if let Kind::Choice(words) = kind {
+            words
+        } else {
+            &[][..]
+        };
+        self.read(name, |node| value::choice(node, words))
+            .or(match default {
+                Default::Value(word) => Some((*word).to_string()),
+                _ => None,
+            })
     }
 
     /// The name of a robot model.
@@ -222,12 +251,16 @@ impl<'a> Section<'a> {
     /// A whole number, or none where there is neither value nor default.
     pub fn count(&self, name: &str) -> Option<u64> {
         let Field { kind, default, .. } = self.field(name);
-        let (least, most) =
-            if let Kind::Count(least, most) = kind { (*least, *most) } else { (0, u64::MAX) };
-        self.read(name, |node| value::count(node, least, most)).or(match default {
-            Default::Value(text) => text.parse().ok(),
-            _ => None,
-        })
+        let (least, most) = if let Kind::Count(least, most) = kind {
+            (*least, *most)
+        } else {
+            (0, u64::MAX)
+        };
+        self.read(name, |node| value::count(node, least, most))
+            .or(match default {
+                Default::Value(text) => text.parse().ok(),
+                _ => None,
+            })
     }
 
     /// A probability or quantity in SI, or none where there is neither value nor default.
@@ -253,7 +286,11 @@ impl<'a> Section<'a> {
         let duration = Duration::from_seconds_f64(self.optional_number(name)?);
         let written = self.node(name).is_some();
         if written && duration.is_zero() && self.number(name) > 0.0 {
-            self.problem(name, "this is less than half a nanosecond", "give at least \"1ns\"");
+            self.problem(
+                name,
+                "this is less than half a nanosecond",
+                "give at least \"1ns\"",
+            );
         }
         Some(duration)
     }
@@ -283,7 +320,8 @@ impl<'a> Section<'a> {
                 Ok((point, _)) => points.push(point),
                 Err((message, help)) => {
                     let help = help.unwrap_or_default();
-                    self.report.problem_with_help(node.origin, &path, message, help);
+                    self.report
+                        .problem_with_help(node.origin, &path, message, help);
                 }
             }
         }
@@ -300,7 +338,13 @@ impl<'a> Section<'a> {
         let path = self.path.below(name);
         let node = self.node(name);
         let origin = node.map_or(self.origin, |node| node.origin);
-        read(Section::open(node, origin, &path, self.field(name).kind.fields(), self.report))
+        read(Section::open(
+            node,
+            origin,
+            &path,
+            self.field(name).kind.fields(),
+            self.report,
+        ))
     }
 
     /// Reads a table; none where it is left out.
@@ -329,7 +373,13 @@ impl<'a> Section<'a> {
     /// Reads an element of a list of tables as if it were empty; for what the command line adds.
     pub fn blank_element<T>(&self, name: &str, read: impl FnOnce(Section<'_>) -> T) -> T {
         let path = self.path.below(name);
-        read(Section::open(None, self.origin, &path, self.field(name).kind.fields(), self.report))
+        read(Section::open(
+            None,
+            self.origin,
+            &path,
+            self.field(name).kind.fields(),
+            self.report,
+        ))
     }
 
     /// Reads each of several tables.
@@ -339,7 +389,13 @@ impl<'a> Section<'a> {
         let mut found = Vec::new();
         for (index, (node, _)) in self.list(name).into_iter().enumerate() {
             let path = path.below(index);
-            found.push(read(Section::open(Some(node), node.origin, &path, fields, self.report)));
+            found.push(read(Section::open(
+                Some(node),
+                node.origin,
+                &path,
+                fields,
+                self.report,
+            )));
         }
         found
     }

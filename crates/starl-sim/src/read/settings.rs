@@ -10,7 +10,9 @@ use starl_motion::avoidance;
 
 /// The scenario, or none if so much is wrong that later checks would only confuse.
 pub(super) fn read(root: Section<'_>, request: &Request, files: &Recorder<'_>) -> Option<Scenario> {
-    let title = root.text("title").unwrap_or_else(|| stem(&request.source.name));
+    let title = root
+        .text("title")
+        .unwrap_or_else(|| stem(&request.source.name));
     let seed = root.count("seed").unwrap_or_default();
     let duration = root.duration("duration");
     let goal = match root.choice("goal").as_deref() {
@@ -21,7 +23,9 @@ pub(super) fn read(root: Section<'_>, request: &Request, files: &Recorder<'_>) -
     let positioning = root.table("positioning", positioning);
     let wind = root.table("wind", wind);
     let properties = root.table("properties", properties);
-    let trace = root.table("trace", |table| Trace { pose_period: table.duration("pose_period") });
+    let trace = root.table("trace", |table| Trace {
+        pose_period: table.duration("pose_period"),
+    });
     let drafts = fleet::read(root, request.robots.as_deref());
     let names = Names::new(&drafts, root.report);
     let network = root.table("network", |table| network::read(table, &names));
@@ -33,8 +37,7 @@ pub(super) fn read(root: Section<'_>, request: &Request, files: &Recorder<'_>) -
     if root.report.count() > 0 {
         return None;
     }
-    let area = contents.start_area;
-    let starts = place::starts(&drafts, &names, &contents, area, seed, root.report)?;
+    let starts = place::starts(&drafts, &names, &contents, seed, root.report)?;
     let fleet = fleet::assemble(drafts, starts);
     reach::check(&fleet, &contents, root.report);
     let world = contents.world();
@@ -64,7 +67,10 @@ fn stem(name: &str) -> String {
 }
 
 fn physics(table: Section<'_>) -> Physics {
-    Physics { step: table.duration("step"), collisions: table.flag("collisions") }
+    Physics {
+        step: table.duration("step"),
+        collisions: table.flag("collisions"),
+    }
 }
 
 fn positioning(table: Section<'_>) -> Positioning {
@@ -77,7 +83,10 @@ fn positioning(table: Section<'_>) -> Positioning {
 }
 
 fn motion(table: Section<'_>, positioning: &Positioning, drafts: &[Draft]) -> Motion {
-    let largest = drafts.iter().map(|draft| draft.model.body().radius).fold(0.0, f64::max);
+    let largest = drafts
+        .iter()
+        .map(|draft| draft.model.body().radius)
+        .fold(0.0, f64::max);
     let avoidance = table.switch("avoidance", |table| avoidance::Options {
         margin: table.number("margin"),
         vertical_clearance: table.number("vertical_clearance"),

@@ -10,7 +10,11 @@ pub(super) fn read(table: Section<'_>) -> Option<Placed<Pose>> {
     let heading = table.number("heading");
     let (position, _) = table.point("position")?;
     let (origin, field) = (table.origin_of("position"), table.path_of("position"));
-    Some(Placed { value: Pose::level(position, heading), origin, field })
+    Some(Placed {
+        value: Pose::level(position, heading),
+        origin,
+        field,
+    })
 }
 
 /// A rectangle of the floor plane, such as `world.bounds`.
@@ -23,5 +27,9 @@ pub(super) fn area(table: Section<'_>) -> Option<Placed<Bounds>> {
         return None;
     }
     let field = table.path_of("");
-    Some(Placed { value: Bounds { low, high }, origin: table.origin, field })
+    Some(Placed {
+        value: Bounds { low, high },
+        origin: table.origin,
+        field,
+    })
 }

@@ -2,7 +2,10 @@
 
 /// The candidate nearest to `word` by restricted edit distance (insert, delete, replace, swap two
 /// neighbours; Damerau 1964), if it is near enough to be a slip.
-pub(super) fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+pub(super) fn nearest<'a>(
+    word: &str,
+    candidates: impl Iterator<Item = &'a str>,
+) -> Option<&'a str> {
     let word = simplified(word);
     let most = 1 + word.len() / 4;
     candidates
@@ -25,7 +28,16 @@ pub(super) fn help<'a>(word: &str, candidates: &[&'a str], kind: &str) -> Option
 }
 
 fn simplified(word: &str) -> Vec<char> {
-    word.chars().take(64).map(|c| if c == '-' { '_' } else { c.to_ascii_lowercase() }).collect()
+    word.chars()
+        .take(64)
+        .map(|c| {
+            if c == '-' {
+                '_'
+            } else {
+                c.to_ascii_lowercase()
+            }
+        })
+        .collect()
 }
 
 fn distance(a: &[char], b: &[char], most: usize) -> usize {

@@ -67,16 +67,20 @@ impl Value {
 impl Node {
     /// An empty table.
     pub fn empty(origin: Origin) -> Node {
-        Node { origin, value: Value::Table(Table::new()) }
+        Node {
+            origin,
+            value: Value::Table(Table::new()),
+        }
     }
 }
 
 /// Parses a whole document; what is wrong with its syntax goes to the report.
 pub(super) fn parse_document(text: &str, start: Origin, report: &Report) -> Option<Node> {
     match DeTable::parse(text) {
-        Ok(table) => {
-            Some(Node { origin: start, value: Value::Table(convert_table(table.get_ref(), start)) })
-        }
+        Ok(table) => Some(Node {
+            origin: start,
+            value: Value::Table(convert_table(table.get_ref(), start)),
+        }),
         Err(error) => {
             let offset = error.span().map_or(0, |span| span.start);
             report.problem(at(start, offset), "", syntax_message(error.message()));
@@ -93,7 +97,10 @@ pub(super) fn parse_value(text: &str, start: Origin) -> Node {
         }
         _ => Value::Text(text.to_string()),
     };
-    let mut node = Node { origin: start, value };
+    let mut node = Node {
+        origin: start,
+        value,
+    };
     // A place inside an option's value would mean nothing to a person.
     flatten_origins(&mut node, start);
     node
@@ -102,7 +109,9 @@ pub(super) fn parse_value(text: &str, start: Origin) -> Node {
 fn flatten_origins(node: &mut Node, origin: Origin) {
     node.origin = origin;
     match &mut node.value {
-        Value::List(list) => list.iter_mut().for_each(|node| flatten_origins(node, origin)),
+        Value::List(list) => list
+            .iter_mut()
+            .for_each(|node| flatten_origins(node, origin)),
         Value::Table(table) => {
             for entry in table.values_mut() {
                 entry.name_origin = origin;
@@ -114,7 +123,10 @@ fn flatten_origins(node: &mut Node, origin: Origin) {
 }
 
 fn at(start: Origin, offset: usize) -> Origin {
-    Origin { offset: offset.try_into().unwrap_or(u32::MAX), ..start }
+    Origin {
+        offset: offset.try_into().unwrap_or(u32::MAX),
+        ..start
+    }
 }
 
 fn syntax_message(message: &str) -> String {
@@ -133,18 +145,19 @@ fn convert_table(table: &DeTable<'_>, start: Origin) -> Table {
 }
 
 fn node(value: &toml::Spanned<DeValue<'_>>, start: Origin) -> Node {
-    Node { origin: at(start, value.span().start), value: convert(value.get_ref(), start) }
+    Node {
+        origin: at(start, value.span().start),
+        value: convert(value.get_ref(), start),
+    }
 }
 
 fn convert(value: &DeValue<'_>, start: Origin) -> Value {
     match value {
         DeValue::String(text) => Value::Text(text.to_string()),
-        DeValue::Integer(integer) => {
-            match i64::from_str_radix(integer.as_str(), integer.radix()) {
-                Ok(number) => Value::Integer(number),
-                Err(_) => Value::Other("number", integer.to_string()),
-            }
-        }
+        DeValue::Integer(integer) => match i64::from_str_radix(integer.as_str(), integer.radix()) {
+            Ok(number) => Value::Integer(number),
+            Err(_) => Value::Other("number", integer.to_string()),
+        },
         // Too large a number becomes infinite, which no field takes.
         DeValue::Float(float) => Value::Float(float.as_str().parse().unwrap_or(f64::NAN)),
         DeValue::Boolean(flag) => Value::Flag(*flag),

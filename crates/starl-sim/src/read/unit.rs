@@ -64,8 +64,11 @@ impl Dimension {
 
     /// Its units, e.g. `ns, us, ms, s, min or h`.
     pub fn units(self) -> String {
-        let names: Vec<&str> =
-            UNITS.iter().filter(|unit| unit.dimension == self).map(|unit| unit.name).collect();
+        let names: Vec<&str> = UNITS
+            .iter()
+            .filter(|unit| unit.dimension == self)
+            .map(|unit| unit.name)
+            .collect();
         match names.split_last() {
             Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
             Some((last, _)) => last.to_string(),
@@ -84,7 +87,12 @@ struct Unit {
 }
 
 const fn unit(name: &'static str, dimension: Dimension, times: f64, over: f64) -> Unit {
-    Unit { name, dimension, times, over }
+    Unit {
+        name,
+        dimension,
+        times,
+        over,
+    }
 }
 
 const UNITS: &[Unit] = &[
@@ -135,7 +143,10 @@ impl<'a> Quantity<'a> {
         let text = text.trim();
         let bytes = text.as_bytes();
         let digits = |from: usize| {
-            from + bytes[from..].iter().take_while(|b| b.is_ascii_digit() || **b == b'_').count()
+            from + bytes[from..]
+                .iter()
+                .take_while(|b| b.is_ascii_digit() || **b == b'_')
+                .count()
         };
         let sign = |from: usize| from + usize::from(matches!(bytes.get(from), Some(b'+' | b'-')));
         let mut end = digits(sign(0));
@@ -149,7 +160,10 @@ impl<'a> Quantity<'a> {
             }
         }
         let number = text[..end].replace('_', "").parse().ok()?;
-        Some(Quantity { number, unit: text[end..].trim() })
+        Some(Quantity {
+            number,
+            unit: text[end..].trim(),
+        })
     }
 
     /// The dimension of the unit and the quantity in SI; none if the unit is not known.

@@ -20,14 +20,18 @@ fn not_a<T>(node: &Node, what: &str, help: impl Into<String>) -> Result<T, Compl
 /// A text with something in it.
 pub(super) fn text(node: &Node) -> Result<String, Complaint> {
     match &node.value {
-        Value::Text(text) if text.trim().is_empty() => {
-            complain("the text is empty".to_string(), "write something between the quotes")
-        }
+        Value::Text(text) if text.trim().is_empty() => complain(
+            "the text is empty".to_string(),
+            "write something between the quotes",
+        ),
         Value::Text(text) => Ok(text.clone()),
         Value::List(_) | Value::Table(_) => not_a(node, "a text", "write it in quotes"),
         other => {
             let plain = other.describe();
-            complain(format!("{plain} is not a text"), format!("write it in quotes: \"{plain}\""))
+            complain(
+                format!("{plain} is not a text"),
+                format!("write it in quotes: \"{plain}\""),
+            )
         }
     }
 }
@@ -48,7 +52,11 @@ pub(super) fn choice(node: &Node, words: &[&str]) -> Result<String, Complaint> {
             let help = suggest::help(text, words, "choose one of");
             Err((format!("{text:?} is not one of the choices"), help))
         }
-        _ => not_a(node, "one of the choices", format!("choose one of: {}", words.join(", "))),
+        _ => not_a(
+            node,
+            "one of the choices",
+            format!("choose one of: {}", words.join(", ")),
+        ),
     }
 }
 
@@ -61,7 +69,11 @@ pub(super) fn model(node: &Node) -> Result<String, Complaint> {
             let help = suggest::help(text, &names, "there are");
             Err((format!("there is no robot model {text:?}"), help))
         }
-        _ => not_a(node, "a robot model", format!("there are: {}", names.join(", "))),
+        _ => not_a(
+            node,
+            "a robot model",
+            format!("there are: {}", names.join(", ")),
+        ),
     }
 }
 
@@ -70,16 +82,29 @@ pub(super) fn count(node: &Node, least: u64, most: u64) -> Result<u64, Complaint
     let number = match &node.value {
         Value::Integer(number) => *number,
         Value::Other("number", text) => {
-            return complain(format!("{text} is too large"), format!("give at most {most}"));
+            return complain(
+                format!("{text} is too large"),
+                format!("give at most {most}"),
+            );
         }
-        _ => return not_a(node, "a whole number", "write one without quotes, unit or point"),
+        _ => {
+            return not_a(
+                node,
+                "a whole number",
+                "write one without quotes, unit or point",
+            );
+        }
     };
     match u64::try_from(number) {
         Ok(number) if number >= least && number <= most => Ok(number),
-        Ok(number) if number > most => {
-            complain(format!("{number} is too large"), format!("give at most {most}"))
-        }
-        _ => complain(format!("{number} is too small"), format!("give at least {least}")),
+        Ok(number) if number > most => complain(
+            format!("{number} is too large"),
+            format!("give at most {most}"),
+        ),
+        _ => complain(
+            format!("{number} is too small"),
+            format!("give at least {least}"),
+        ),
     }
 }
 
@@ -119,8 +144,7 @@ pub(super) fn quantity(node: &Node, dimension: Dimension, range: Range) -> Resul
             Some((found, si)) if found == dimension => si,
             Some((found, _)) => {
                 let described = node.value.describe();
-                let message =
-                    format!("{described} is {}, not {}", found.name(), dimension.name());
+                let message = format!("{described} is {}, not {}", found.name(), dimension.name());
                 return complain(message, write_such(dimension));
             }
             None => {
@@ -131,15 +155,17 @@ pub(super) fn quantity(node: &Node, dimension: Dimension, range: Range) -> Resul
     };
     let described = node.value.describe();
     match range {
-        Range::Positive if si <= 0.0 => {
-            complain(format!("{described} is not above zero"), "give a positive one")
-        }
+        Range::Positive if si <= 0.0 => complain(
+            format!("{described} is not above zero"),
+            "give a positive one",
+        ),
         Range::NotNegative if si < 0.0 => {
             complain(format!("{described} is negative"), "give zero or more")
         }
-        _ if si.abs() > LARGEST => {
-            complain(format!("{described} is too large to compute with"), write_such(dimension))
-        }
+        _ if si.abs() > LARGEST => complain(
+            format!("{described} is too large to compute with"),
+            write_such(dimension),
+        ),
         _ => Ok(si),
     }
 }
@@ -170,7 +196,11 @@ fn ranged(number: f64, node: &Node) -> Result<f64, Complaint> {
         return Ok(number);
     }
     let described = node.value.describe();
-    let fault = if number.is_finite() { "too large to compute with" } else { "not a finite number" };
+    let fault = if number.is_finite() {
+        "too large to compute with"
+    } else {
+        "not a finite number"
+    };
     Err((format!("{described} is {fault}"), None))
 }
 
@@ -188,7 +218,10 @@ pub(super) fn point(
     match coordinates(node, dimension, what)?.as_slice() {
         &[x, y] => Ok((Point::planar(x, y), 2)),
         &[x, y, z] if spatial => Ok((Point::new(x, y, z), 3)),
-        others => complain(format!("a list of {} is not {what}", others.len()), format!("write {what}")),
+        others => complain(
+            format!("a list of {} is not {what}", others.len()),
+            format!("write {what}"),
+        ),
     }
 }
 
@@ -197,8 +230,14 @@ pub(super) fn heights(node: &Node) -> Result<(f64, f64), Complaint> {
     let what = "a pair of heights [low, high] in metres";
     match coordinates(node, Dimension::Length, what)?.as_slice() {
         &[low, high] if low < high => Ok((low, high)),
-        &[_, _] => complain("the lower height is not below the upper".to_string(), "swap them"),
-        others => complain(format!("a list of {} is not {what}", others.len()), format!("write {what}")),
+        &[_, _] => complain(
+            "the lower height is not below the upper".to_string(),
+            "swap them",
+        ),
+        others => complain(
+            format!("a list of {} is not {what}", others.len()),
+            format!("write {what}"),
+        ),
     }
 }
 
@@ -225,7 +264,10 @@ pub(super) fn any_quantity(node: &Node) -> Result<f64, Complaint> {
 
 /// The number a quantity's default stands for.
 pub(super) fn default_number(kind: &Kind, text: &str) -> f64 {
-    let node = Node { origin: Default::default(), value: Value::Text(text.to_string()) };
+    let node = Node {
+        origin: Default::default(),
+        value: Value::Text(text.to_string()),
+    };
     match kind {
         Kind::Probability => probability(&node),
         Kind::Quantity(dimension, range) => quantity(&node, *dimension, *range),

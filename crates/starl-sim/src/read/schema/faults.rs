@@ -36,22 +36,52 @@ pub(super) const FAULT: &[Field] = &[
 
 /// Faults at random.
 pub(super) const RATES: &[Field] = &[
-    field("crash", RATE, Default::Value("0/s"), "Crashes of each robot."),
-    field("restart_after", PERIOD, Default::Word("never"), "A crashed robot restarts after this time."),
+    field(
+        "crash",
+        RATE,
+        Default::Value("0/s"),
+        "Crashes of each robot.",
+    ),
+    field(
+        "restart_after",
+        PERIOD,
+        Default::Word("never"),
+        "A crashed robot restarts after this time.",
+    ),
     field(
         "partition",
         RATE,
         Default::Value("0/s"),
         "Partitions of the fleet into two random halves.",
     ),
-    field("heal_after", PERIOD, Default::Value("5s"), "A partition heals after this time."),
-    field("stuck_motor", RATE, Default::Value("0/s"), "Stuck motors of each robot."),
-    field("frozen_sensor", RATE, Default::Value("0/s"), "Frozen sensors of each robot."),
+    field(
+        "heal_after",
+        PERIOD,
+        Default::Value("5s"),
+        "A partition heals after this time.",
+    ),
+    field(
+        "stuck_motor",
+        RATE,
+        Default::Value("0/s"),
+        "Stuck motors of each robot.",
+    ),
+    field(
+        "frozen_sensor",
+        RATE,
+        Default::Value("0/s"),
+        "Frozen sensors of each robot.",
+    ),
     field(
         "repair_after",
         PERIOD,
         Default::Value("5s"),
         "Motors and sensors are repaired after this time.",
     ),
-    field("corrupt_state", RATE, Default::Value("0/s"), "Corruptions of each robot's state."),
+    field(
+        "corrupt_state",
+        RATE,
+        Default::Value("0/s"),
+        "Corruptions of each robot's state.",
+    ),
 ];

@@ -95,17 +95,22 @@ pub enum Kind {
     Switch(&'static [Field]),
 }
 
-const fn field(
-    name: &'static str,
-    kind: Kind,
-    default: Default,
-    about: &'static str,
-) -> Field {
-    Field { name, kind, default, about }
+const fn field(name: &'static str, kind: Kind, default: Default, about: &'static str) -> Field {
+    Field {
+        name,
+        kind,
+        default,
+        about,
+    }
 }
 
 const fn table(name: &'static str, fields: &'static [Field], about: &'static str) -> Field {
-    field(name, Kind::Table(fields), Default::Value("all at their defaults"), about)
+    field(
+        name,
+        Kind::Table(fields),
+        Default::Value("all at their defaults"),
+        about,
+    )
 }
 
 const fn tables(name: &'static str, fields: &'static [Field], about: &'static str) -> Field {
@@ -114,8 +119,18 @@ const fn tables(name: &'static str, fields: &'static [Field], about: &'static st
 
 /// A box in the floor plane, given by two corners.
 const CORNERS: &[Field] = &[
-    field("low", Kind::PlanarPoint, Default::Required, "Corner with the lowest x and y."),
-    field("high", Kind::PlanarPoint, Default::Required, "Corner with the highest x and y."),
+    field(
+        "low",
+        Kind::PlanarPoint,
+        Default::Required,
+        "Corner with the lowest x and y.",
+    ),
+    field(
+        "high",
+        Kind::PlanarPoint,
+        Default::Required,
+        "Corner with the highest x and y.",
+    ),
 ];
 
 /// A duration above zero.
@@ -133,7 +148,9 @@ const RATE: Kind = Kind::Quantity(Dimension::Rate, Range::NotNegative);
 
 /// The robot models there are.
 pub(super) fn model_names() -> impl Iterator<Item = &'static str> {
-    starl_motion::models::NAMES.into_iter().map(|(name, _)| name)
+    starl_motion::models::NAMES
+        .into_iter()
+        .map(|(name, _)| name)
 }
 
 impl Kind {
@@ -153,12 +170,18 @@ impl Kind {
                 .map(|word| format!("`\"{word}\"`"))
                 .collect::<Vec<_>>()
                 .join(", "),
-            Kind::Model => model_names().map(|name| format!("`\"{name}\"`")).collect::<Vec<_>>().join(", "),
+            Kind::Model => model_names()
+                .map(|name| format!("`\"{name}\"`"))
+                .collect::<Vec<_>>()
+                .join(", "),
             Kind::Count(least, u64::MAX) => format!("whole number, at least {least}"),
             Kind::Count(least, most) => format!("whole number, {least} to {most}"),
             Kind::Probability => "probability, 0 to 1 or a percentage".to_string(),
             Kind::Quantity(dimension, limits) => {
-                let name = dimension.name().trim_start_matches("an ").trim_start_matches("a ");
+                let name = dimension
+                    .name()
+                    .trim_start_matches("an ")
+                    .trim_start_matches("a ");
                 format!("{name}{}", range(*limits))
             }
             Kind::Point => "point `[x, y]` or `[x, y, z]`".to_string(),

@@ -3,8 +3,12 @@
 use super::*;
 
 const DELAY: Field = field("delay", TIME, Default::Value("15ms"), "Mean delay.");
-const JITTER: Field =
-    field("jitter", TIME, Default::Value("5ms"), "Standard deviation of the delay.");
+const JITTER: Field = field(
+    "jitter",
+    TIME,
+    Default::Value("5ms"),
+    "Standard deviation of the delay.",
+);
 const DISTRIBUTION: Field = field(
     "distribution",
     Kind::Choice(&["constant", "uniform", "normal", "exponential"]),
@@ -13,8 +17,12 @@ const DISTRIBUTION: Field = field(
      root of three times the jitter; normally, cut off at zero; or the mean less the jitter, plus \
      an exponential part whose mean is the jitter.",
 );
-const LOSS: Field =
-    field("loss", Kind::Probability, Default::Value("0"), "A datagram is lost.");
+const LOSS: Field = field(
+    "loss",
+    Kind::Probability,
+    Default::Value("0"),
+    "A datagram is lost.",
+);
 const DUPLICATION: Field = field(
     "duplication",
     Kind::Probability,
@@ -43,7 +51,12 @@ pub(super) const NETWORK: &[Field] = &[
     DUPLICATION,
     REORDERING,
     REORDERING_DELAY,
-    field("range", SIZE, Default::Word("everywhere"), "Radio range between robots' centres."),
+    field(
+        "range",
+        SIZE,
+        Default::Word("everywhere"),
+        "Radio range between robots' centres.",
+    ),
     field(
         "line_of_sight",
         Kind::Flag,
@@ -68,11 +81,18 @@ pub(super) const NETWORK: &[Field] = &[
         Default::Value("65507"),
         "Largest datagram in bytes; larger ones are dropped, and the trace says so.",
     ),
-    tables("link", LINK, "Links that differ from the rest; the last that matches counts."),
+    tables(
+        "link",
+        LINK,
+        "Links that differ from the rest; the last that matches counts.",
+    ),
 ];
 
 const fn inherited(field: Field) -> Field {
-    Field { default: Default::Depends("the network's"), ..field }
+    Field {
+        default: Default::Depends("the network's"),
+        ..field
+    }
 }
 
 const LINK: &[Field] = &[

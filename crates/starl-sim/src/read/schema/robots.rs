@@ -4,12 +4,7 @@ use super::*;
 
 /// Robots of the same kind.
 pub(super) const ROBOTS: &[Field] = &[
-    field(
-        "model",
-        Kind::Model,
-        Default::Required,
-        "How they move.",
-    ),
+    field("model", Kind::Model, Default::Required, "How they move."),
     field(
         "count",
         Kind::Count(0, 10_000_000),
@@ -34,7 +29,12 @@ pub(super) const ROBOTS: &[Field] = &[
         Default::Value("0"),
         "The number of the first.",
     ),
-    field("program", Kind::Text, Default::Depends("the scenario's `program`"), "What they run."),
+    field(
+        "program",
+        Kind::Text,
+        Default::Depends("the scenario's `program`"),
+        "What they run.",
+    ),
     field(
         "parameters",
         Kind::Parameters,
@@ -81,7 +81,12 @@ pub(super) const ROBOTS: &[Field] = &[
 ];
 
 const START: &[Field] = &[
-    field("position", Kind::Point, Default::Required, "Centre of the body's base."),
+    field(
+        "position",
+        Kind::Point,
+        Default::Required,
+        "Centre of the body's base.",
+    ),
     field(
         "heading",
         Kind::Quantity(Dimension::Angle, Range::Any),
@@ -91,7 +96,12 @@ const START: &[Field] = &[
 ];
 
 const SENSORS: &[Field] = &[
-    field("bumper", Kind::Flag, Default::Value("true"), "Feels contacts."),
+    field(
+        "bumper",
+        Kind::Flag,
+        Default::Value("true"),
+        "Feels contacts.",
+    ),
     field(
         "proximity",
         Kind::Switch(PROXIMITY),
@@ -114,12 +124,26 @@ const SENSORS: &[Field] = &[
 ];
 
 const PROXIMITY: &[Field] = &[
-    field("rays", Kind::Count(1, 1024), Default::Value("24"), "How many."),
-    field("range", SIZE, Default::Value("100mm"), "How far they see beyond the body's edge."),
+    field(
+        "rays",
+        Kind::Count(1, 1024),
+        Default::Value("24"),
+        "How many.",
+    ),
+    field(
+        "range",
+        SIZE,
+        Default::Value("100mm"),
+        "How far they see beyond the body's edge.",
+    ),
 ];
 
-const DETECTOR: &[Field] =
-    &[field("range", SIZE, Default::Value("600mm"), "How far, from the robot's centre.")];
+const DETECTOR: &[Field] = &[field(
+    "range",
+    SIZE,
+    Default::Value("600mm"),
+    "How far, from the robot's centre.",
+)];
 
 const CLOCK: &[Field] = &[
     field(
@@ -128,5 +152,10 @@ const CLOCK: &[Field] = &[
         Default::Value("0s"),
         "Greatest offset; clocks start between 0 and this.",
     ),
-    field("drift", RATIO, Default::Value("0"), "Greatest drift either way, e.g. `\"50ppm\"`."),
+    field(
+        "drift",
+        RATIO,
+        Default::Value("0"),
+        "Greatest drift either way, e.g. `\"50ppm\"`.",
+    ),
 ];

@@ -4,7 +4,12 @@ use super::*;
 
 /// All fields of a scenario.
 pub const SCENARIO: &[Field] = &[
-    field("title", Kind::Text, Default::Depends("the file's name"), "What is run."),
+    field(
+        "title",
+        Kind::Text,
+        Default::Depends("the file's name"),
+        "What is run.",
+    ),
     field(
         "program",
         Kind::Text,
@@ -17,7 +22,12 @@ pub const SCENARIO: &[Field] = &[
         Default::Value("1"),
         "Decides every random draw of the run.",
     ),
-    field("duration", PERIOD, Default::Value("120s"), "The run ends here at the latest."),
+    field(
+        "duration",
+        PERIOD,
+        Default::Value("120s"),
+        "The run ends here at the latest.",
+    ),
     field(
         "goal",
         Kind::Choice(&["finished", "duration"]),
@@ -40,8 +50,16 @@ pub const SCENARIO: &[Field] = &[
          from 0 in the order of the file.",
     ),
     table("physics", PHYSICS, "How finely motion is computed."),
-    table("positioning", POSITIONING, "How robots learn where they are."),
-    table("motion", MOTION, "How exactly robots move, and how they keep clear of each other."),
+    table(
+        "positioning",
+        POSITIONING,
+        "How robots learn where they are.",
+    ),
+    table(
+        "motion",
+        MOTION,
+        "How exactly robots move, and how they keep clear of each other.",
+    ),
     table(
         "wind",
         WIND,
@@ -55,7 +73,11 @@ pub const SCENARIO: &[Field] = &[
         faults::RATES,
         "Faults at random, drawn from the seed as Poisson processes.",
     ),
-    table("properties", PROPERTIES, "What is checked while the run goes on."),
+    table(
+        "properties",
+        PROPERTIES,
+        "What is checked while the run goes on.",
+    ),
     table("trace", TRACE, "What is recorded."),
 ];
 
@@ -75,7 +97,12 @@ const PHYSICS: &[Field] = &[
 ];
 
 const POSITIONING: &[Field] = &[
-    field("period", PERIOD, Default::Value("50ms"), "Time between two estimates."),
+    field(
+        "period",
+        PERIOD,
+        Default::Value("50ms"),
+        "Time between two estimates.",
+    ),
     field(
         "position_noise",
         LENGTH,
@@ -151,13 +178,33 @@ const AVOIDANCE: &[Field] = &[
 ];
 
 const WIND: &[Field] = &[
-    field("steady", Kind::Velocity, Default::Value("[0, 0, 0]"), "Steady velocity of the air."),
-    field("gust", Kind::Velocity, Default::Value("[0, 0, 0]"), "Amplitude of the gust."),
-    field("gust_period", PERIOD, Default::Value("10s"), "Period of the gust."),
+    field(
+        "steady",
+        Kind::Velocity,
+        Default::Value("[0, 0, 0]"),
+        "Steady velocity of the air.",
+    ),
+    field(
+        "gust",
+        Kind::Velocity,
+        Default::Value("[0, 0, 0]"),
+        "Amplitude of the gust.",
+    ),
+    field(
+        "gust_period",
+        PERIOD,
+        Default::Value("10s"),
+        "Period of the gust.",
+    ),
 ];
 
 const PROPERTIES: &[Field] = &[
-    field("no_collision", Kind::Flag, Default::Value("true"), "Bodies never touch."),
+    field(
+        "no_collision",
+        Kind::Flag,
+        Default::Value("true"),
+        "Bodies never touch.",
+    ),
     field(
         "reach_avoid",
         Kind::Flag,
@@ -170,10 +217,30 @@ const PROPERTIES: &[Field] = &[
         Default::Value("120s"),
         "Within this time of its start a ReachAvoid is no longer active.",
     ),
-    field("broadcast", Kind::Flag, Default::Value("true"), "Broadcasts reach every robot that is up."),
-    field("broadcast_bound", PERIOD, Default::Value("30s"), "Within this time, the thesis's d1."),
-    field("geocast", Kind::Flag, Default::Value("true"), "Exclusion and inclusion of Geocast."),
-    field("geocast_bound", PERIOD, Default::Value("30s"), "Within this time, the thesis's d2."),
+    field(
+        "broadcast",
+        Kind::Flag,
+        Default::Value("true"),
+        "Broadcasts reach every robot that is up.",
+    ),
+    field(
+        "broadcast_bound",
+        PERIOD,
+        Default::Value("30s"),
+        "Within this time, the thesis's d1.",
+    ),
+    field(
+        "geocast",
+        Kind::Flag,
+        Default::Value("true"),
+        "Exclusion and inclusion of Geocast.",
+    ),
+    field(
+        "geocast_bound",
+        PERIOD,
+        Default::Value("30s"),
+        "Within this time, the thesis's d2.",
+    ),
 ];
 
 const TRACE: &[Field] = &[field(

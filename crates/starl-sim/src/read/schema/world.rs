@@ -22,9 +22,21 @@ pub(super) const WORLD: &[Field] = &[
         Default::Depends("`bounds`, or else everything in the world and 1 m around it"),
         "Where robots without a start of their own are placed, their bodies wholly inside.",
     ),
-    tables("obstacle", OBSTACLE, "What is in the way. Each has one of the four shapes."),
-    tables("occupancy", OCCUPANCY, "Obstacles drawn in an image, as maps of buildings often are."),
-    tables("way_point", WAY_POINT, "Places handed to every program, in this order."),
+    tables(
+        "obstacle",
+        OBSTACLE,
+        "What is in the way. Each has one of the four shapes.",
+    ),
+    tables(
+        "occupancy",
+        OCCUPANCY,
+        "Obstacles drawn in an image, as maps of buildings often are.",
+    ),
+    tables(
+        "way_point",
+        WAY_POINT,
+        "Places handed to every program, in this order.",
+    ),
     tables("thing", THING, "Things that detectors see."),
 ];
 
@@ -35,7 +47,12 @@ const OBSTACLE: &[Field] = &[
         Default::Word("none"),
         "Shape: a convex polygon, its corners in order; a wall without thickness if there are two.",
     ),
-    field("circle", Kind::Table(CIRCLE), Default::Word("none"), "Shape: an upright cylinder."),
+    field(
+        "circle",
+        Kind::Table(CIRCLE),
+        Default::Word("none"),
+        "Shape: an upright cylinder.",
+    ),
     field(
         "rectangle",
         Kind::Table(CORNERS),
@@ -61,17 +78,37 @@ const OBSTACLE: &[Field] = &[
         Default::Value("false"),
         "Robots do not know it until they meet it.",
     ),
-    field("expires", PERIOD, Default::Word("never"), "It vanishes at this time."),
+    field(
+        "expires",
+        PERIOD,
+        Default::Word("never"),
+        "It vanishes at this time.",
+    ),
 ];
 
 const CIRCLE: &[Field] = &[
-    field("center", Kind::PlanarPoint, Default::Required, "Its centre."),
+    field(
+        "center",
+        Kind::PlanarPoint,
+        Default::Required,
+        "Its centre.",
+    ),
     field("radius", SIZE, Default::Required, "Its radius."),
 ];
 
 const BOX: &[Field] = &[
-    field("low", Kind::Point, Default::Required, "Corner with the lowest x, y and z."),
-    field("high", Kind::Point, Default::Required, "Corner with the highest x, y and z."),
+    field(
+        "low",
+        Kind::Point,
+        Default::Required,
+        "Corner with the lowest x, y and z.",
+    ),
+    field(
+        "high",
+        Kind::Point,
+        Default::Required,
+        "Corner with the highest x, y and z.",
+    ),
 ];
 
 const OCCUPANCY: &[Field] = &[
@@ -94,12 +131,27 @@ const OCCUPANCY: &[Field] = &[
         Default::Value("0.65"),
         "A pixel at least this dark is an obstacle: 0 is white, 1 is black.",
     ),
-    field("height", Kind::Heights, Default::Word("unbounded"), "As for an obstacle."),
-    field("hidden", Kind::Flag, Default::Value("false"), "As for an obstacle."),
+    field(
+        "height",
+        Kind::Heights,
+        Default::Word("unbounded"),
+        "As for an obstacle.",
+    ),
+    field(
+        "hidden",
+        Kind::Flag,
+        Default::Value("false"),
+        "As for an obstacle.",
+    ),
 ];
 
 const WAY_POINT: &[Field] = &[
-    field("name", Kind::Text, Default::Required, "Its name; no two are called the same."),
+    field(
+        "name",
+        Kind::Text,
+        Default::Required,
+        "Its name; no two are called the same.",
+    ),
     field("position", Kind::Point, Default::Required, "Where it is."),
     field(
         "group",
@@ -110,6 +162,11 @@ const WAY_POINT: &[Field] = &[
 ];
 
 const THING: &[Field] = &[
-    field("name", Kind::Text, Default::Required, "Its name; no two are called the same."),
+    field(
+        "name",
+        Kind::Text,
+        Default::Required,
+        "Its name; no two are called the same.",
+    ),
     field("position", Kind::Point, Default::Required, "Where it is."),
 ];

@@ -1,0 +1,154 @@
+//! Decodes grey images: PGM by hand, PNG by the `png` crate.
+
+/// A grey image, rows from the top.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Image {
+    pub columns: usize,
+    pub rows: usize,
+    /// How dark each pixel is, from 0 (white) to 1 (black).
+    pub darkness: Vec<f64>,
+}
+
+/// An image of more pixels is refused; it would be a map of a town at a pixel a centimetre.
+const MOST_PIXELS: usize = 1 << 26;
+
+/// The image in a file, or why it cannot be read.
+pub(super) fn decode(bytes: &[u8]) -> Result<Image, String> {
+    if bytes.starts_with(b"P2") || bytes.starts_with(b"P5") {
+        return pgm(bytes);
+    }
+    if bytes.starts_with(b"\x89PNG") {
+        return png(bytes);
+    }
+    Err("it begins like neither a PGM nor a PNG".to_string())
+}
+
+fn size(columns: usize, rows: usize) -> Result<usize, String> {
+    match columns.checked_mul(rows) {
+        Some(0) => Err("it has no pixels".to_string()),
+        Some(pixels) if pixels <= MOST_PIXELS => Ok(pixels),
+        _ => Err(format!("{columns} by {rows} pixels are too many")),
+    }
+}
+
+/// Netpbm's PGM: magic, width, height, greatest value, then the values, from black to white; in P2 as
+/// decimal numbers, in P5 as one or two bytes each, the high one first.
+fn pgm(bytes: &[u8]) -> Result<Image, String> {
+    let mut reader = Numbers { bytes, at: 2 };
+    let mut header = |what: &str| {
+        reader
+            .next()
+            .ok_or_else(|| format!("its {what} is missing or not a number"))
+    };
+    let (columns, rows) = (header("width")?, header("height")?);
+    let greatest = header("greatest value")?;
+    if !(1..=65_535).contains(&greatest) {
+        return Err(format!("its greatest value is {greatest}, not 1 to 65535"));
+    }
+    let pixels = size(columns, rows)?;
+    let values: Vec<usize> = if bytes[1] == b'2' {
+        // Not more than there can be, whatever the header says.
+        (&mut reader).take(pixels).collect()
+    } else {
+        let data = bytes.get(reader.at + 1..).unwrap_or_default();
+        match greatest {
+            ..=255 => data
+                .iter()
+                .take(pixels)
+                .map(|&value| value.into())
+                .collect(),
+            _ => {
+                let value = |pair: &[u8]| usize::from(pair[0]) << 8 | usize::from(pair[1]);
+                data.chunks_exact(2).take(pixels).map(value).collect()
+            }
+        }
+    };
+    if values.len() < pixels {
+        return Err(format!("it ends after {} of {pixels} pixels", values.len()));
+    }
+    if let Some(value) = values.iter().find(|&&value| value > greatest) {
+        return Err(format!(
+            "it has a pixel of {value}, above its greatest value {greatest}"
+        ));
+    }
+    let darkness = values
+        .iter()
+        .map(|&value| 1.0 - value as f64 / greatest as f64)
+        .collect();
+    Ok(Image {
+        columns,
+        rows,
+        darkness,
+    })
+}
+
+/// Decimal numbers between white space and comments.
+struct Numbers<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl Iterator for Numbers<'_> {
+    type Item = usize;
+
+    fn next(&mut self) -> Option<usize> {
+        loop {
+            match self.bytes.get(self.at)? {
+                b'#' => {
+                    let rest = &self.bytes[self.at..];
+                    self.at += rest
+                        .iter()
+                        .position(|&byte| byte == b'\n')
+                        .unwrap_or(rest.len());
+                }
+                byte if byte.is_ascii_whitespace() => self.at += 1,
+                _ => break,
+            }
+        }
+        let rest = &self.bytes[self.at..];
+        let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
+        self.at += digits;
+        std::str::from_utf8(&rest[..digits]).ok()?.parse().ok()
+    }
+}
+
+fn png(bytes: &[u8]) -> Result<Image, String> {
+    let limits = png::Limits {
+        bytes: 16 * MOST_PIXELS,
+    };
+    let mut decoder = png::Decoder::new_with_limits(std::io::Cursor::new(bytes), limits);
+    decoder.set_transformations(png::Transformations::normalize_to_color8());
+    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
+    let (columns, rows) = (reader.info().width as usize, reader.info().height as usize);
+    let pixels = size(columns, rows)?;
+    let length = reader.output_buffer_size().ok_or("it is too large")?;
+    let mut data = vec![0; length];
+    let frame = reader
+        .next_frame(&mut data)
+        .map_err(|error| error.to_string())?;
+    let samples = frame.color_type.samples();
+    let colours = if samples >= 3 { 3 } else { 1 };
+    let transparency = matches!(samples, 2 | 4);
+    let darkness = |pixel: &[u8]| {
+        let sum: f64 = pixel[..colours].iter().map(|&value| f64::from(value)).sum();
+        let dark = 1.0 - sum / (255.0 * colours as f64);
+        // What is transparent is as if white.
+        if transparency {
+            dark * f64::from(pixel[samples - 1]) / 255.0
+        } else {
+            dark
+        }
+    };
+    let darkness: Vec<f64> = data[..frame.buffer_size()]
+        .chunks_exact(samples)
+        .map(darkness)
+        .collect();
+    if darkness.len() != pixels {
+        return Err("its rows are incomplete".to_string());
+    }
+    Ok(Image {
+        columns,
+        rows,
+        darkness,
+    })
+}

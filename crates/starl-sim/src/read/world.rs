@@ -1,0 +1,181 @@
+//! Reads `world`, and puts together what it says and what its files say.
+
+use super::inputs::Recorder;
+use super::names::Names;
+use super::report::Report;
+use super::section::Section;
+use super::{Placed, obstacle, occupancy, start, world_file};
+use crate::scenario::{Bounds, Thing, World, WorldObstacle};
+use starl_core::{Point, Pose, WayPoint};
+use std::collections::BTreeMap;
+
+/// What is in the world, with the place of each thing for the checks that follow.
+#[derive(Default)]
+pub(super) struct Contents {
+    pub bounds: Option<Placed<Bounds>>,
+    pub start_area: Option<Placed<Bounds>>,
+    pub obstacles: Vec<WorldObstacle>,
+    pub way_points: Vec<Placed<WayPoint>>,
+    pub things: Vec<Placed<Thing>>,
+    /// Starts of robots by name, from world files.
+    pub starts: Vec<Placed<(String, Pose)>>,
+}
+
+/// What is in the world.
+pub(super) fn read(table: Section<'_>, names: &Names, files: &Recorder<'_>) -> Contents {
+    let mut contents = Contents {
+        bounds: table.optional_table("bounds", |table| start::area(table)),
+        start_area: table.optional_table("start_area", |table| start::area(table)),
+        ..Contents::default()
+    };
+    for (path, origin, field) in table.texts("files") {
+        match files.load(&path) {
+            Ok(bytes) => world_file::read(&path, &bytes, names, &mut contents, table.report),
+            Err(reason) => {
+                let message = format!("cannot read {path}: {reason}");
+                table.report.problem(origin, &field, message);
+            }
+        }
+    }
+    let obstacles = table.tables("obstacle", obstacle::read);
+    contents.obstacles.extend(obstacles.into_iter().flatten());
+    for image in table.tables("occupancy", |table| occupancy::read(table, files)) {
+        contents.obstacles.extend(image);
+    }
+    contents
+        .way_points
+        .extend(table.tables("way_point", way_point).into_iter().flatten());
+    contents
+        .things
+        .extend(table.tables("thing", thing).into_iter().flatten());
+    contents.check(table.report);
+    contents
+}
+
+fn way_point(table: Section<'_>) -> Option<Placed<WayPoint>> {
+    let (name, position) = (table.text("name"), table.point("position"));
+    let group = table.count("group").unwrap_or_default() as u32;
+    let value = WayPoint {
+        name: name?,
+        position: position?.0,
+        group,
+    };
+    Some(Placed {
+        value,
+        origin: table.origin_of("position"),
+        field: table.path_of("position"),
+    })
+}
+
+fn thing(table: Section<'_>) -> Option<Placed<Thing>> {
+    let (name, position) = (table.text("name"), table.point("position"));
+    let value = Thing {
+        name: name?,
+        position: position?.0,
+    };
+    Some(Placed {
+        value,
+        origin: table.origin_of("position"),
+        field: table.path_of("position"),
+    })
+}
+
+impl Bounds {
+    fn contains_planar(&self, p: Point) -> bool {
+        self.low.x <= p.x && p.x <= self.high.x && self.low.y <= p.y && p.y <= self.high.y
+    }
+}
+
+impl Contents {
+    fn check(&self, report: &Report) {
+        let way_points = self.way_points.iter().map(|placed| {
+            (
+                placed.value.name.as_str(),
+                placed.value.position,
+                placed.origin,
+                &placed.field,
+            )
+        });
+        let things = self.things.iter().map(|placed| {
+            (
+                placed.value.name.as_str(),
+                placed.value.position,
+                placed.origin,
+                &placed.field,
+            )
+        });
+        for (kind, list) in [
+            ("way-point", way_points.collect::<Vec<_>>()),
+            ("thing", things.collect()),
+        ] {
+            let mut known = BTreeMap::new();
+            for (name, position, origin, field) in list {
+                if let Some(other) = known.insert(name, origin) {
+                    let message = format!("there are two {kind}s called {name}");
+                    let help = format!("rename one; the other is at {}", report.place(other));
+                    report.problem_with_help(origin, field, message, help);
+                }
+                let within = |bounds: &Placed<Bounds>| bounds.value.contains_planar(position);
+                if !self.bounds.as_ref().is_none_or(within) {
+                    let message = format!("the {kind} {name} is outside the bounds of the world");
+                    report.problem_with_help(origin, field, message, "move it, or the bounds");
+                }
+            }
+        }
+        let mut known = BTreeMap::new();
+        for Placed {
+            value: (name, _),
+            origin,
+            field,
+        } in &self.starts
+        {
+            if let Some(other) = known.insert(name, *origin) {
+                let message = format!("{name} starts at two places");
+                let help = format!("leave one out; the other is at {}", report.place(other));
+                report.problem_with_help(*origin, field, message, help);
+            }
+        }
+        if let (Some(bounds), Some(area)) = (&self.bounds, &self.start_area)
+            && !(bounds.value.contains_planar(area.value.low)
+                && bounds.value.contains_planar(area.value.high))
+        {
+            let message = "the start area reaches beyond the bounds of the world";
+            report.problem_with_help(area.origin, &area.field, message, "make it smaller");
+        }
+    }
+
+    /// Everything in the world and 1 m around it; none if there is nothing.
+    pub fn surroundings(&self) -> Option<Bounds> {
+        let points = (self.way_points.iter().map(|placed| placed.value.position))
+            .chain(self.things.iter().map(|placed| placed.value.position))
+            .chain(self.starts.iter().map(|placed| placed.value.1.position))
+            .map(|point| (point, point));
+        let boxes = self.obstacles.iter().map(|obstacle| {
+            let bounds = obstacle.obstacle.bounds();
+            (bounds.low, bounds.high)
+        });
+        let (low, high) = points.chain(boxes).reduce(|(low, high), (a, b)| {
+            let low = Point::planar(low.x.min(a.x), low.y.min(a.y));
+            (low, Point::planar(high.x.max(b.x), high.y.max(b.y)))
+        })?;
+        let around = Point::planar(1.0, 1.0);
+        Some(Bounds {
+            low: (low - around).at_height(0.0),
+            high: (high + around).at_height(0.0),
+        })
+    }
+
+    /// The world as the engine wants it.
+    pub fn world(self) -> World {
+        World {
+            bounds: self.bounds.map(|bounds| bounds.value),
+            obstacles: self.obstacles,
+            way_points: self
+                .way_points
+                .into_iter()
+                .map(|placed| placed.value)
+                .collect(),
+            things: self.things.into_iter().map(|placed| placed.value).collect(),
+        }
+    }
+}

@@ -1,0 +1,292 @@
+//! Reads the world files of StarL 1.5: way-points, starts, things and obstacles, a line for each.
+//!
+//! Lengths are in millimetres, headings in degrees, times in milliseconds; see
+//! `docs/reference/world-files.md`. Errors name the line and the column of the value.
+
+use super::names::Names;
+use super::obstacle::explain;
+use super::report::{Origin, Report};
+use super::world::Contents;
+use super::{Placed, suggest};
+use crate::scenario::{Thing, WorldObstacle};
+use starl_core::{ConvexPolygon, Duration, Obstacle, Point, Pose, Time, WayPoint, math};
+
+/// Adds what is in a file to the world.
+pub(super) fn read(
+    name: &str,
+    bytes: &[u8],
+    names: &Names,
+    contents: &mut Contents,
+    report: &Report,
+) {
+    let text = match std::str::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(error) => {
+            let valid = String::from_utf8_lossy(&bytes[..error.valid_up_to()]);
+            let origin = report.file(name, &valid);
+            let end = Origin {
+                offset: valid.len() as u32,
+                ..origin
+            };
+            let help = "save the file as UTF-8";
+            report.problem_with_help(end, "", "this is not text", help);
+            return;
+        }
+    };
+    let start = report.file(name, text);
+    let mut file = File {
+        names,
+        contents,
+        report,
+    };
+    let mut offset = 0;
+    for line in text.split('\n') {
+        let begin = Origin {
+            offset: offset as u32,
+            ..start
+        };
+        let without_comment = line.split("//").next().unwrap_or_default();
+        let line_of_fields = without_comment.trim_start_matches('\u{feff}');
+        let skipped = without_comment.len() - line_of_fields.len();
+        let begin = Origin {
+            offset: begin.offset + skipped as u32,
+            ..begin
+        };
+        if !line_of_fields.trim().is_empty() {
+            // What is wrong was reported; the next line may be right.
+            let _ = file.line(line_of_fields, begin);
+        }
+        offset += line.len() + 1;
+    }
+}
+
+/// A value of a line, without blanks around it, and where it is.
+#[derive(Clone, Copy)]
+struct Word<'a> {
+    text: &'a str,
+    origin: Origin,
+}
+
+/// The values between separators.
+fn words(line: &str, begin: Origin, separator: char) -> Vec<Word<'_>> {
+    let mut offset = begin.offset;
+    line.split(separator)
+        .map(|part| {
+            let blank = (part.len() - part.trim_start().len()) as u32;
+            let word = Word {
+                text: part.trim(),
+                origin: Origin {
+                    offset: offset + blank,
+                    ..begin
+                },
+            };
+            offset += part.len() as u32 + 1;
+            word
+        })
+        .collect()
+}
+
+struct File<'a> {
+    names: &'a Names,
+    contents: &'a mut Contents,
+    report: &'a Report,
+}
+
+const KEYWORDS: [&str; 4] = ["WAY", "SENSE", "Obstacle", "Hidden"];
+
+impl File<'_> {
+    fn line(&mut self, line: &str, begin: Origin) -> Option<()> {
+        let end = line.find([',', ';']).unwrap_or(line.len());
+        let keyword = line[..end].trim();
+        let separator = if line[end..].starts_with(';') {
+            ';'
+        } else {
+            ','
+        };
+        let words = words(line, begin, separator);
+        match (keyword, separator) {
+            ("WAY", ',') => self.way(&words),
+            ("SENSE", ',') => self.sense(&words),
+            ("Obstacle", ';') => self.obstacle(&words, false),
+            ("Hidden", ';') => self.obstacle(&words, true),
+            _ if KEYWORDS.contains(&keyword) => {
+                let separator = if separator == ';' {
+                    "commas"
+                } else {
+                    "semicolons"
+                };
+                let message = format!("the values after {keyword} are separated by {separator}");
+                self.complain(
+                    words[0].origin,
+                    message,
+                    "see docs/reference/world-files.md",
+                )
+            }
+            _ => {
+                let help = suggest::help(keyword, &KEYWORDS, "a line begins with one of");
+                let message = format!("there is no kind of line {keyword:?}");
+                self.complain(words[0].origin, message, help.unwrap_or_default())
+            }
+        }
+    }
+
+    fn complain<T>(&self, origin: Origin, message: String, help: impl ToString) -> Option<T> {
+        self.report
+            .problem_with_help(origin, "", message, help.to_string());
+        None
+    }
+
+    /// A finite number; millimetres and the like are all written plainly.
+    fn number(&self, word: Word<'_>, what: &str) -> Option<f64> {
+        match word.text.parse::<f64>() {
+            Ok(number) if number.is_finite() && number.abs() <= 1e12 => Some(number),
+            _ => {
+                let message = format!("{:?} is not a number", word.text);
+                self.complain(word.origin, message, format!("give {what}"))
+            }
+        }
+    }
+
+    /// A length in millimetres, as metres.
+    fn length(&self, word: Word<'_>) -> Option<f64> {
+        Some(self.number(word, "millimetres, without a unit")? / 1000.0)
+    }
+
+    fn point(&self, words: &[Word<'_>]) -> Option<Point> {
+        let (x, y, z) = (
+            self.length(words[0]),
+            self.length(words[1]),
+            self.length(words[2]),
+        );
+        Some(Point::new(x?, y?, z?))
+    }
+
+    fn name(&self, word: Word<'_>) -> Option<String> {
+        if word.text.is_empty() {
+            return self.complain(word.origin, "the name is missing".to_string(), "write one");
+        }
+        Some(word.text.to_string())
+    }
+
+    fn way(&mut self, words: &[Word<'_>]) -> Option<()> {
+        if !matches!(words.len(), 5 | 6) {
+            let message = format!("there are {} values after WAY", words.len() - 1);
+            let help = "write WAY,x,y,z,NAME or WAY,x,y,z,NAME,number";
+            return self.complain(words[0].origin, message, help);
+        }
+        let (position, name) = (self.point(&words[1..4]), self.name(words[4]));
+        let (position, name) = (position?, name?);
+        let (origin, field) = (words[1].origin, String::new());
+        if self.names.is_robot(&name) {
+            let degrees = match words.get(5) {
+                Some(word) => self.number(*word, "the heading in degrees")?,
+                None => 0.0,
+            };
+            let heading = math::wrap_angle(math::radians(degrees));
+            let value = (name, Pose::level(position, heading));
+            self.contents.starts.push(Placed {
+                value,
+                origin,
+                field,
+            });
+            return Some(());
+        }
+        let group = match words.get(5).map(|word| word.text.parse::<u32>()) {
+            None => 0,
+            Some(Ok(group)) => group,
+            Some(Err(_)) => {
+                let message = format!("{:?} is not a group of way-points", words[5].text);
+                let help = "give a whole number, at least 0";
+                return self.complain(words[5].origin, message, help);
+            }
+        };
+        let value = WayPoint {
+            name,
+            position,
+            group,
+        };
+        self.contents.way_points.push(Placed {
+            value,
+            origin,
+            field,
+        });
+        Some(())
+    }
+
+    fn sense(&mut self, words: &[Word<'_>]) -> Option<()> {
+        if words.len() != 5 {
+            let message = format!("there are {} values after SENSE", words.len() - 1);
+            return self.complain(words[0].origin, message, "write SENSE,x,y,z,NAME");
+        }
+        let (position, name) = (self.point(&words[1..4]), self.name(words[4]));
+        let value = Thing {
+            name: name?,
+            position: position?,
+        };
+        let (origin, field) = (words[1].origin, String::new());
+        self.contents.things.push(Placed {
+            value,
+            origin,
+            field,
+        });
+        Some(())
+    }
+
+    fn obstacle(&mut self, words: &[Word<'_>], hidden: bool) -> Option<()> {
+        let keyword = words[0];
+        let (lifetime, corners) = match words[1..].split_last() {
+            Some((last, _)) if last.text.contains(',') => {
+                let message = "the lifetime is missing at the end of the line".to_string();
+                return self.complain(last.origin, message, "add ;-1 to keep it for ever");
+            }
+            Some(parts) => parts,
+            None => (&keyword, &[][..]),
+        };
+        let points: Vec<Option<Point>> = corners.iter().map(|word| self.corner(*word)).collect();
+        let mut points = points.into_iter().collect::<Option<Vec<Point>>>()?;
+        if points.len() > 3 && points.first() == points.last() {
+            points.pop();
+        }
+        let base = match ConvexPolygon::new(&points) {
+            Ok(base) => base,
+            Err(error) => {
+                let (message, help) = explain(error);
+                return self.complain(keyword.origin, message, help);
+            }
+        };
+        let expires = self.expiry(*lifetime)?;
+        self.contents.obstacles.push(WorldObstacle {
+            obstacle: Obstacle::polygon(base),
+            hidden,
+            expires,
+        });
+        Some(())
+    }
+
+    fn corner(&self, word: Word<'_>) -> Option<Point> {
+        match words(word.text, word.origin, ',').as_slice() {
+            [x, y] => {
+                let (x, y) = (self.length(*x), self.length(*y));
+                Some(Point::planar(x?, y?))
+            }
+            _ => {
+                let message = format!("{:?} is not a corner", word.text);
+                self.complain(word.origin, message, "write x,y in millimetres")
+            }
+        }
+    }
+
+    fn expiry(&self, word: Word<'_>) -> Option<Time> {
+        match word.text.parse::<i64>() {
+            Ok(-1) => Some(Time::NEVER),
+            Ok(millis @ 1..=1_000_000_000_000) => {
+                Some(Time::ZERO + Duration::from_millis(millis as u64))
+            }
+            _ => {
+                let message = format!("{:?} is not a lifetime", word.text);
+                let help = "give milliseconds, above 0, or -1 for ever";
+                self.complain(word.origin, message, help)
+            }
+        }
+    }
+}
