@@ -1,9 +1,9 @@
 //! Planners on three worlds of boxes, beside the figures of OMPL 1.5 on the same worlds.
 //!
 //! A point moves in a square or cube of side 100 from corner to corner. Each planner runs with many
-//! seeds; a run includes building the space from the list of boxes and, where it says so, shortening
-//! the path. Every run is repeated and the quickest counts, because on a busy machine that is what
-//! comes nearest to the processor time OMPL's figures are; medians are over the seeds.
+//! seeds. A run includes building the space from the list of boxes and, where it says so, shortening
+//! the path. It is repeated three times and the quickest counts, because on a busy machine that comes
+//! nearest to the processor time that the peer's figures are; medians are over the seeds.
 //!
 //! `cargo bench -p starl-motion --bench planning -- [--quick]`
 
@@ -12,10 +12,18 @@
 use starl_core::Random;
 use starl_motion::planning::free_space::FreeSpace;
 use starl_motion::planning::grown::GrownList;
+use starl_motion::planning::rrt::{self, Straight, rrt};
 use starl_motion::planning::rrt_connect::{self, rrt_connect};
+use starl_motion::planning::rrt_star::{self, rrt_star};
 use starl_motion::planning::shorten::shorten;
 use starl_motion::planning::vector::{Vector, length};
 use std::time::Instant;
+
+/// Nodes at which a planner gives up.
+const MOST_NODES: u32 = 100_000;
+
+/// Shorter edges are not worth a node.
+const SHORTEST_STEP: f64 = 1e-3;
 
 struct World<const D: usize> {
     boxes: Vec<(Vector<D>, Vector<D>)>,
@@ -55,126 +63,147 @@ impl<const D: usize> World<D> {
         }
         FreeSpace::new([self.low; D], [self.high; D], list)
     }
+
+    fn connect(&self, random: &mut Random, longest_step: f64) -> (FreeSpace<D>, Found<D>) {
+        let space = self.space();
+        let options = rrt_connect::Options {
+            most_nodes: MOST_NODES,
+            longest_step,
+            shortest_step: SHORTEST_STEP,
+        };
+        let path = rrt_connect(&space, &self.start, &self.goal, &options, random);
+        (space, path)
+    }
+
+    fn connect_and_shorten(&self, random: &mut Random, longest_step: f64) -> Found<D> {
+        let (space, path) = self.connect(random, longest_step);
+        let mut path = path?;
+        shorten(&space, &mut path, 8);
+        Some(path)
+    }
+
+    fn rrt(&self, random: &mut Random) -> Found<D> {
+        let space = self.space();
+        let steering = Straight { space: &space };
+        let options = rrt::Options {
+            most_nodes: MOST_NODES,
+            threshold: 0.5,
+        };
+        rrt(
+            &space,
+            &steering,
+            (&self.start, self.start),
+            &self.goal,
+            &options,
+            random,
+        )
+    }
+
+    /// RRT* alone until there is a path, or from a shortened path of RRT-Connect with so many nodes.
+    fn star(&self, random: &mut Random, nodes: Option<u32>) -> Found<D> {
+        let known = nodes.and_then(|_| self.connect_and_shorten(random, f64::INFINITY));
+        let options = rrt_star::Options {
+            most_nodes: nodes.unwrap_or(MOST_NODES),
+            long_enough: if nodes.is_some() { 0.0 } else { f64::INFINITY },
+            shortest_step: SHORTEST_STEP,
+        };
+        let (start, goal) = (&self.start, &self.goal);
+        rrt_star(
+            &self.space(),
+            start,
+            goal,
+            &known.unwrap_or_default(),
+            &options,
+            random,
+        )
+    }
 }
 
-type Plan<'a, const D: usize> =
-    dyn Fn(&FreeSpace<D>, &World<D>, &mut Random) -> Option<Vec<Vector<D>>> + 'a;
+type Found<const D: usize> = Option<Vec<Vector<D>>>;
 
 fn median(numbers: &mut [f64]) -> f64 {
     numbers.sort_by(f64::total_cmp);
     numbers.get(numbers.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-/// Prints a row: planner, solved, median and worst milliseconds, median length.
-fn measure<const D: usize>(name: &str, world: &World<D>, seeds: u64, plan: &Plan<D>, peer: &str) {
+/// Prints a row: planner, solved, median and worst milliseconds, median length, the peer's.
+fn row<const D: usize>(name: &str, seeds: u64, peer: &str, plan: impl Fn(&mut Random) -> Found<D>) {
     let (mut times, mut lengths) = (Vec::new(), Vec::new());
     for seed in 0..seeds {
-        let mut best = f64::INFINITY;
+        let mut quickest = f64::INFINITY;
         let mut found = None;
         for _ in 0..3 {
             let mut random = Random::keyed(seed, &[]);
             let started = Instant::now();
-            let space = world.space();
-            found = plan(&space, world, &mut random);
-            best = best.min(started.elapsed().as_secs_f64() * 1e3);
+            found = plan(&mut random);
+            quickest = quickest.min(started.elapsed().as_secs_f64() * 1e3);
         }
-        times.push(best);
+        times.push(quickest);
         lengths.extend(found.map(|path| length(&path)));
     }
-    let solved = lengths.len();
+    let solved = format!("{}/{seeds}", lengths.len());
     let worst = times.iter().copied().fold(0.0, f64::max);
-    println!(
-        "{name:<34} {solved:>4}/{seeds:<4} {:>9.4} {worst:>9.4} {:>8.1}   {peer}",
-        median(&mut times),
-        median(&mut lengths),
-    );
+    let (time, length) = (median(&mut times), median(&mut lengths));
+    println!("{name:<34} {solved:>9} {time:>10.4} {worst:>10.4} {length:>8.1}   {peer}");
 }
 
-fn connect<const D: usize>(step: f64, rounds: Option<u32>) -> Box<Plan<'static, D>> {
-    let options = rrt_connect::Options {
-        most_nodes: 100_000,
-        longest_step: step,
-        shortest_step: 1e-3,
-    };
-    Box::new(move |space, world, random| {
-        let mut path = rrt_connect(space, &world.start, &world.goal, &options, random)?;
-        if let Some(rounds) = rounds {
-            shorten(space, &mut path, rounds);
-        }
-        Some(path)
-    })
-}
-
-fn table<const D: usize>(name: &str, text: &str, seeds: u64, peer: [&str; 3]) {
+fn table<const D: usize>(name: &str, text: &str, seeds: u64, peer: [&str; 4]) {
     let world = World::<D>::read(text);
     println!("\n{name}: {} boxes", world.boxes.len());
     println!(
-        "{:<34} {:>9} {:>9} {:>9} {:>8}   peer: median ms, length",
+        "{:<34} {:>9} {:>10} {:>10} {:>8}   OMPL: ms, length",
         "planner", "solved", "median ms", "worst ms", "length"
     );
-    measure(
-        "RRT-Connect",
-        &world,
-        seeds,
-        &*connect(f64::INFINITY, None),
-        "",
-    );
-    measure(
-        "RRT-Connect, shortened",
-        &world,
-        seeds,
-        &*connect(f64::INFINITY, Some(8)),
-        peer[1],
-    );
-    measure(
-        "RRT-Connect, shortened 1",
-        &world,
-        seeds,
-        &*connect(f64::INFINITY, Some(1)),
-        peer[1],
-    );
-    measure(
-        "RRT-Connect, steps of 5",
-        &world,
-        seeds,
-        &*connect(5.0, None),
-        peer[1],
-    );
-    measure(
+    row("RRT", seeds, peer[0], |random| world.rrt(random));
+    row("RRT-Connect", seeds, peer[1], |random| {
+        world.connect(random, f64::INFINITY).1
+    });
+    row("RRT-Connect, shortened", seeds, peer[1], |random| {
+        world.connect_and_shorten(random, f64::INFINITY)
+    });
+    row("RRT-Connect, steps of 5", seeds, peer[1], |random| {
+        world.connect(random, 5.0).1
+    });
+    row(
         "RRT-Connect, steps of 5, shortened",
-        &world,
         seeds,
-        &*connect(5.0, Some(8)),
         peer[1],
+        |random| world.connect_and_shorten(random, 5.0),
     );
-    measure(
-        "RRT-Connect, steps of 5, shortened 1",
-        &world,
-        seeds,
-        &*connect(5.0, Some(1)),
-        peer[1],
-    );
+    let few = seeds / 10;
+    row("RRT*, first path", few, peer[2], |random| {
+        world.star(random, None)
+    });
+    row("RRT*, 1,000 nodes", few, peer[3], |random| {
+        world.star(random, Some(1_000))
+    });
+    row("RRT*, 10,000 nodes", few, peer[3], |random| {
+        world.star(random, Some(10_000))
+    });
 }
 
 fn main() {
     let quick = std::env::args().any(|argument| argument == "--quick");
     let seeds = if quick { 51 } else { 501 };
+    let text = include_str!("worlds/scen_2d_boxes.txt");
     table::<2>(
         "2d_boxes",
-        include_str!("worlds/scen_2d_boxes.txt"),
+        text,
         seeds,
-        ["18.0", "4.9, 169", "322; 139.8 after 1 s"],
+        ["18.0", "4.9, 169", "322", "1000, 139.8"],
     );
+    let text = include_str!("worlds/scen_2d_narrow.txt");
     table::<2>(
         "2d_narrow",
-        include_str!("worlds/scen_2d_narrow.txt"),
+        text,
         seeds,
-        ["1.46", "1.30, 355", "19.0; 251.4 after 1 s"],
+        ["1.46", "1.30, 355", "19.0", "1000, 251.4"],
     );
+    let text = include_str!("worlds/scen_3d_boxes.txt");
     table::<3>(
         "3d_boxes",
-        include_str!("worlds/scen_3d_boxes.txt"),
+        text,
         seeds,
-        ["15.9", "2.4, 296", "138; 247.6 after 1 s"],
+        ["15.9", "2.4, 296", "138", "1000, 247.6"],
     );
 }

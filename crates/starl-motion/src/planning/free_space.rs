@@ -77,6 +77,23 @@ impl<const D: usize> FreeSpace<D> {
         })
     }
 
+    /// Whether the segment keeps clear of all obstacles, in the box or not.
+    #[inline]
+    pub fn is_clear(&self, a: &Vector<D>, b: &Vector<D>) -> bool {
+        let ray = Ray::new(a, b);
+        let mut free = true;
+        self.tree.cast(&ray, 1.0, |number, enter, leave, limit| {
+            match self.grown.clip(number, &ray, (enter, leave)) {
+                Some(_) => {
+                    free = false;
+                    -1.0
+                }
+                None => limit,
+            }
+        });
+        free
+    }
+
     /// Calls `visit` with every obstacle the segment meets and the part of it inside, as fractions.
     pub fn for_each_met(&self, a: &Vector<D>, b: &Vector<D>, mut visit: impl FnMut(u32, f64, f64)) {
         let ray = Ray::new(a, b);
@@ -103,6 +120,12 @@ impl<const D: usize> Space<D> for FreeSpace<D> {
             }
         }
         core::array::from_fn(|axis| random.between(self.low[axis], self.high[axis]))
+    }
+
+    fn volume(&self) -> f64 {
+        (0..D)
+            .map(|axis| self.high[axis] - self.low[axis])
+            .product()
     }
 
     #[inline]
@@ -136,21 +159,7 @@ impl<const D: usize> Space<D> for FreeSpace<D> {
 
     #[inline]
     fn sees(&self, a: &Vector<D>, b: &Vector<D>) -> bool {
-        if !self.contains(a) || !self.contains(b) {
-            return false;
-        }
-        let ray = Ray::new(a, b);
-        let mut free = true;
-        self.tree.cast(&ray, 1.0, |number, enter, leave, limit| {
-            match self.grown.clip(number, &ray, (enter, leave)) {
-                Some(_) => {
-                    free = false;
-                    -1.0
-                }
-                None => limit,
-            }
-        });
-        free
+        self.contains(a) && self.contains(b) && self.is_clear(a, b)
     }
 }
 

@@ -9,12 +9,17 @@
 //! is tested at sample points, and the same request gives the same path on every machine.
 
 pub mod box_tree;
+pub mod cost_tree;
+mod driving;
+pub mod ellipsoid;
 pub mod escape;
 pub mod free_space;
 mod grow;
 pub mod grown;
 pub mod nearest;
+pub mod rrt;
 pub mod rrt_connect;
+pub mod rrt_star;
 pub mod shorten;
 pub mod space;
 pub mod tree;
@@ -22,11 +27,13 @@ pub mod vector;
 
 use crate::{Model, Neighbour};
 use alloc::vec::Vec;
+use driving::Driving;
+use free_space::FreeSpace;
 use grow::Mover;
 use space::Space;
 use starl_core::geometry::Obstacle;
-use starl_core::motion::{Body, Estimate, Path, PlanRequest};
-use starl_core::{Point, Random};
+use starl_core::motion::{Body, Estimate, Path, PlanRequest, Planner};
+use starl_core::{Point, Pose, Random};
 use vector::Vector;
 
 /// What a host may change about planning.
@@ -82,6 +89,7 @@ pub fn plan_with(
     }
     let robots = if request.around_robots { robots } else { &[] };
     let task = Task {
+        start,
         options,
         model,
         request,
@@ -97,7 +105,14 @@ pub fn plan_with(
     }
 }
 
+/// Edges of trees shorter than this are not worth a node, in radii.
+const SHORTEST_STEP: f64 = 0.01;
+
+/// Rounds of shortening; most paths are taut sooner.
+const ROUNDS: u32 = 8;
+
 struct Task<'a> {
+    start: &'a Estimate,
     options: &'a Options,
     model: &'a dyn Model,
     request: &'a PlanRequest,
@@ -116,28 +131,94 @@ impl Task<'_> {
         };
         let space = mover.space::<D>(self.from, self.target, obstacles, self.robots);
         let (from, target) = (Mover::to_space(self.from), Mover::to_space(self.target));
-        if space.sees(&from, &target) {
+        let drives = self.planner() == Planner::Rrt;
+        if !drives && space.sees(&from, &target) {
             return Some(alloc::vec![self.target]);
         }
         let target = escape::nearest_free(&space, &target, self.request.vicinity)?;
-        let mut path: Vec<Vector<D>> = Vec::new();
-        let mut root = from;
-        if !space.is_free(&from) {
-            let within = self.options.escape_radii * self.body.radius;
-            root = escape::escape(&space, &from, within)?;
-            path.push(root);
-        }
-        let mut random = Random::keyed(self.request.seed, &[]);
-        let options = rrt_connect::Options {
-            most_nodes: self.request.most_nodes,
-            longest_step: f64::INFINITY,
-            shortest_step: 1e-3,
+        let within = self.options.escape_radii * self.body.radius;
+        let root = match space.is_free(&from) {
+            true => from,
+            false => escape::escape(&space, &from, within)?,
         };
-        let mut found = rrt_connect::rrt_connect(&space, &root, &target, &options, &mut random)?;
-        shorten::shorten(&space, &mut found, 8);
-        path.extend(found.into_iter().skip(1));
-        let _ = self.model;
-        Some(path.iter().map(Mover::to_world).collect())
+        let found = match drives {
+            true => self.drive(&space, &root, &target)?,
+            false => self.search(&space, &root, &target)?,
+        };
+        // The root is the first way-point only where it is not where the robot is.
+        let path = found.iter().skip(usize::from(root == from));
+        Some(path.map(Mover::to_world).collect())
+    }
+
+    /// The planner asked for, or the one that suits the model.
+    fn planner(&self) -> Planner {
+        match self.request.planner {
+            Planner::Auto if self.model.limits().turn_radius > 0.0 => Planner::Rrt,
+            Planner::Auto => Planner::RrtConnect,
+            planner => planner,
+        }
+    }
+
+    fn random(&self) -> Random {
+        Random::keyed(self.request.seed, &[])
+    }
+
+    /// A path for a robot that goes straight wherever it likes, both ends included.
+    fn search<const D: usize>(
+        &self,
+        space: &FreeSpace<D>,
+        root: &Vector<D>,
+        target: &Vector<D>,
+    ) -> Option<Vec<Vector<D>>> {
+        let mut random = self.random();
+        let most_nodes = self.request.most_nodes;
+        let shortest_step = SHORTEST_STEP * self.body.radius;
+        let options = rrt_connect::Options {
+            most_nodes,
+            longest_step: f64::INFINITY,
+            shortest_step,
+        };
+        let mut path = rrt_connect::rrt_connect(space, root, target, &options, &mut random)?;
+        shorten::shorten(space, &mut path, ROUNDS);
+        if self.planner() == Planner::RrtStar {
+            let options = rrt_star::Options {
+                most_nodes,
+                long_enough: 0.0,
+                shortest_step,
+            };
+            path = rrt_star::rrt_star(space, root, target, &path, &options, &mut random)?;
+            shorten::shorten(space, &mut path, ROUNDS);
+        }
+        Some(path)
+    }
+
+    /// Way-points that the robot follows in its own manner, the root included.
+    fn drive<const D: usize>(
+        &self,
+        space: &FreeSpace<D>,
+        root: &Vector<D>,
+        target: &Vector<D>,
+    ) -> Option<Vec<Vector<D>>> {
+        let driving = Driving {
+            model: self.model,
+            space,
+        };
+        let pose = Pose {
+            position: self.from,
+            ..self.start.pose
+        };
+        let mut state = self.model.at_rest(pose);
+        if *root != Mover::to_space(self.from) {
+            state = driving.force(&state, root);
+        }
+        let options = rrt::Options {
+            most_nodes: self.request.most_nodes,
+            threshold: driving::SHORTEST_DRIVE,
+        };
+        let start = (root, state);
+        let mut path = rrt::rrt(space, &driving, start, target, &options, &mut self.random())?;
+        driving.leave_out(&state, &mut path);
+        Some(path)
     }
 
     /// The margin in metres: the one asked for, or half of what the target leaves.

@@ -66,9 +66,9 @@ impl<const D: usize> Bucket<D> {
     #[inline]
     fn squared_distances(&self, point: &Vector<D>) -> [f64; BUCKET] {
         let mut squared = [0.0; BUCKET];
-        for axis in 0..D {
-            for (sum, coordinate) in squared.iter_mut().zip(&self.coordinates[axis]) {
-                let offset = coordinate - point[axis];
+        for (coordinates, at) in self.coordinates.iter().zip(point) {
+            for (sum, coordinate) in squared.iter_mut().zip(coordinates) {
+                let offset = coordinate - at;
                 *sum += offset * offset;
             }
         }

@@ -14,6 +14,9 @@ pub trait Space<const D: usize> {
     /// Whether the whole segment is free; quicker to say than how much of it is.
     fn sees(&self, a: &Vector<D>, b: &Vector<D>) -> bool;
 
+    /// Area or volume of all of it, obstacles included, square or cubic metres.
+    fn volume(&self) -> f64;
+
     /// Whether the point is free.
     fn is_free(&self, point: &Vector<D>) -> bool {
         self.sees(point, point)

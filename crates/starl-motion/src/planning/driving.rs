@@ -1,0 +1,130 @@
+//! Going to a place as a robot of a given model does: tracked in closed loop, simulated step by step.
+//!
+//! This is what a tree of the thesis is grown by. A way-point counts as reached within
+//! [`ARRIVAL`] metres, from where the robot goes on to the next without stopping, as it does when it
+//! follows a path. Between two estimates the body moves along a short arc; its chord is what is
+//! tested, exactly, and the margin of the grown obstacles covers the height of the arc.
+
+use super::free_space::FreeSpace;
+use super::grow::Mover;
+use super::rrt::Steering;
+use super::vector::Vector;
+use crate::tracking::{Goal, Tracking};
+use crate::{Disturbance, Model, State};
+use alloc::vec::Vec;
+use starl_core::motion::Estimate;
+use starl_core::{Duration, Time, math};
+
+/// How near to a way-point the robot goes on to the next, metres.
+const ARRIVAL: f64 = 0.1;
+
+/// Nearer places are not worth driving to, metres: they are as good as reached.
+pub const SHORTEST_DRIVE: f64 = 2.0 * ARRIVAL;
+
+/// Time between estimates.
+const PERIOD: Duration = Duration::from_millis(100);
+
+/// A robot of a model, driving in a space.
+#[derive(Clone, Copy, Debug)]
+pub struct Driving<'a, const D: usize> {
+    /// The robot's model.
+    pub model: &'a dyn Model,
+    /// Where it drives.
+    pub space: &'a FreeSpace<D>,
+}
+
+impl<const D: usize> Driving<'_, D> {
+    /// An upper bound of the steps of a drive that arrives: turning all the way round twice and
+    /// thrice the distance, at the model's own pace.
+    fn most_steps(&self, distance: f64) -> u32 {
+        let limits = self.model.limits();
+        let speed = limits.cruise_speed.clamp(1e-3, 1e3);
+        let turning = 2.0 * math::TAU / limits.turn_rate.clamp(0.1, 1e3);
+        let around = 2.0 * math::TAU * limits.turn_radius / speed;
+        let seconds = 3.0 * distance / speed + turning + around + 2.0;
+        (seconds / PERIOD.seconds()) as u32
+    }
+
+    /// Drives to a place; `clear` is asked about every step from one place to the next.
+    fn drive(
+        &self,
+        from: &State,
+        to: &Vector<D>,
+        clear: impl Fn(&Vector<D>, &Vector<D>) -> bool,
+    ) -> Option<State> {
+        let target = Mover::to_world(to);
+        let goal = Goal::stop_at(target);
+        let mut tracking = Tracking::default();
+        let mut state = *from;
+        let mut at = Time::ZERO;
+        let reached = |state: &State| state.pose.position.distance(target) <= ARRIVAL;
+        for _ in 0..self.most_steps(from.pose.position.distance(target)) {
+            if reached(&state) {
+                return Some(state);
+            }
+            let estimate = Estimate {
+                pose: state.pose,
+                twist: state.twist,
+                at,
+            };
+            let command = self.model.track(&mut tracking, &estimate, &goal);
+            let next = self
+                .model
+                .predict(&state, &command, &Disturbance::default(), PERIOD);
+            let (a, b) = (state.pose.position, next.pose.position);
+            if !clear(&Mover::to_space(a), &Mover::to_space(b)) {
+                return None;
+            }
+            state = next;
+            at += PERIOD;
+        }
+        reached(&state).then_some(state)
+    }
+
+    /// Drives to a place whatever is in the way; where the robot is then, or was at first if it does
+    /// not arrive.
+    pub fn force(&self, from: &State, to: &Vector<D>) -> State {
+        self.drive(from, to, |_, _| true).unwrap_or(*from)
+    }
+
+    /// Whether all the way-points can be driven to in order.
+    fn follows(&self, from: &State, path: impl Iterator<Item = Vector<D>>) -> bool {
+        let mut state = *from;
+        for place in path {
+            match self.go(&state, &place) {
+                Some(next) => state = next,
+                None => return false,
+            }
+        }
+        true
+    }
+
+    /// Leaves out way-points, the earliest first, wherever the rest can then still be driven. The
+    /// first is where the robot is and stays.
+    pub fn leave_out(&self, from: &State, path: &mut Vec<Vector<D>>) {
+        let mut at = 1;
+        while at + 1 < path.len() {
+            let without = path
+                .iter()
+                .enumerate()
+                .skip(1)
+                .filter(|&(index, _)| index != at);
+            if self.follows(from, without.map(|(_, place)| *place)) {
+                path.remove(at);
+            } else {
+                at += 1;
+            }
+        }
+    }
+}
+
+impl<const D: usize> Steering<D> for Driving<'_, D> {
+    type State = State;
+
+    fn go(&self, from: &State, to: &Vector<D>) -> Option<State> {
+        if !self.space.is_clear(to, to) {
+            return None;
+        }
+        self.drive(from, to, |a, b| self.space.is_clear(a, b))
+    }
+}
