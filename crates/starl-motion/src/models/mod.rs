@@ -29,6 +29,9 @@ pub(crate) trait Parameterised: Model + Sized + 'static {
     fn build(parameters: Self::Parameters) -> Result<Self, ParameterError>;
 }
 
+/// Builds a model, whose name goes into errors, with these parameters set.
+type Make = fn(&'static str, &[(String, f64)]) -> Result<Arc<dyn Model>, ParameterError>;
+
 /// An entry of the registry.
 #[derive(Clone, Copy, Debug)]
 pub struct Kind {
@@ -38,7 +41,7 @@ pub struct Kind {
     pub summary: &'static str,
     /// Its parameters.
     pub fields: &'static [Field],
-    make: fn(&'static str, &[(String, f64)]) -> Result<Arc<dyn Model>, ParameterError>,
+    make: Make,
 }
 
 impl Kind {

@@ -50,7 +50,7 @@ const TOLERANCE: Tolerance = Tolerance {
 /// Points behind the car are approached backwards when they are nearer than so many turning radii.
 const BACKWARDS_WITHIN: f64 = 3.0;
 /// An approach goes on while the point is not deeper inside the turning circle than this, metres.
-const GIVE_UP_DEPTH: f64 = 0.04;
+const GIVE_UP_DEPTH: f64 = 0.05;
 /// A shunt ends when the point is this part of the turning radius outside of the circle.
 const SHUNT_MARGIN: f64 = 0.12;
 /// The look-ahead in turning radii.
@@ -85,13 +85,24 @@ impl Gains {
     pub fn track(&self, tracking: &mut Tracking, estimate: &Estimate, goal: &Goal) -> Command {
         let period = tracking.period(estimate);
         let position = estimate.pose.position;
+        let sight = self.sight(estimate, goal.target);
+        // Once past the point the car will not come nearer to it without shunting.
+        let passed = match tracking.phase {
+            FORWARDS => sight.centre_ahead < 0.0,
+            BACKWARDS => sight.centre_ahead > 0.0,
+            _ => false,
+        };
+        let stop = if passed {
+            TOLERANCE.start
+        } else {
+            TOLERANCE.stop
+        };
         if goal.next.is_some() {
             tracking.rest = None;
-        } else if at_rest(tracking, goal, position, TOLERANCE) {
+        } else if at_rest(tracking, goal, position, Tolerance { stop, ..TOLERANCE }) {
             tracking.phase = UNDECIDED;
             return Command::Stop;
         }
-        let sight = self.sight(estimate, goal.target);
         tracking.phase = self.phase(tracking.phase, &sight);
         let through = goal.through_speed(position, self.cruise_speed);
         let limit = self.cruise_speed.min(goal.speed_limit);

@@ -25,8 +25,9 @@ pub(super) struct References {
 const PLACE_GAIN: f64 = 1.0;
 /// Acceleration per speed while holding a place, 1/s.
 const SPEED_GAIN: f64 = 1.8;
-/// Climb per height left while taking off, 1/s.
-const HEIGHT_GAIN: f64 = 2.0;
+/// Climb per height left while taking off, times the time constant of the climb: a quarter is
+/// critical damping.
+const HEIGHT_GAIN: f64 = 0.25;
 /// A drone that starts to hold its place chooses the one where it would be after so long, seconds,
 /// so that it brakes without flying back.
 pub(super) const BRAKING_TIME: f64 = 0.6;
@@ -69,7 +70,7 @@ impl Dynamics {
         let climb = match mode {
             mode::TAKING_OFF => {
                 let left = self.safe_height - motion.position[2];
-                (HEIGHT_GAIN * left).clamp(-self.climb, self.climb)
+                (HEIGHT_GAIN / self.climb_time * left).clamp(-self.climb, self.climb)
             }
             mode::LANDING => -self.landing_speed,
             _ => 0.0,

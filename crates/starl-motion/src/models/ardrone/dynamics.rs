@@ -92,7 +92,9 @@ impl Dynamics {
             motion = self.step(&motion, mode, command, anchor, disturbance, step);
             if motion.position[2] <= 0.0 {
                 motion.position[2] = 0.0;
-                motion.velocity[2] = motion.velocity[2].max(0.0);
+                if motion.velocity[2] < 0.0 {
+                    motion.velocity[2] = 0.0;
+                }
                 if mode == mode::LANDING {
                     motion = motion.standing();
                     mode = mode::LANDED;
