@@ -29,7 +29,8 @@ impl Digest {
     pub fn word(&mut self, word: u64) {
         const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15; // 2^64 over the golden ratio
         let product = u128::from(self.0 ^ word ^ FACTOR.rotate_left(32)) * u128::from(FACTOR);
-        self.0 = (product as u64) ^ ((product >> 64) as u64).rotate_left(23) ^ self.0.rotate_left(17);
+        self.0 =
+            (product as u64) ^ ((product >> 64) as u64).rotate_left(23) ^ self.0.rotate_left(17);
     }
 
     /// Folds in bytes and their number.
@@ -56,7 +57,12 @@ impl Digest {
                 self.word(2);
                 self.pose(pose);
             }
-            Event::Sent { sequence, destination, port, payload } => {
+            Event::Sent {
+                sequence,
+                destination,
+                port,
+                payload,
+            } => {
                 self.word(3);
                 self.word(match destination {
                     Destination::All => u64::MAX,
@@ -69,7 +75,12 @@ impl Digest {
                 self.word(4);
                 self.word(u64::from(*sequence) << 32 | u64::from(from.0));
             }
-            Event::Dropped { from, to, sequence, reason } => {
+            Event::Dropped {
+                from,
+                to,
+                sequence,
+                reason,
+            } => {
                 self.word(5 | (*reason as u64) << 8 | to.map_or(0, |to| u64::from(to.0) + 1) << 16);
                 self.word(u64::from(*sequence) << 32 | u64::from(from.0));
             }

@@ -5,8 +5,8 @@
 
 pub use core::f64::consts::{FRAC_PI_2, PI, TAU};
 pub use libm::{
-    acos, asin, atan, atan2, ceil, cos, exp, fabs, floor, hypot, log, pow, round, sin, sincos, sqrt,
-    tan,
+    acos, asin, atan, atan2, ceil, cos, exp, fabs, floor, hypot, log, pow, round, sin, sincos,
+    sqrt, tan,
 };
 
 /// The angle in (-pi, pi] that points the same way, in radians.

@@ -119,7 +119,10 @@ impl Body {
 
     /// The heights that the body takes when its base is at `z`.
     pub fn span(&self, z: f64) -> HeightSpan {
-        HeightSpan { low: z, high: z + self.height }
+        HeightSpan {
+            low: z,
+            high: z + self.height,
+        }
     }
 }
 

@@ -52,12 +52,12 @@ pub struct Robot<'a> {
 
 impl<'a> Robot<'a> {
     /// A handle on `view` that collects into `effects`.
-    pub fn new(
-        view: &'a View<'a>,
-        effects: &'a mut Effects,
-        random: &'a mut Random,
-    ) -> Robot<'a> {
-        Robot { view, effects, random }
+    pub fn new(view: &'a View<'a>, effects: &'a mut Effects, random: &'a mut Random) -> Robot<'a> {
+        Robot {
+            view,
+            effects,
+            random,
+        }
     }
 
     /// This robot's number.
@@ -73,7 +73,11 @@ impl<'a> Robot<'a> {
     /// The other robots of the application.
     pub fn peers(&self) -> impl Iterator<Item = RobotId> + use<'a> {
         let id = self.view.id;
-        self.view.fleet.iter().copied().filter(move |&peer| peer != id)
+        self.view
+            .fleet
+            .iter()
+            .copied()
+            .filter(move |&peer| peer != id)
     }
 
     /// The robot's own clock.
@@ -133,7 +137,11 @@ impl<'a> Robot<'a> {
 
     /// [`Robot::transmit`] of bytes that are encoded already.
     pub fn transmit_bytes(&mut self, destination: Destination, port: Port, payload: Payload) {
-        self.push(Effect::Transmit { destination, port, payload });
+        self.push(Effect::Transmit {
+            destination,
+            port,
+            payload,
+        });
     }
 
     /// Arms a timer, or moves it if it is armed.
@@ -172,8 +180,15 @@ impl<'a> Robot<'a> {
     }
 
     /// Reports an event of the program.
-    pub fn emit<const N: usize>(&mut self, name: impl Into<Name>, fields: [(&'static str, Value); N]) {
-        let event = Event::Program { name: name.into(), fields: named(fields) };
+    pub fn emit<const N: usize>(
+        &mut self,
+        name: impl Into<Name>,
+        fields: [(&'static str, Value); N],
+    ) {
+        let event = Event::Program {
+            name: name.into(),
+            fields: named(fields),
+        };
         self.push(Effect::Record(event));
     }
 
@@ -195,12 +210,18 @@ impl<'a> Robot<'a> {
 
     /// Writes a line to the robot's log.
     pub fn log(&mut self, level: Level, text: impl Into<Name>) {
-        self.push(Effect::Record(Event::Log { level, text: text.into() }));
+        self.push(Effect::Record(Event::Log {
+            level,
+            text: text.into(),
+        }));
     }
 
     /// Draws for the viewer.
     pub fn draw(&mut self, label: impl Into<Name>, shape: MarkShape) {
-        self.push(Effect::Record(Event::Draw(Mark { label: label.into(), shape })));
+        self.push(Effect::Record(Event::Draw(Mark {
+            label: label.into(),
+            shape,
+        })));
     }
 
     /// Says that the program has reached its goal.
@@ -215,7 +236,11 @@ impl<'a> Robot<'a> {
 
     /// For primitives: hands a message up to this robot's own program.
     pub fn deliver(&mut self, from: RobotId, port: Port, payload: Payload) {
-        self.effects.upcalls.push(Message { from, port, payload });
+        self.effects.upcalls.push(Message {
+            from,
+            port,
+            payload,
+        });
     }
 
     pub(crate) fn has_upcalls(&self) -> bool {
@@ -232,5 +257,8 @@ impl<'a> Robot<'a> {
 }
 
 fn named<const N: usize>(fields: [(&'static str, Value); N]) -> Fields {
-    fields.into_iter().map(|(name, value)| (name.into(), value)).collect()
+    fields
+        .into_iter()
+        .map(|(name, value)| (name.into(), value))
+        .collect()
 }

@@ -49,7 +49,12 @@ impl Run {
         let checkers = properties::checkers(&scenario, &setting);
         let mut simulation = Simulation::new(scenario, programs)?;
         simulation.set_recording(true);
-        Ok(Run { simulation, checkers, violations: Vec::new(), records: Vec::new() })
+        Ok(Run {
+            simulation,
+            checkers,
+            violations: Vec::new(),
+            records: Vec::new(),
+        })
     }
 
     /// The simulation.
@@ -74,39 +79,48 @@ impl Run {
         }
         self.records.clear();
         self.records.extend_from_slice(self.simulation.records());
-        self.records.extend(self.violations[known..].iter().map(|violation| Record {
-            at: violation.at,
-            robot: violation.robots.first().copied(),
-            event: Event::Violated {
-                property: violation.property.into(),
-                text: violation.text.clone().into(),
-            },
-        }));
+        self.records
+            .extend(self.violations[known..].iter().map(|violation| Record {
+                at: violation.at,
+                robot: violation.robots.first().copied(),
+                event: Event::Violated {
+                    property: violation.property.into(),
+                    text: violation.text.clone().into(),
+                },
+            }));
         &self.records
     }
 
     /// Whether the run has come to its end.
     pub fn is_over(&self) -> bool {
         let scenario = self.simulation.scenario();
+        if self.simulation.now() >= Time::ZERO + scenario.duration {
+            return true;
+        }
         let progress = self.simulation.progress();
-        self.simulation.now() >= Time::ZERO + scenario.duration
-            || scenario.goal == Goal::AllFinished
-                && (progress.finished == progress.up && progress.failed == 0
-                    || progress.failed == progress.up)
+        let settled = progress.up > 0 && progress.finished + progress.failed == progress.up;
+        match scenario.goal {
+            Goal::AllFinished => settled,
+            Goal::Duration => progress.up > 0 && progress.failed == progress.up,
+        }
     }
 
     /// What the run has come to, once it is over.
     pub fn outcome(&self) -> Outcome {
         let progress = self.simulation.progress();
-        let reached = match self.simulation.scenario().goal {
-            Goal::AllFinished => progress.up > 0 && progress.finished == progress.up,
-            Goal::Duration => progress.up > 0,
+        let scenario = self.simulation.scenario();
+        let reached = match scenario.goal {
+            Goal::AllFinished => progress.finished == progress.up,
+            Goal::Duration => self.simulation.now() >= Time::ZERO + scenario.duration,
         };
-        match (reached, progress.failed > 0 || progress.up == 0) {
-            (_, true) => Outcome::Failed,
-            (false, false) => Outcome::TimedOut,
-            (true, false) if self.violations.is_empty() => Outcome::Reached,
-            (true, false) => Outcome::Violated,
+        if progress.up == 0 || progress.failed > 0 {
+            Outcome::Failed
+        } else if !reached {
+            Outcome::TimedOut
+        } else if self.violations.is_empty() {
+            Outcome::Reached
+        } else {
+            Outcome::Violated
         }
     }
 
@@ -117,13 +131,20 @@ impl Run {
 
     /// What the checkers say of each property they watch.
     pub fn verdicts(&self) -> Vec<Verdict> {
-        let properties = self.checkers.iter().flat_map(|checker| checker.properties());
+        let properties = self
+            .checkers
+            .iter()
+            .flat_map(|checker| checker.properties());
         properties
             .map(|&property| {
                 let mut against = self.violations.iter().filter(|v| v.property == property);
                 let first = against.next().cloned();
                 let violations = usize::from(first.is_some()) + against.count();
-                Verdict { property, violations, first }
+                Verdict {
+                    property,
+                    violations,
+                    first,
+                }
             })
             .collect()
     }
@@ -137,7 +158,10 @@ impl Setting {
         let obstacles = &scenario.world.obstacles;
         Setting {
             bodies: groups.iter().flat_map(body).collect(),
-            obstacles: obstacles.iter().map(|o| (o.obstacle.clone(), o.expires)).collect(),
+            obstacles: obstacles
+                .iter()
+                .map(|o| (o.obstacle.clone(), o.expires))
+                .collect(),
         }
     }
 }

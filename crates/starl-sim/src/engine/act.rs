@@ -42,6 +42,9 @@ pub struct Turn<'a> {
 impl Turn<'_> {
     /// Takes all inputs of this step.
     pub fn run(&mut self) {
+        if self.window.from == Time::ZERO {
+            self.note(Time::ZERO, Event::Moved(self.state.pose));
+        }
         let mut arrivals = std::mem::take(&mut self.scratch.arrivals);
         self.shared.inboxes.of(self.mind.id, &mut arrivals);
         if self.mind.condition.down {
@@ -114,7 +117,12 @@ impl Turn<'_> {
         let pose = estimate.pose;
         self.mind.estimate = estimate;
         self.mind.estimate.at = self.mind.clock.read(at);
-        self.log.record(&mut self.mind.digest, self.mind.id, at, Event::Estimated(pose));
+        self.log.record(
+            &mut self.mind.digest,
+            self.mind.id,
+            at,
+            Event::Estimated(pose),
+        );
         if !self.shared.hidden.is_empty() {
             self.discover(at);
         }
@@ -126,7 +134,12 @@ impl Turn<'_> {
         let body = &shared.bodies[self.mind.id.index()];
         for &index in &shared.hidden {
             let world_index = shared.standing[index as usize];
-            if self.mind.knowledge.as_ref().is_some_and(|known| known.met.contains(&world_index)) {
+            if self
+                .mind
+                .knowledge
+                .as_ref()
+                .is_some_and(|known| known.met.contains(&world_index))
+            {
                 continue;
             }
             let obstacle = &shared.map.obstacles()[index as usize];
@@ -136,13 +149,21 @@ impl Turn<'_> {
                 continue;
             }
             let knowledge = self.mind.knowledge.get_or_insert_with(|| {
-                Box::new(Knowledge { met: Vec::new(), obstacles: shared.known.clone() })
+                Box::new(Knowledge {
+                    met: Vec::new(),
+                    obstacles: shared.known.clone(),
+                })
             });
             knowledge.met.push(world_index);
-            knowledge.obstacles =
-                knowledge.obstacles.iter().cloned().chain([obstacle.clone()]).collect();
+            knowledge.obstacles = knowledge
+                .obstacles
+                .iter()
+                .cloned()
+                .chain([obstacle.clone()])
+                .collect();
             let event = Event::Discovered(obstacle.clone());
-            self.log.record(&mut self.mind.digest, self.mind.id, at, event);
+            self.log
+                .record(&mut self.mind.digest, self.mind.id, at, event);
         }
     }
 
@@ -152,10 +173,14 @@ impl Turn<'_> {
         let eye = self.state.pose.position;
         let target = map.obstacles()[index as usize].nearest_point(eye);
         let mut seen = true;
-        map.any_near(&starl_core::geometry::Bounds::of_segment(eye, target), |other| {
-            seen = other == index || !map.obstacles()[other as usize].blocks_segment(eye, target, 0.0);
-            !seen
-        });
+        map.any_near(
+            &starl_core::geometry::Bounds::of_segment(eye, target),
+            |other| {
+                seen = other == index
+                    || !map.obstacles()[other as usize].blocks_segment(eye, target, 0.0);
+                !seen
+            },
+        );
         seen
     }
 
@@ -187,9 +212,12 @@ impl Turn<'_> {
 
     fn receive(&mut self, delivery: &Delivery) {
         let transmission = self.shared.inboxes.transmission(delivery);
-        let event =
-            Event::Delivered { from: transmission.from, sequence: transmission.sequence };
-        self.log.record(&mut self.mind.digest, self.mind.id, delivery.at, event);
+        let event = Event::Delivered {
+            from: transmission.from,
+            sequence: transmission.sequence,
+        };
+        self.log
+            .record(&mut self.mind.digest, self.mind.id, delivery.at, event);
         let message = Message {
             from: transmission.from,
             port: transmission.port,
@@ -206,7 +234,8 @@ impl Turn<'_> {
             sequence: transmission.sequence,
             reason: DropReason::Down,
         };
-        self.log.record(&mut self.mind.digest, self.mind.id, delivery.at, event);
+        self.log
+            .record(&mut self.mind.digest, self.mind.id, delivery.at, event);
     }
 
     /// Hands an input to the robot's software and carries out what it asks for.
@@ -231,7 +260,10 @@ impl Turn<'_> {
                     proximity: &readings.proximity,
                     detections: &readings.detections,
                 },
-                false => Sensors { bumper, ..Sensors::default() },
+                false => Sensors {
+                    bumper,
+                    ..Sensors::default()
+                },
             },
             fleet: &self.shared.fleet,
             way_points: &self.shared.scenario.world.way_points,
@@ -250,7 +282,11 @@ impl Turn<'_> {
 
     fn carry_out(&mut self, at: Time, effect: Effect) {
         match effect {
-            Effect::Transmit { destination, port, payload } => {
+            Effect::Transmit {
+                destination,
+                port,
+                payload,
+            } => {
                 self.transmit(at, destination, port, payload);
             }
             Effect::SetTimer { key, after } => {
@@ -275,10 +311,14 @@ impl Turn<'_> {
     }
 
     fn note(&mut self, at: Time, event: Event) {
-        if let Event::Primitive { primitive, name, .. } = &event {
+        if let Event::Primitive {
+            primitive, name, ..
+        } = &event
+        {
             self.mind.way_points += u32::from(primitive == "reach_avoid" && name == "done");
         }
-        self.log.record(&mut self.mind.digest, self.mind.id, at, event);
+        self.log
+            .record(&mut self.mind.digest, self.mind.id, at, event);
     }
 
     fn transmit(&mut self, at: Time, destination: Destination, port: Port, payload: Payload) {
@@ -299,15 +339,32 @@ impl Turn<'_> {
                 self.mind.radio_free = leaves;
             }
         }
-        let event = Event::Sent { sequence, destination, port, payload: payload.clone() };
+        let event = Event::Sent {
+            sequence,
+            destination,
+            port,
+            payload: payload.clone(),
+        };
         self.note(at, event);
         match unsent {
-            Some(reason) => self.note(at, Event::Dropped { from, to: None, sequence, reason }),
+            Some(reason) => self.note(
+                at,
+                Event::Dropped {
+                    from,
+                    to: None,
+                    sequence,
+                    reason,
+                },
+            ),
             None => self.outbox.push(Outgoing {
                 at: leaves,
                 sequence,
                 destination,
-                message: Message { from, port, payload },
+                message: Message {
+                    from,
+                    port,
+                    payload,
+                },
             }),
         }
     }
@@ -327,7 +384,13 @@ impl Turn<'_> {
             MotionRequest::Drive(command) if !self.kind.model.accepts(command) => {
                 let text = format!("a {} does not take {command:?}", self.kind.model.name());
                 self.mind.command = Command::Stop;
-                self.note(at, Event::Log { level: Level::Warning, text: text.into() });
+                self.note(
+                    at,
+                    Event::Log {
+                        level: Level::Warning,
+                        text: text.into(),
+                    },
+                );
             }
             MotionRequest::Drive(command) => {
                 self.mind.pilot = None;
@@ -376,11 +439,17 @@ impl Turn<'_> {
             return;
         }
         let shared = self.shared;
-        let shown = if shared.perceived.is_empty() { &shared.bodies } else { &shared.perceived };
-        shared.grid.for_each_within(self.state.pose.position, reach, |entry| {
-            if entry.robot != self.mind.id.0 {
-                neighbours.push(shown[entry.robot as usize]);
-            }
-        });
+        let shown = if shared.perceived.is_empty() {
+            &shared.bodies
+        } else {
+            &shared.perceived
+        };
+        shared
+            .grid
+            .for_each_within(self.state.pose.position, reach, |entry| {
+                if entry.robot != self.mind.id.0 {
+                    neighbours.push(shown[entry.robot as usize]);
+                }
+            });
     }
 }

@@ -19,23 +19,31 @@ pub fn first_hit(shared: &Shared, robot: RobotId, next: &[Point], reach: f64) ->
     let mut deepest = 0.0;
     let mut hit = None;
     if now != then {
-        shared.map.any_near(&Bounds::of_body(now, then, body.radius, body.height), |index| {
-            let obstacle = &shared.map.obstacles()[index as usize];
-            let gap = obstacle.body_gap(then, body.radius, body.height);
-            if gap < deepest && gap < obstacle.body_gap(now, body.radius, body.height) {
-                deepest = gap;
-                hit = Some(Hit::Obstacle(shared.standing[index as usize]));
-            }
-            false
-        });
+        shared.map.any_near(
+            &Bounds::of_body(now, then, body.radius, body.height),
+            |index| {
+                let obstacle = &shared.map.obstacles()[index as usize];
+                let gap = obstacle.body_gap(then, body.radius, body.height);
+                if gap < deepest && gap < obstacle.body_gap(now, body.radius, body.height) {
+                    deepest = gap;
+                    hit = Some(Hit::Obstacle(shared.standing[index as usize]));
+                }
+                false
+            },
+        );
     }
     let reach = body.radius + shared.grid.greatest_radius() + 2.0 * reach;
     shared.grid.for_each_near(now, reach, |entry| {
         if entry.robot == robot.0 || entry.distance_squared(now) > reach * reach {
             return;
         }
-        if let Some(gap) = overlap(shared, robot, then, entry.robot(), next[entry.robot as usize])
-            && gap < deepest
+        if let Some(gap) = overlap(
+            shared,
+            robot,
+            then,
+            entry.robot(),
+            next[entry.robot as usize],
+        ) && gap < deepest
         {
             deepest = gap;
             hit = Some(Hit::Robot(entry.robot()));
@@ -61,8 +69,9 @@ fn overlap(shared: &Shared, a: RobotId, a_then: Point, b: RobotId, b_then: Point
 
 /// Stops the robots that run into robots that have been stopped, until there are no more.
 pub fn settle(shared: &Shared, next: &mut [Point], reach: f64, hits: &mut [Option<Hit>]) {
-    let mut stopped: Vec<u32> =
-        (0..hits.len() as u32).filter(|&robot| hits[robot as usize].is_some()).collect();
+    let mut stopped: Vec<u32> = (0..hits.len() as u32)
+        .filter(|&robot| hits[robot as usize].is_some())
+        .collect();
     for &robot in &stopped {
         next[robot as usize] = shared.bodies[robot as usize].position;
     }
@@ -96,5 +105,8 @@ pub fn direction(shared: &Shared, robot: RobotId, hit: Hit) -> Point {
             Err(_) => from,
         },
     };
-    (to - from).at_height(0.0).normalized().unwrap_or(Point::planar(1.0, 0.0))
+    (to - from)
+        .at_height(0.0)
+        .normalized()
+        .unwrap_or(Point::planar(1.0, 0.0))
 }

@@ -30,28 +30,61 @@ pub fn timeline(scenario: &Scenario) -> Vec<Fault> {
         let mut both = |at: Time, kind: FaultKind, after: Duration, mend: FaultKind| {
             faults.push(Fault { at, kind });
             if !after.is_zero() {
-                faults.push(Fault { at: at + after, kind: mend });
+                faults.push(Fault {
+                    at: at + after,
+                    kind: mend,
+                });
             }
         };
         let one = || vec![robot];
         draw(1, id, rates.crash, &mut |at, _| {
-            both(at, FaultKind::Crash(one()), rates.restart_after, FaultKind::Restart(one()));
+            both(
+                at,
+                FaultKind::Crash(one()),
+                rates.restart_after,
+                FaultKind::Restart(one()),
+            );
         });
         draw(2, id, rates.stuck_motor, &mut |at, _| {
-            both(at, FaultKind::StuckMotor(one()), rates.repair_after, FaultKind::Repair(one()));
+            both(
+                at,
+                FaultKind::StuckMotor(one()),
+                rates.repair_after,
+                FaultKind::Repair(one()),
+            );
         });
         draw(3, id, rates.frozen_sensor, &mut |at, _| {
-            both(at, FaultKind::FrozenSensor(one()), rates.repair_after, FaultKind::Repair(one()));
+            both(
+                at,
+                FaultKind::FrozenSensor(one()),
+                rates.repair_after,
+                FaultKind::Repair(one()),
+            );
         });
         draw(4, id, rates.corrupt_state, &mut |at, _| {
-            both(at, FaultKind::CorruptState(one()), Duration::ZERO, FaultKind::Heal);
+            both(
+                at,
+                FaultKind::CorruptState(one()),
+                Duration::ZERO,
+                FaultKind::Heal,
+            );
         });
     }
     draw(5, 0, rates.partition, &mut |at, random| {
-        let half = robots.iter().copied().filter(|_| random.chance(0.5)).collect();
-        faults.push(Fault { at, kind: FaultKind::Partition(vec![half]) });
+        let half = robots
+            .iter()
+            .copied()
+            .filter(|_| random.chance(0.5))
+            .collect();
+        faults.push(Fault {
+            at,
+            kind: FaultKind::Partition(vec![half]),
+        });
         if !rates.heal_after.is_zero() {
-            faults.push(Fault { at: at + rates.heal_after, kind: FaultKind::Heal });
+            faults.push(Fault {
+                at: at + rates.heal_after,
+                kind: FaultKind::Heal,
+            });
         }
     });
     faults.sort_by_key(|fault| fault.at);

@@ -57,7 +57,12 @@ impl Grid {
         for cell in 0..cells {
             self.starts[cell + 1] += self.starts[cell];
         }
-        let blank = Entry { x: 0.0, y: 0.0, robot: 0, radius: 0.0 };
+        let blank = Entry {
+            x: 0.0,
+            y: 0.0,
+            robot: 0,
+            radius: 0.0,
+        };
         self.entries.resize(bodies.len(), blank);
         // Filled from the back, so that the counts end up as each cell's start.
         for (robot, body) in bodies.iter().enumerate().rev() {
@@ -155,7 +160,10 @@ mod tests {
             let (width, depth) = (random.between(0.0, 50.0), random.between(0.0, 5.0));
             let bodies: Vec<Neighbour> = (0..trial * 5)
                 .map(|_| Neighbour {
-                    position: Point::planar(random.between(-3.0, width), random.between(9.0, 9.0 + depth)),
+                    position: Point::planar(
+                        random.between(-3.0, width),
+                        random.between(9.0, 9.0 + depth),
+                    ),
                     velocity: Point::ZERO,
                     radius: 0.1,
                     height: 0.1,

@@ -91,7 +91,8 @@ impl Inboxes {
         for robot in 1..self.starts.len() {
             self.starts[robot] += self.starts[robot - 1];
         }
-        self.deliveries.resize(page.deliveries.len(), page.deliveries[0]);
+        self.deliveries
+            .resize(page.deliveries.len(), page.deliveries[0]);
         for delivery in &page.deliveries {
             let next = &mut self.starts[delivery.to as usize + 1];
             self.deliveries[*next as usize] = *delivery;

@@ -5,7 +5,7 @@ use starl_core::event::Hit;
 use starl_core::motion::{Obstacles, Path};
 use starl_core::sensor::Contact;
 use starl_core::{Agent, Command, Digest, Duration, Estimate, Message, RobotId, Time};
-use starl_motion::Pilot;
+use starl_motion::{Neighbour, Pilot};
 
 /// One robot's software, clock and knowledge.
 #[derive(Clone)]
@@ -36,6 +36,22 @@ pub struct Mind {
     pub digest: Digest,
     pub distance: f64,
     pub way_points: u32,
+}
+
+impl Mind {
+    /// What other robots take this one to be: what its positioning says, or where it is if that says
+    /// nothing any more.
+    pub fn perceived(&self, body: &Neighbour) -> Neighbour {
+        if self.condition.down || self.condition.sensors_frozen {
+            return *body;
+        }
+        let (position, velocity) = (self.estimate.pose.position, self.estimate.twist.linear);
+        Neighbour {
+            position,
+            velocity,
+            ..*body
+        }
+    }
 }
 
 /// What state a robot is in, as opposed to where.

@@ -33,5 +33,13 @@ pub fn estimate(shared: &Shared, robot: RobotId, state: &State, from: Time, at: 
     let position = point(pose.position, system.position_noise, grounded);
     let linear = point(twist.linear, system.velocity_noise, grounded);
     let yaw = math::wrap_angle(random.normal(pose.yaw, system.heading_noise));
-    Estimate { pose: Pose { position, yaw, ..pose }, twist: Twist { linear, ..twist }, at }
+    Estimate {
+        pose: Pose {
+            position,
+            yaw,
+            ..pose
+        },
+        twist: Twist { linear, ..twist },
+        at,
+    }
 }

@@ -34,7 +34,12 @@ pub fn route(
     let from = outgoing.message.from;
     let mut lost = |to, reason| {
         let sequence = outgoing.sequence;
-        let event = Event::Dropped { from, to: Some(to), sequence, reason };
+        let event = Event::Dropped {
+            from,
+            to: Some(to),
+            sequence,
+            reason,
+        };
         log.record(digest, from, outgoing.at, event);
     };
     let mut offer = |to: RobotId| {
@@ -44,13 +49,21 @@ pub fn route(
         }
         let link = network.link(from, to);
         let mut arrive = |delay: Duration| {
-            posted.push(Posted { outgoing: index, to, at: outgoing.at + delay });
+            posted.push(Posted {
+                outgoing: index,
+                to,
+                at: outgoing.at + delay,
+            });
         };
         if !is_random(link) {
             arrive(link.delay);
             return;
         }
-        let key = [u64::from(from.0), u64::from(to.0), u64::from(outgoing.sequence)];
+        let key = [
+            u64::from(from.0),
+            u64::from(to.0),
+            u64::from(outgoing.sequence),
+        ];
         let mut random = stream(shared.scenario.seed, Stream::Link, &key);
         if random.chance(link.loss) {
             lost(to, DropReason::Loss);
@@ -115,7 +128,9 @@ pub fn post(
         let transmission = match pages.iter().find(|page| page.0 == steps) {
             Some(page) => page.1,
             None => {
-                let Outgoing { sequence, message, .. } = &outbox[at_hand as usize];
+                let Outgoing {
+                    sequence, message, ..
+                } = &outbox[at_hand as usize];
                 let index = calendar.add_transmission(
                     steps,
                     Transmission {
@@ -129,12 +144,21 @@ pub fn post(
                 index
             }
         };
-        calendar.add_delivery(steps, Delivery { at, to: posting.to.0, transmission });
+        calendar.add_delivery(
+            steps,
+            Delivery {
+                at,
+                to: posting.to.0,
+                transmission,
+            },
+        );
     }
 }
 
 fn apart(shared: &Shared, a: RobotId, b: RobotId) -> f64 {
-    shared.bodies[a.index()].position.distance(shared.bodies[b.index()].position)
+    shared.bodies[a.index()]
+        .position
+        .distance(shared.bodies[b.index()].position)
 }
 
 /// Whether an obstacle or a third robot's body is between two robots' centres.
@@ -191,6 +215,10 @@ fn delay(link: &Link, random: &mut Random) -> Duration {
         DelayDistribution::Exponential => mean - jitter + random.exponential(jitter),
     };
     let held_back = random.chance(link.reordering);
-    let extra = if held_back { link.reordering_delay } else { Duration::ZERO };
+    let extra = if held_back {
+        link.reordering_delay
+    } else {
+        Duration::ZERO
+    };
     Duration::from_seconds_f64(seconds.max(0.0)) + extra
 }

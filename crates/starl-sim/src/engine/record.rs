@@ -35,7 +35,10 @@ impl Tally {
         match event {
             Event::Sent { .. } => self.sent += 1,
             Event::Delivered { .. } => self.delivered += 1,
-            Event::Dropped { reason: DropReason::Loss, .. } => self.lost += 1,
+            Event::Dropped {
+                reason: DropReason::Loss,
+                ..
+            } => self.lost += 1,
             Event::Dropped { .. } => self.dropped += 1,
             Event::Primitive { name, .. } if name == "retransmit" => self.retransmitted += 1,
             _ => {}
@@ -58,7 +61,11 @@ impl Log {
         digest.event(at, &event);
         self.tally.count(&event);
         if self.recording {
-            self.records.push(Record { at, robot: Some(robot), event });
+            self.records.push(Record {
+                at,
+                robot: Some(robot),
+                event,
+            });
         }
     }
 }

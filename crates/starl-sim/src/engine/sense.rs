@@ -27,15 +27,17 @@ impl Readings {
         let reach = body.radius + sensor.range;
         self.nearby.clear();
         let center = body.position;
-        shared.grid.for_each_near(center, reach + shared.grid.greatest_radius(), |entry| {
-            let apart = reach + f64::from(entry.radius);
-            if entry.robot != robot.0 && entry.distance_squared(center) < apart * apart {
-                let other = &shared.bodies[entry.robot as usize];
-                if same_height(body, other) {
-                    self.nearby.push(*other);
+        shared
+            .grid
+            .for_each_near(center, reach + shared.grid.greatest_radius(), |entry| {
+                let apart = reach + f64::from(entry.radius);
+                if entry.robot != robot.0 && entry.distance_squared(center) < apart * apart {
+                    let other = &shared.bodies[entry.robot as usize];
+                    if same_height(body, other) {
+                        self.nearby.push(*other);
+                    }
                 }
-            }
-        });
+            });
         let window = Bounds::of_segment(center, center).inflated(reach);
         let obstacles = shared.map.any_near(&window, |_| true);
         if self.nearby.is_empty() && !obstacles {
@@ -49,7 +51,12 @@ impl Readings {
                 Point::planar(cos * ray_cos - sin * ray_sin, sin * ray_cos + cos * ray_sin);
             let mut met = reach;
             for other in &self.nearby {
-                met = met.min(ray_to_circle(center, direction, other.position, other.radius));
+                met = met.min(ray_to_circle(
+                    center,
+                    direction,
+                    other.position,
+                    other.radius,
+                ));
             }
             if obstacles {
                 let eye = center.at_height(center.z + body.height * 0.5);
@@ -57,8 +64,10 @@ impl Readings {
                     met = met.min(distance);
                 }
             }
-            ray.distance = (met - body.radius).clamp(0.0, sensor.range);
-            ray.nearness = nearness(ray.distance / sensor.range);
+            if met < reach {
+                ray.distance = (met - body.radius).clamp(0.0, sensor.range);
+                ray.nearness = nearness(ray.distance / sensor.range);
+            }
         }
     }
 
@@ -90,7 +99,10 @@ impl Readings {
                 && !shared.map.blocks_segment(eye, thing.position, 0.0)
             {
                 let what = Detected::Thing(index as u32);
-                self.detections.push(Detection { what, position: thing.position });
+                self.detections.push(Detection {
+                    what,
+                    position: thing.position,
+                });
             }
         }
         shared.grid.for_each_within(eye, sensor.range, |entry| {
@@ -102,7 +114,9 @@ impl Readings {
         });
         // The grid's order is fixed, so that equal distances keep one order too.
         self.detections.sort_by(|a, b| {
-            a.position.planar_distance(eye).total_cmp(&b.position.planar_distance(eye))
+            a.position
+                .planar_distance(eye)
+                .total_cmp(&b.position.planar_distance(eye))
         });
     }
 

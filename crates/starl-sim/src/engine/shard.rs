@@ -44,7 +44,10 @@ pub struct Scratch {
 impl Shard {
     /// An empty shard whose first robot will have this number.
     pub fn starting_at(first: u32) -> Shard {
-        Shard { first, ..Shard::default() }
+        Shard {
+            first,
+            ..Shard::default()
+        }
     }
 
     /// Lets each robot take its inputs of this step and predicts its motion; `next` receives the
@@ -82,7 +85,13 @@ impl Shard {
     }
 
     /// Finds what each robot's predicted motion meets first.
-    pub fn look_ahead(&mut self, shared: &Shared, next: &[Point], reach: f64, hits: &mut [Option<Hit>]) {
+    pub fn look_ahead(
+        &mut self,
+        shared: &Shared,
+        next: &[Point],
+        reach: f64,
+        hits: &mut [Option<Hit>],
+    ) {
         for (index, hit) in hits.iter_mut().enumerate() {
             *hit = collide::first_hit(shared, RobotId(self.first + index as u32), next, reach);
         }
@@ -109,8 +118,7 @@ impl Shard {
             body.position = state.pose.position;
             body.velocity = state.twist.linear;
             if let Some(seen) = perceived.get_mut(index) {
-                seen.position = mind.estimate.pose.position;
-                seen.velocity = mind.estimate.twist.linear;
+                *seen = mind.perceived(body);
             }
             mind.contact = direction.map(|direction| Contact {
                 bearing: math::wrap_angle(direction.heading() - state.pose.yaw),
@@ -140,7 +148,13 @@ impl Shard {
         for (index, outgoing) in self.outbox.iter().enumerate() {
             let sender = (outgoing.message.from.0 - self.first) as usize;
             let digest = &mut self.minds[sender].digest;
-            radio::route(shared, (index as u32, outgoing), digest, &mut self.log, &mut self.posted);
+            radio::route(
+                shared,
+                (index as u32, outgoing),
+                digest,
+                &mut self.log,
+                &mut self.posted,
+            );
         }
     }
 }

@@ -65,11 +65,18 @@ impl Shared {
     /// What disturbs a robot's motion during a step.
     pub fn disturbance(&self, robot: RobotId, from: Time) -> Disturbance {
         let motion = &self.scenario.motion;
-        let mut disturbance = Disturbance { wind: self.wind, speed_error: 0.0, turn_error: 0.0 };
+        let mut disturbance = Disturbance {
+            wind: self.wind,
+            speed_error: 0.0,
+            turn_error: 0.0,
+        };
         if motion.speed_noise > 0.0 || motion.turn_noise > 0.0 {
             let draw = from.0 / motion.noise_period.0.max(1);
-            let mut random =
-                super::stream(self.scenario.seed, super::Stream::Motion, &[u64::from(robot.0), draw]);
+            let mut random = super::stream(
+                self.scenario.seed,
+                super::Stream::Motion,
+                &[u64::from(robot.0), draw],
+            );
             disturbance.speed_error = random.normal(0.0, motion.speed_noise);
             disturbance.turn_error = random.normal(0.0, motion.turn_noise);
         }

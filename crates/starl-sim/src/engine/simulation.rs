@@ -56,7 +56,7 @@ pub struct Progress {
     pub up: usize,
     /// Of these, robots whose programs have reached their goals.
     pub finished: usize,
-    /// Robots whose programs cannot go on.
+    /// Of these, robots whose programs cannot go on.
     pub failed: usize,
 }
 
@@ -132,14 +132,18 @@ impl Simulation {
     pub fn step(&mut self) {
         self.records.clear();
         let step = self.shared.scenario.physics.step;
-        let window = Window { from: self.now, to: self.now + step };
+        let window = Window {
+            from: self.now,
+            to: self.now + step,
+        };
         self.bring_faults(window);
         if window.from >= self.next_expiry {
             self.raise_obstacles();
         }
         self.shared.wind = wind(&self.shared.scenario, window.from);
         self.shared.grid.rebuild(&self.shared.bodies);
-        self.calendar.turn(self.shared.bodies.len(), &mut self.shared.inboxes);
+        self.calendar
+            .turn(self.shared.bodies.len(), &mut self.shared.inboxes);
         self.act(window);
         self.collide();
         self.settle(window);
@@ -151,7 +155,9 @@ impl Simulation {
     fn act(&mut self, window: Window) {
         let shared = &self.shared;
         let work = self.shards.iter_mut().zip(self.next.chunks_mut(SIZE));
-        run(self.parallel, work.collect(), |(shard, next)| shard.act(shared, window, next));
+        run(self.parallel, work.collect(), |(shard, next)| {
+            shard.act(shared, window, next)
+        });
     }
 
     fn collide(&mut self) {
@@ -177,25 +183,40 @@ impl Simulation {
     fn settle(&mut self, window: Window) {
         let mut perceived = std::mem::take(&mut self.shared.perceived);
         let (shared, hits) = (&self.shared, &self.hits);
-        let shown = perceived.chunks_mut(SIZE).map(Some).chain(std::iter::repeat_with(|| None));
+        let shown = perceived
+            .chunks_mut(SIZE)
+            .map(Some)
+            .chain(std::iter::repeat_with(|| None));
         let work = self
             .shards
             .iter_mut()
             .zip(self.bodies.chunks_mut(SIZE))
             .zip(shown)
             .map(|((shard, bodies), perceived)| (shard, bodies, perceived));
-        run(self.parallel, work.collect(), |(shard, bodies, perceived)| {
-            shard.settle(shared, window, hits, bodies, perceived.unwrap_or_default());
-        });
+        run(
+            self.parallel,
+            work.collect(),
+            |(shard, bodies, perceived)| {
+                shard.settle(shared, window, hits, bodies, perceived.unwrap_or_default());
+            },
+        );
         std::mem::swap(&mut self.shared.bodies, &mut self.bodies);
         self.shared.perceived = perceived;
     }
 
     fn route(&mut self, window: Window, step: Duration) {
         let shared = &self.shared;
-        run(self.parallel, self.shards.iter_mut().collect(), |shard| shard.route(shared));
+        run(self.parallel, self.shards.iter_mut().collect(), |shard| {
+            shard.route(shared)
+        });
         for shard in &self.shards {
-            radio::post(&mut self.calendar, &shard.outbox, &shard.posted, window.to, step);
+            radio::post(
+                &mut self.calendar,
+                &shard.outbox,
+                &shard.posted,
+                window.to,
+                step,
+            );
         }
     }
 
@@ -210,7 +231,11 @@ impl Simulation {
     }
 
     fn bring_faults(&mut self, window: Window) {
-        while let Some(fault) = self.faults.get(self.faults_done).filter(|f| f.at < window.to) {
+        while let Some(fault) = self
+            .faults
+            .get(self.faults_done)
+            .filter(|f| f.at < window.to)
+        {
             let (at, kind) = (fault.at.max(window.from), fault.kind.clone());
             self.faults_done += 1;
             self.bring_fault(at, &kind);
@@ -259,7 +284,8 @@ impl Simulation {
                 }
                 FaultKind::CorruptState(_) => {
                     let key = [u64::from(robot.0), at.0];
-                    mind.agent.corrupt(&mut stream(seed, Stream::Corruption, &key));
+                    mind.agent
+                        .corrupt(&mut stream(seed, Stream::Corruption, &key));
                 }
                 _ => {}
             }
@@ -268,7 +294,11 @@ impl Simulation {
 
     fn note(&mut self, at: Time, event: Event) {
         self.world_digest.event(at, &event);
-        self.world_records.push(Record { at, robot: None, event });
+        self.world_records.push(Record {
+            at,
+            robot: None,
+            event,
+        });
     }
 
     /// Makes the map of the obstacles that stand now, and of what is known of them.
@@ -344,7 +374,9 @@ impl Simulation {
     /// Counts of what has happened so far.
     pub fn tally(&self) -> Tally {
         let mut tally = Tally::default();
-        self.shards.iter().for_each(|shard| tally.add(&shard.log.tally));
+        self.shards
+            .iter()
+            .for_each(|shard| tally.add(&shard.log.tally));
         tally
     }
 
@@ -353,9 +385,11 @@ impl Simulation {
         let mut progress = Progress::default();
         for mind in self.minds() {
             let condition = &mind.condition;
-            progress.up += usize::from(!condition.down);
-            progress.finished += usize::from(!condition.down && condition.finished);
-            progress.failed += usize::from(condition.failed);
+            if !condition.down {
+                progress.up += 1;
+                progress.finished += usize::from(condition.finished && !condition.failed);
+                progress.failed += usize::from(condition.failed);
+            }
         }
         progress
     }
@@ -399,8 +433,10 @@ fn kinds(
     programs: &dyn Fn(&Group) -> Result<Box<dyn Program>, String>,
 ) -> Result<Vec<Kind>, StartError> {
     let kind = |(index, group): (usize, &Group)| {
-        let program =
-            programs(group).map_err(|message| StartError { group: index, message })?;
+        let program = programs(group).map_err(|message| StartError {
+            group: index,
+            message,
+        })?;
         let model = group.model.clone();
         let lands = model.accepts(&Command::Land);
         Ok(Kind {
@@ -478,7 +514,7 @@ fn mind(scenario: &Scenario, id: RobotId, group: usize, kind: &Kind) -> Mind {
         timers: Timers::default(),
         next_estimate: Time::ZERO + scenario.positioning.period,
         next_activation: Time::ZERO,
-        next_pose_record: Time::ZERO,
+        next_pose_record: Time::ZERO + scenario.trace.pose_period,
         clock,
         sequence: 0,
         radio_free: Time::ZERO,
@@ -496,7 +532,10 @@ fn mind(scenario: &Scenario, id: RobotId, group: usize, kind: &Kind) -> Mind {
 
 /// A crashed robot keeps its body, its clock and its history, and nothing else.
 fn crash(mind: &mut Mind) {
-    mind.condition = Condition { down: true, ..Condition::default() };
+    mind.condition = Condition {
+        down: true,
+        ..Condition::default()
+    };
     mind.pilot = None;
     mind.command = Command::Stop;
     mind.timers.clear();
@@ -507,8 +546,13 @@ fn crash(mind: &mut Mind) {
 
 /// The four walls around a rectangle.
 fn walls(low: Point, high: Point) -> Vec<Obstacle> {
-    let corners =
-        [low, Point::planar(high.x, low.y), high, Point::planar(low.x, high.y), low];
+    let corners = [
+        low,
+        Point::planar(high.x, low.y),
+        high,
+        Point::planar(low.x, high.y),
+        low,
+    ];
     corners
         .windows(2)
         .filter_map(|ends| ConvexPolygon::new(ends).ok())
