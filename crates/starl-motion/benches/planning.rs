@@ -92,7 +92,7 @@ impl<const D: usize> World<D> {
         rrt(
             &space,
             &steering,
-            (&self.start, self.start),
+            (&self.start, ()),
             &self.goal,
             &options,
             random,

@@ -2,7 +2,7 @@
 
 mod conformance;
 
-use conformance::{CALM, command_for, every_model, place};
+use conformance::{CALM, command_for, every_model_and_variants, place};
 use starl_core::{Command, Duration, Pose, Random};
 use starl_motion::{Model, State};
 
@@ -36,7 +36,7 @@ fn sequence(model: &dyn Model, random: &mut Random) -> (State, Vec<Command>) {
 
 #[test]
 fn errors_shrink_with_the_step() {
-    for model in every_model() {
+    for model in every_model_and_variants() {
         let model = &*model;
         let mut errors = [0.0_f64; 3];
         for seed in 0..40 {
@@ -67,7 +67,7 @@ fn errors_shrink_with_the_step() {
 
 #[test]
 fn one_long_step_is_as_good_as_many_short_ones() {
-    for model in every_model() {
+    for model in every_model_and_variants() {
         for seed in 0..40 {
             let (start, commands) = sequence(&*model, &mut Random::keyed(seed, &[4]));
             let long = integrate(&*model, &start, &commands, HOLD);

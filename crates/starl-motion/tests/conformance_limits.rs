@@ -2,7 +2,7 @@
 
 mod conformance;
 
-use conformance::{CALM, any_command, command_for, every_model, place};
+use conformance::{CALM, any_command, command_for, every_model_and_variants, place};
 use starl_core::{Duration, Pose, Random};
 use starl_motion::{Model, State};
 
@@ -48,7 +48,7 @@ fn check_step(model: &dyn Model, before: &State, after: &State, seconds: f64) {
 
 #[test]
 fn commands_beyond_the_limits_are_driven_at_the_limits() {
-    for model in every_model() {
+    for model in every_model_and_variants() {
         let model = &*model;
         for seed in 0..200 {
             let mut random = Random::keyed(seed, &[1]);

@@ -3,7 +3,9 @@
 //! This is what a tree of the thesis is grown by. A way-point counts as reached within
 //! [`ARRIVAL`] metres, from where the robot goes on to the next without stopping, as it does when it
 //! follows a path. Between two estimates the body moves along a short arc; its chord is what is
-//! tested, exactly, and the margin of the grown obstacles covers the height of the arc.
+//! tested, exactly, and the margin of the grown obstacles covers the height of the arc. The straight way
+//! between the way-points must be clear as well: it is what is seen of a path from outside, and a test
+//! that takes no time.
 
 use super::free_space::FreeSpace;
 use super::grow::Mover;
@@ -87,12 +89,15 @@ impl<const D: usize> Driving<'_, D> {
         self.drive(from, to, |_, _| true).unwrap_or(*from)
     }
 
-    /// Whether all the way-points can be driven to in order.
-    fn follows(&self, from: &State, path: impl Iterator<Item = Vector<D>>) -> bool {
+    /// Whether all the way-points can be driven to in order, from the first, where the robot is.
+    fn follows(&self, from: &State, mut path: impl Iterator<Item = Vector<D>>) -> bool {
+        let Some(mut at) = path.next() else {
+            return true;
+        };
         let mut state = *from;
         for place in path {
-            match self.go(&state, &place) {
-                Some(next) => state = next,
+            match self.go(&at, &state, &place) {
+                Some(next) => (at, state) = (place, next),
                 None => return false,
             }
         }
@@ -104,11 +109,7 @@ impl<const D: usize> Driving<'_, D> {
     pub fn leave_out(&self, from: &State, path: &mut Vec<Vector<D>>) {
         let mut at = 1;
         while at + 1 < path.len() {
-            let without = path
-                .iter()
-                .enumerate()
-                .skip(1)
-                .filter(|&(index, _)| index != at);
+            let without = path.iter().enumerate().filter(|&(index, _)| index != at);
             if self.follows(from, without.map(|(_, place)| *place)) {
                 path.remove(at);
             } else {
@@ -121,10 +122,10 @@ impl<const D: usize> Driving<'_, D> {
 impl<const D: usize> Steering<D> for Driving<'_, D> {
     type State = State;
 
-    fn go(&self, from: &State, to: &Vector<D>) -> Option<State> {
-        if !self.space.is_clear(to, to) {
+    fn go(&self, from: &Vector<D>, state: &State, to: &Vector<D>) -> Option<State> {
+        if !self.space.is_clear(from, to) {
             return None;
         }
-        self.drive(from, to, |a, b| self.space.is_clear(a, b))
+        self.drive(state, to, |a, b| self.space.is_clear(a, b))
     }
 }

@@ -40,7 +40,7 @@ use vector::Vector;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// How far paths stay away from things beyond the body's own radius, as a part of that radius.
-    /// Where the target itself is nearer to something, half of what is left.
+    /// Where the target or its vicinity leaves less room than that, half of it.
     pub margin_radii: f64,
     /// How far a robot that is too near to something may go to get clear of it, in radii.
     pub escape_radii: f64,
@@ -203,14 +203,19 @@ impl Task<'_> {
             model: self.model,
             space,
         };
-        let pose = Pose {
+        let mut pose = Pose {
             position: self.from,
             ..self.start.pose
         };
-        let mut state = self.model.at_rest(pose);
         if *root != Mover::to_space(self.from) {
-            state = driving.force(&state, root);
+            // The robot is taken to stand at the first way-point, as it came there.
+            let turned = driving.force(&self.model.at_rest(pose), root).pose;
+            pose = Pose {
+                position: Mover::to_world(root),
+                ..turned
+            };
         }
+        let state = self.model.at_rest(pose);
         let options = rrt::Options {
             most_nodes: self.request.most_nodes,
             threshold: driving::SHORTEST_DRIVE,
@@ -221,17 +226,22 @@ impl Task<'_> {
         Some(path)
     }
 
-    /// The margin in metres: the one asked for, or half of what the target leaves.
+    /// The margin in metres: the one asked for, or half of the room that the target leaves. A target
+    /// that is not free leaves as much as its vicinity reaches beyond the nearest free point.
     fn margin(&self, obstacles: &[Obstacle]) -> f64 {
-        let most = self.options.margin_radii * self.body.radius;
-        let gap = obstacles.iter().fold(f64::INFINITY, |least, obstacle| {
-            let gap = obstacle.body_gap(self.target, self.body.radius, self.body.height);
-            if gap < least { gap } else { least }
-        });
-        if gap > 0.0 && 0.5 * gap < most {
-            0.5 * gap
+        let Body { radius, height, .. } = self.body;
+        let gaps = obstacles
+            .iter()
+            .map(|obstacle| obstacle.body_gap(self.target, radius, height));
+        let gap = gaps.fold(
+            f64::INFINITY,
+            |least, gap| if gap < least { gap } else { least },
+        );
+        let room = if gap > 0.0 {
+            gap
         } else {
-            most
-        }
+            gap + self.request.vicinity
+        };
+        (0.5 * room).clamp(0.0, self.options.margin_radii * radius)
     }
 }

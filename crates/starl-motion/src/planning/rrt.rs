@@ -20,9 +20,9 @@ pub trait Steering<const D: usize> {
     /// All that decides how the robot goes on from where it is.
     type State;
 
-    /// The state in which the robot arrives if it sets out for a place; none if it touches something
-    /// on the way or does not arrive.
-    fn go(&self, from: &Self::State, to: &Vector<D>) -> Option<Self::State>;
+    /// The state in which the robot arrives if, at the way-point `from` in this state, it sets out for
+    /// another; none if something is in the way or it does not arrive.
+    fn go(&self, from: &Vector<D>, state: &Self::State, to: &Vector<D>) -> Option<Self::State>;
 }
 
 /// How to search.
@@ -87,14 +87,18 @@ impl<const D: usize, S: Steering<D>> Search<'_, D, S> {
         let at = *self.tree.point(from);
         let mut place = *place;
         while distance(&at, &place) >= self.threshold {
-            if let Some(state) = self.steering.go(&self.states[from as usize], &place) {
-                self.states.push(state);
-                self.tried_target.push(false);
-                return Some(self.tree.add(place, from));
+            if let Some(state) = self.steering.go(&at, &self.states[from as usize], &place) {
+                return Some(self.add(&place, from, state));
             }
             place = between(&at, &place, 0.5);
         }
         None
+    }
+
+    fn add(&mut self, place: &Vector<D>, from: u32, state: S::State) -> u32 {
+        self.states.push(state);
+        self.tried_target.push(false);
+        self.tree.add(*place, from)
     }
 
     /// Goes towards the target for as long as that leads to new nodes; the path if it is reached.
@@ -104,16 +108,13 @@ impl<const D: usize, S: Steering<D>> Search<'_, D, S> {
             if core::mem::replace(&mut self.tried_target[from as usize], true) {
                 return None;
             }
+            let at = *self.tree.point(from);
             // From nearer than the threshold only the target itself is worth trying.
-            let added = match distance(self.tree.point(from), target) < self.threshold {
-                true => self
-                    .steering
-                    .go(&self.states[from as usize], target)
-                    .map(|state| {
-                        self.states.push(state);
-                        self.tried_target.push(false);
-                        self.tree.add(*target, from)
-                    })?,
+            let added = match distance(&at, target) < self.threshold {
+                true => {
+                    let state = self.steering.go(&at, &self.states[from as usize], target)?;
+                    self.add(target, from, state)
+                }
                 false => self.try_from(from, target)?,
             };
             if self.tree.point(added) == target {
@@ -133,9 +134,9 @@ pub struct Straight<'a, T> {
 }
 
 impl<const D: usize, T: Space<D>> Steering<D> for Straight<'_, T> {
-    type State = Vector<D>;
+    type State = ();
 
-    fn go(&self, from: &Vector<D>, to: &Vector<D>) -> Option<Vector<D>> {
-        self.space.sees(from, to).then_some(*to)
+    fn go(&self, from: &Vector<D>, _: &(), to: &Vector<D>) -> Option<()> {
+        self.space.sees(from, to).then_some(())
     }
 }

@@ -17,6 +17,53 @@ pub fn every_model() -> Vec<Arc<dyn Model>> {
     models.collect()
 }
 
+/// Every model, and each again slower or faster, lighter or heavier than its defaults.
+pub fn every_model_and_variants() -> Vec<Arc<dyn Model>> {
+    let variant = |name: &str, settings: &[(&str, f64)]| {
+        let settings: Vec<_> = settings.iter().map(|(k, v)| ((*k).into(), *v)).collect();
+        models::with_parameters(name, &settings).expect(name)
+    };
+    let mut models = every_model();
+    models.extend([
+        variant("create", &[("cruise_speed", 0.5), ("slow_speed", 0.4)]),
+        variant(
+            "create",
+            &[
+                ("cruise_speed", 0.1),
+                ("slow_speed", 0.1),
+                ("cruise_turn", 30.0),
+            ],
+        ),
+        variant("drone", &[("cruise_speed", 0.5)]),
+        variant("drone", &[("cruise_speed", 4.0)]),
+        variant(
+            "drone",
+            &[
+                ("mass", 1.5),
+                ("drag", 0.5),
+                ("tilt", 12.0),
+                ("safe_height", 1.0),
+            ],
+        ),
+        variant("car", &[("acceleration", 0.7), ("cruise_speed", 1.5)]),
+        variant("car", &[("steering_angle", 15.0), ("steering_rate", 60.0)]),
+        variant(
+            "car",
+            &[("wheelbase", 1.0), ("radius", 0.8), ("cruise_speed", 0.5)],
+        ),
+        variant("holonomic", &[("speed", 4.0), ("cruise_speed", 3.0)]),
+        variant(
+            "differential",
+            &[("wheel_speed", 2.0), ("cruise_speed", 1.0)],
+        ),
+        variant(
+            "differential",
+            &[("wheel_distance", 0.3), ("cruise_speed", 0.1)],
+        ),
+    ]);
+    models
+}
+
 pub const CALM: Disturbance = Disturbance {
     wind: Point::ZERO,
     speed_error: 0.0,
