@@ -3,6 +3,16 @@
 //! A checker sees the stream of records and nothing else, so it judges a live run and a trace from a
 //! file alike.
 
+mod bodies;
+mod broadcast;
+mod geocast;
+mod health;
+mod no_collision;
+mod outstanding;
+mod reach_avoid;
+mod report;
+mod track;
+
 use crate::scenario::Scenario;
 use starl_core::motion::Body;
 use starl_core::{Obstacle, Record, RobotId, Time};
@@ -48,6 +58,31 @@ dyn_clone::clone_trait_object!(Checker);
 
 /// The checkers that a scenario asks for.
 pub fn checkers(scenario: &Scenario, setting: &Setting) -> Vec<Box<dyn Checker>> {
-    let _ = (scenario, setting);
-    Vec::new()
+    let wanted = &scenario.properties;
+    let mut checkers: Vec<Box<dyn Checker>> = Vec::new();
+    if wanted.no_collision {
+        checkers.push(Box::new(no_collision::NoCollision::new(setting)));
+    }
+    if wanted.reach_avoid {
+        checkers.push(Box::new(reach_avoid::ReachAvoid::new(scenario, setting)));
+    }
+    if wanted.broadcast {
+        checkers.push(Box::new(broadcast::Broadcast::new(scenario, setting)));
+    }
+    if wanted.geocast {
+        checkers.push(Box::new(geocast::Geocast::new(scenario, setting)));
+    }
+    checkers
+}
+
+/// Robots in words: `robot 3`, or `robots 3, 4 and 7`.
+fn robot_list(robots: &[RobotId]) -> String {
+    match robots {
+        [] => "no robot".into(),
+        [robot] => format!("robot {robot}"),
+        [rest @ .., last] => {
+            let rest: Vec<String> = rest.iter().map(RobotId::to_string).collect();
+            format!("robots {} and {last}", rest.join(", "))
+        }
+    }
 }
