@@ -43,12 +43,13 @@ const INTEGRAL_ERROR: f64 = 0.3;
 const HEIGHT_GAIN: f64 = 1.2;
 
 impl Gains {
-    /// See [`crate::Limits::stopping_distance`]. The tilt needs time to build up and to settle,
-    /// between which the drone brakes with most of its greatest tilt.
+    /// See [`crate::Limits::stopping_distance`]. At low speeds the loops are linear and the
+    /// distance proportional to the speed; at high speeds the drone brakes with its greatest tilt
+    /// and with drag, after the time that takes to build up.
     pub fn stopping_distance(&self) -> f64 {
         let speed = self.cruise_speed;
-        let brake = 0.9 * self.tilt * self.gravity;
-        0.35 * speed + speed * speed / (2.0 * brake)
+        let brake = self.tilt * self.gravity + 0.5 * self.drag * speed;
+        (0.52 * speed).max(0.35 * speed + speed * speed / (2.0 * brake))
     }
 
     /// One step of tracking.

@@ -14,12 +14,15 @@
 //! open-source evaluation environment for continuous control and reinforcement learning"), but for
 //! speed and acceleration, which are for a laboratory: the real one reaches 20 m/s at 9.5 m/s2.
 
+mod bicycle;
+
 use super::{Parameterised, unicycle};
 use crate::parameters::{ParameterError, ParameterSet, ordered, parameters};
 use crate::tracking::car::Gains;
 use crate::tracking::{Goal, Tracking};
 use crate::{Disturbance, Impact, Limits, Model, State};
-use starl_core::math::{atan, cos, fabs, radians, sincos, sqrt, tan, wrap_angle};
+use bicycle::{Course, Ramp, course};
+use starl_core::math::{cos, fabs, radians, sin, sqrt};
 use starl_core::motion::{Body, Estimate, Workspace};
 use starl_core::{Command, Duration, Point, Pose, Twist};
 
@@ -90,58 +93,6 @@ impl Car {
             gains,
         })
     }
-
-    /// Slip angle and rate of turn per speed, at a steering angle.
-    fn geometry(&self, angle: f64) -> (f64, f64) {
-        if angle == 0.0 {
-            return (0.0, 0.0);
-        }
-        let slope = tan(angle);
-        // cos(atan(s)) is 1 / sqrt(1 + s^2).
-        let half = 0.5 * slope;
-        (
-            atan(half),
-            slope / (self.parameters.wheelbase * sqrt(1.0 + half * half)),
-        )
-    }
-
-    /// Pose after `seconds` in which the speed changes evenly from `speed` to `final_speed` and the
-    /// steering angle from `angle` to `final_angle`.
-    fn move_on(
-        &self,
-        pose: &Pose,
-        (speed, final_speed): (f64, f64),
-        (angle, final_angle): (f64, f64),
-        seconds: f64,
-        disturbance: &Disturbance,
-    ) -> Pose {
-        let (drive, turn) = (1.0 + disturbance.speed_error, 1.0 + disturbance.turn_error);
-        if angle == final_angle {
-            // The path is an arc whatever the speed does: only its length matters.
-            let (slip, curvature) = self.geometry(angle);
-            let mean = 0.5 * (speed + final_speed) * drive;
-            return unicycle::advance(pose, slip, mean, mean * curvature * turn, seconds).0;
-        }
-        let slope = |part: f64, yaw: f64| {
-            let speed = (speed + part * (final_speed - speed)) * drive;
-            let (slip, curvature) = self.geometry(angle + part * (final_angle - angle));
-            let (sin, cos) = sincos(yaw + slip);
-            [speed * cos, speed * sin, speed * curvature * turn]
-        };
-        // The slope does not depend on the position, and its two middle values differ only by yaw.
-        let first = slope(0.0, pose.yaw);
-        let second = slope(0.5, pose.yaw + 0.5 * seconds * first[2]);
-        let third = slope(0.5, pose.yaw + 0.5 * seconds * second[2]);
-        let fourth = slope(1.0, pose.yaw + seconds * third[2]);
-        let [x, y, yaw] = [0, 1, 2]
-            .map(|i| seconds / 6.0 * (first[i] + 2.0 * second[i] + 2.0 * third[i] + fourth[i]));
-        let position = pose.position + Point::planar(x, y);
-        Pose {
-            position,
-            yaw: wrap_angle(pose.yaw + yaw),
-            ..*pose
-        }
-    }
 }
 
 /// Seconds until `value` reaches `wanted` at `rate`.
@@ -199,7 +150,7 @@ impl Model for Car {
             wheelbase,
             ..
         } = self.parameters;
-        let (slip, curvature) = self.geometry(self.steering_angle);
+        let Course { slip, curvature } = course(wheelbase, self.steering_angle);
         // The velocity turns with the heading and, while steering, with the slip angle, which
         // changes at most half as fast as tan(steering angle).
         let steepness = cos(self.steering_angle);
@@ -211,7 +162,7 @@ impl Model for Car {
             vertical_speed: 0.0,
             acceleration: sqrt(acceleration * acceleration + sideways * sideways),
             turn_rate: speed * curvature,
-            turn_radius: 0.5 * wheelbase / starl_core::math::sin(slip),
+            turn_radius: 0.5 * wheelbase / sin(slip),
             stopping_distance: self.gains.stopping_distance(),
         }
     }
@@ -261,12 +212,21 @@ impl Model for Car {
             }
             let next_speed = towards(speed, wanted_speed, limits.acceleration, step);
             let next_angle = towards(angle, wanted_angle, self.steering_rate, step);
-            let (speeds, angles) = ((speed, next_speed), (angle, next_angle));
-            pose = self.move_on(&pose, speeds, angles, step, disturbance);
+            let (speeds, angles) = (
+                Ramp {
+                    from: speed,
+                    to: next_speed,
+                },
+                Ramp {
+                    from: angle,
+                    to: next_angle,
+                },
+            );
+            pose = bicycle::roll(limits.wheelbase, &pose, speeds, angles, disturbance, step);
             (speed, angle) = (next_speed, next_angle);
             left -= step;
         }
-        let (slip, curvature) = self.geometry(angle);
+        let Course { slip, curvature } = course(limits.wheelbase, angle);
         let driven = speed * (1.0 + disturbance.speed_error);
         let twist = Twist {
             linear: Point::polar(driven, pose.yaw + slip),
