@@ -40,6 +40,9 @@ pub struct Ray<const D: usize> {
     /// From the start to the end, metres.
     pub way: Vector<D>,
     inverse: Vector<D>,
+    /// Added to when the segment leaves a slab it runs along, so that it counts as in the slab to the
+    /// end even in its farther face; zero on axes along which it moves.
+    slack: Vector<D>,
 }
 
 impl<const D: usize> Ray<D> {
@@ -50,10 +53,12 @@ impl<const D: usize> Ray<D> {
         // A way of zero along an axis becomes one too short to matter, which spares the clipping an
         // undefined product of zero and infinity.
         let inverse = way.map(|way| if way == 0.0 { 1e300 } else { 1.0 / way });
+        let slack = way.map(|way| if way == 0.0 { 2.0 } else { 0.0 });
         Ray {
             from: *from,
             way,
             inverse,
+            slack,
         }
     }
 
@@ -76,7 +81,7 @@ impl<const D: usize> Ray<D> {
                 (high[axis], low[axis])
             };
             let near = (near - self.from[axis]) * inverse;
-            let far = (far - self.from[axis]) * inverse;
+            let far = (far - self.from[axis]) * inverse + self.slack[axis];
             enter = if near > enter { near } else { enter };
             leave = if far < leave { far } else { leave };
         }
@@ -108,7 +113,7 @@ impl<const D: usize> Node<D> {
     fn clip(&self, ray: &Ray<D>, limit: f64) -> ([f64; WIDTH], [f64; WIDTH]) {
         let (mut enter, mut leave) = ([0.0; WIDTH], [limit; WIDTH]);
         for axis in 0..D {
-            let (from, inverse) = (ray.from[axis], ray.inverse[axis]);
+            let (from, inverse, slack) = (ray.from[axis], ray.inverse[axis], ray.slack[axis]);
             let (near, far) = if inverse > 0.0 {
                 (&self.low[axis], &self.high[axis])
             } else {
@@ -116,7 +121,7 @@ impl<const D: usize> Node<D> {
             };
             for place in 0..WIDTH {
                 let near = (near[place] - from) * inverse;
-                let far = (far[place] - from) * inverse;
+                let far = (far[place] - from) * inverse + slack;
                 enter[place] = if near > enter[place] {
                     near
                 } else {

@@ -138,9 +138,10 @@ impl<const D: usize> GrownList<D> {
             return Some(normal);
         }
         let point = core::array::from_fn(|axis| ray.from[axis] + enter * ray.way[axis]);
+        // On the surface the way from the polygon is as long as the radius, or no way at all.
         let across = match self.gap(number, &point) {
-            Some((_, across)) => across,
-            None => self.edge_normal(grown, &point)?,
+            Some((_, across)) if grown.radius > 0.0 => across,
+            _ => self.edge_normal(grown, &point)?,
         };
         (normal[0], normal[1]) = (across[0], across[1]);
         Some(normal)
