@@ -15,7 +15,11 @@ const ROBOTS: u32 = 4;
 fn race(seconds: u64) -> Vec<Record> {
     let mut records = Vec::new();
     let mut push = |at, robot, event| {
-        records.push(Record { at: Time(at), robot: Some(RobotId(robot)), event });
+        records.push(Record {
+            at: Time(at),
+            robot: Some(RobotId(robot)),
+            event,
+        });
     };
     for step in 0..seconds * 100 {
         let at = step * 10_000_000;
@@ -33,8 +37,24 @@ fn race(seconds: u64) -> Vec<Record> {
             if step % 10 == 0 {
                 let (sequence, port) = (step as u32, Port::named("broadcast"));
                 let payload = Payload::from_slice(&[7; 20]);
-                push(at, robot, Event::Sent { sequence, destination: Destination::All, port, payload });
-                push(at, (robot + 1) % ROBOTS, Event::Delivered { from: RobotId(robot), sequence });
+                push(
+                    at,
+                    robot,
+                    Event::Sent {
+                        sequence,
+                        destination: Destination::All,
+                        port,
+                        payload,
+                    },
+                );
+                push(
+                    at,
+                    (robot + 1) % ROBOTS,
+                    Event::Delivered {
+                        from: RobotId(robot),
+                        sequence,
+                    },
+                );
             }
         }
     }
@@ -50,7 +70,10 @@ fn header() -> Header {
         height: 0.1,
         flies: false,
     };
-    Header { robots: (0..ROBOTS).map(robot).collect(), ..Header::default() }
+    Header {
+        robots: (0..ROBOTS).map(robot).collect(),
+        ..Header::default()
+    }
 }
 
 fn main() {
@@ -66,10 +89,14 @@ fn main() {
         );
     };
     for round in 0..3 {
-        println!("round {round}: {} records of {ROBOTS} robots", records.len());
-        for (name, options) in
-            [("write, records only", ViewOptions::none()), ("write, with views", ViewOptions::default())]
-        {
+        println!(
+            "round {round}: {} records of {ROBOTS} robots",
+            records.len()
+        );
+        for (name, options) in [
+            ("write, records only", ViewOptions::none()),
+            ("write, with views", ViewOptions::default()),
+        ] {
             let started = Instant::now();
             let mut writer = Writer::new(Vec::new(), &header(), &options).expect("memory");
             for record in &records {
@@ -78,7 +105,10 @@ fn main() {
             let file = writer.finish(&Outcome::default()).expect("memory");
             report(name, file.len(), started);
             let started = Instant::now();
-            let read = Reader::new(file.as_slice()).expect("just written").filter(Result::is_ok).count();
+            let read = Reader::new(file.as_slice())
+                .expect("just written")
+                .filter(Result::is_ok)
+                .count();
             assert_eq!(read, records.len());
             report("read", file.len(), started);
         }

@@ -47,7 +47,11 @@ pub struct Comparison<I> {
 impl<I: Iterator<Item = Result<Record, TraceError>>> Comparison<I> {
     /// Compares with these records, e.g. a [`crate::Reader`].
     pub fn new(recorded: I) -> Comparison<I> {
-        Comparison { recorded, agreed: 0, difference: None }
+        Comparison {
+            recorded,
+            agreed: 0,
+            difference: None,
+        }
     }
 
     /// The next record of the run again. After the first difference nothing more is compared.
@@ -56,11 +60,18 @@ impl<I: Iterator<Item = Result<Record, TraceError>>> Comparison<I> {
             return Ok(());
         }
         let recorded = self.recorded.next().transpose()?;
-        if recorded.as_ref().is_some_and(|recorded| same(recorded, rerun)) {
+        if recorded
+            .as_ref()
+            .is_some_and(|recorded| same(recorded, rerun))
+        {
             self.agreed += 1;
         } else {
             let (agreed, rerun) = (self.agreed, Some(rerun.clone()));
-            self.difference = Some(Difference { agreed, recorded, rerun });
+            self.difference = Some(Difference {
+                agreed,
+                recorded,
+                rerun,
+            });
         }
         Ok(())
     }
@@ -76,7 +87,11 @@ impl<I: Iterator<Item = Result<Record, TraceError>>> Comparison<I> {
             && let Some(left) = self.recorded.next().transpose()?
         {
             let (agreed, recorded) = (self.agreed, Some(left));
-            self.difference = Some(Difference { agreed, recorded, rerun: None });
+            self.difference = Some(Difference {
+                agreed,
+                recorded,
+                rerun: None,
+            });
         }
         Ok(self.difference)
     }

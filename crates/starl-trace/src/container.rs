@@ -84,7 +84,10 @@ impl<R: Read> Container<R> {
 
     /// An error about the bytes here.
     pub fn damaged(&self, what: impl Into<String>) -> TraceError {
-        TraceError::Damaged { progress: self.progress, what: what.into() }
+        TraceError::Damaged {
+            progress: self.progress,
+            what: what.into(),
+        }
     }
 
     /// Reads a record outside chunks into `body`, the checksums of its section compared.
@@ -98,7 +101,10 @@ impl<R: Read> Container<R> {
         ]);
         if length > LONGEST {
             self.progress.offset = start;
-            return Err(TraceError::TooLong { progress: self.progress, length });
+            return Err(TraceError::TooLong {
+                progress: self.progress,
+                length,
+            });
         }
         if opcode == op::DATA_END {
             let section = core::mem::take(&mut self.checksum);
@@ -112,7 +118,11 @@ impl<R: Read> Container<R> {
         self.checksum.update(&head);
         self.take(length)?;
         // The last four bytes of the footer are the checksum of what is before them.
-        let own = if opcode == op::FOOTER { self.body.len().saturating_sub(4) } else { self.body.len() };
+        let own = if opcode == op::FOOTER {
+            self.body.len().saturating_sub(4)
+        } else {
+            self.body.len()
+        };
         self.checksum.update(&self.body[..own]);
         Ok(opcode)
     }
@@ -170,7 +180,10 @@ impl<R: Read> Container<R> {
         };
         if !compression.is_empty() {
             let method = compression.to_string();
-            return Err(TraceError::Compressed { progress: self.progress, method });
+            return Err(TraceError::Compressed {
+                progress: self.progress,
+                method,
+            });
         }
         let records = fields.0;
         if length != records.len() as u64 || size != length {
@@ -192,14 +205,22 @@ impl<R: Read> Container<R> {
         };
         let start = self.chunk.start + 9;
         self.chunk.start = start + length;
-        Ok(RawRecord { opcode, body: &self.body[start..start + length] })
+        Ok(RawRecord {
+            opcode,
+            body: &self.body[start..start + length],
+        })
     }
 
     /// Reads exactly so many bytes into `body`.
     fn take(&mut self, length: u64) -> Result<(), TraceError> {
         self.body.clear();
         // Grows as bytes arrive: a forged length alone costs nothing.
-        match self.source.by_ref().take(length).read_to_end(&mut self.body) {
+        match self
+            .source
+            .by_ref()
+            .take(length)
+            .read_to_end(&mut self.body)
+        {
             Ok(read) if read as u64 == length => {
                 self.progress.offset += length;
                 Ok(())
@@ -216,7 +237,10 @@ impl<R: Read> Container<R> {
     }
 
     fn input(&self, error: &std::io::Error) -> TraceError {
-        TraceError::Input { progress: self.progress, what: error.to_string() }
+        TraceError::Input {
+            progress: self.progress,
+            what: error.to_string(),
+        }
     }
 }
 

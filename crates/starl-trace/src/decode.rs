@@ -52,8 +52,24 @@ fn pose(text: &[u8]) -> Result<(Option<RobotId>, Pose), String> {
         pitch: f64,
         roll: f64,
     }
-    let Message { robot, x, y, z, yaw, pitch, roll } = parse(text)?;
-    Ok((robot, Pose { position: starl_core::Point::new(x, y, z), yaw, pitch, roll }))
+    let Message {
+        robot,
+        x,
+        y,
+        z,
+        yaw,
+        pitch,
+        roll,
+    } = parse(text)?;
+    Ok((
+        robot,
+        Pose {
+            position: starl_core::Point::new(x, y, z),
+            yaw,
+            pitch,
+            roll,
+        },
+    ))
 }
 
 fn sent(text: &[u8]) -> Decoded {
@@ -83,7 +99,11 @@ fn delivered(text: &[u8]) -> Decoded {
         from: RobotId,
         sequence: u32,
     }
-    let Message { robot, from, sequence } = parse(text)?;
+    let Message {
+        robot,
+        from,
+        sequence,
+    } = parse(text)?;
     Ok((robot, Event::Delivered { from, sequence }))
 }
 
@@ -96,8 +116,22 @@ fn dropped(text: &[u8]) -> Decoded {
         sequence: u32,
         reason: DropReason,
     }
-    let Message { robot, from, to, sequence, reason } = parse(text)?;
-    Ok((robot, Event::Dropped { from, to, sequence, reason }))
+    let Message {
+        robot,
+        from,
+        to,
+        sequence,
+        reason,
+    } = parse(text)?;
+    Ok((
+        robot,
+        Event::Dropped {
+            from,
+            to,
+            sequence,
+            reason,
+        },
+    ))
 }
 
 fn collision(text: &[u8]) -> Decoded {
@@ -133,8 +167,18 @@ fn program(text: &[u8]) -> Decoded {
         name: String,
         fields: Vec<wire::Field>,
     }
-    let Message { robot, name, fields } = parse(text)?;
-    Ok((robot, Event::Program { name: name.into(), fields: wire::fields(fields)? }))
+    let Message {
+        robot,
+        name,
+        fields,
+    } = parse(text)?;
+    Ok((
+        robot,
+        Event::Program {
+            name: name.into(),
+            fields: wire::fields(fields)?,
+        },
+    ))
 }
 
 fn primitive(text: &[u8]) -> Decoded {
@@ -164,7 +208,13 @@ fn log(text: &[u8]) -> Decoded {
         text: String,
     }
     let Message { robot, level, text } = parse(text)?;
-    Ok((robot, Event::Log { level, text: text.into() }))
+    Ok((
+        robot,
+        Event::Log {
+            level,
+            text: text.into(),
+        },
+    ))
 }
 
 fn mark(text: &[u8]) -> Decoded {
@@ -175,8 +225,15 @@ fn mark(text: &[u8]) -> Decoded {
         #[serde(flatten)]
         shape: wire::Mark,
     }
-    let Message { robot, label, shape } = parse(text)?;
-    let mark = Mark { label: label.into(), shape: shape.try_into()? };
+    let Message {
+        robot,
+        label,
+        shape,
+    } = parse(text)?;
+    let mark = Mark {
+        label: label.into(),
+        shape: shape.try_into()?,
+    };
     Ok((robot, Event::Draw(mark)))
 }
 
@@ -223,6 +280,16 @@ fn violation(text: &[u8]) -> Decoded {
         property: String,
         text: String,
     }
-    let Message { robot, property, text } = parse(text)?;
-    Ok((robot, Event::Violated { property: property.into(), text: text.into() }))
+    let Message {
+        robot,
+        property,
+        text,
+    } = parse(text)?;
+    Ok((
+        robot,
+        Event::Violated {
+            property: property.into(),
+            text: text.into(),
+        },
+    ))
 }

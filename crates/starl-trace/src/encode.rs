@@ -15,7 +15,12 @@ pub(crate) fn event(json: &mut Json, robot: Option<RobotId>, event: &Event) {
     }
     match event {
         Event::Moved(at) | Event::Estimated(at) => pose(json, at),
-        Event::Sent { sequence, destination, port, payload } => {
+        Event::Sent {
+            sequence,
+            destination,
+            port,
+            payload,
+        } => {
             json.key("sequence").integer(*sequence);
             if let Destination::Robot(RobotId(id)) = destination {
                 json.key("to").integer(*id);
@@ -24,33 +29,53 @@ pub(crate) fn event(json: &mut Json, robot: Option<RobotId>, event: &Event) {
             json.key("payload").base64(payload);
         }
         Event::Delivered { from, sequence } => datagram(json, *from, *sequence),
-        Event::Dropped { from, to, sequence, reason } => {
+        Event::Dropped {
+            from,
+            to,
+            sequence,
+            reason,
+        } => {
             datagram(json, *from, *sequence);
             if let Some(RobotId(id)) = to {
                 json.key("to").integer(*id);
             }
             json.key("reason").string(drop_reason(*reason));
         }
-        Event::Collided { with: Hit::Robot(RobotId(id)) } => {
+        Event::Collided {
+            with: Hit::Robot(RobotId(id)),
+        } => {
             json.key("with_robot").integer(*id);
         }
-        Event::Collided { with: Hit::Obstacle(index) } => {
+        Event::Collided {
+            with: Hit::Obstacle(index),
+        } => {
             json.key("with_obstacle").integer(*index);
         }
         Event::Action(name) => {
             json.key("name").string(name);
         }
-        Event::Program { name, fields: details } => {
+        Event::Program {
+            name,
+            fields: details,
+        } => {
             json.key("name").string(name);
             fields(json, details);
         }
-        Event::Primitive { primitive, port, name, fields: details } => {
+        Event::Primitive {
+            primitive,
+            port,
+            name,
+            fields: details,
+        } => {
             json.key("primitive").string(primitive);
             json.key("port").integer(port.0);
             json.key("name").string(name);
             fields(json, details);
         }
-        Event::Log { level: weight, text } => {
+        Event::Log {
+            level: weight,
+            text,
+        } => {
             json.key("level").string(level(*weight));
             json.key("text").string(text);
         }
@@ -120,11 +145,22 @@ fn mark(json: &mut Json, mark: &Mark) {
         MarkShape::Nothing => json.key("shape").string("nothing"),
         MarkShape::Dot(at) => json.key("shape").string("dot").key("points").points(&[*at]),
         MarkShape::Circle { center, radius } => {
-            json.key("shape").string("circle").key("points").points(&[*center]);
+            json.key("shape")
+                .string("circle")
+                .key("points")
+                .points(&[*center]);
             json.key("radius").number(*radius)
         }
-        MarkShape::Line(points) => json.key("shape").string("line").key("points").points(points),
-        MarkShape::Text(at) => json.key("shape").string("text").key("points").points(&[*at]),
+        MarkShape::Line(points) => json
+            .key("shape")
+            .string("line")
+            .key("points")
+            .points(points),
+        MarkShape::Text(at) => json
+            .key("shape")
+            .string("text")
+            .key("points")
+            .points(&[*at]),
     };
 }
 
@@ -188,13 +224,23 @@ fn obstacle(json: &mut Json, obstacle: &Obstacle) {
             json.key("polygon").points(base.vertices());
             height_span(json, *height);
         }
-        Shape::Circle { center, radius, height } => {
+        Shape::Circle {
+            center,
+            radius,
+            height,
+        } => {
             json.key("circle").mark(b'{').key("center").point(*center);
             json.key("radius").number(*radius).mark(b'}');
             height_span(json, *height);
         }
         Shape::Cuboid { low, high } => {
-            json.key("box").mark(b'{').key("low").point(*low).key("high").point(*high).mark(b'}');
+            json.key("box")
+                .mark(b'{')
+                .key("low")
+                .point(*low)
+                .key("high")
+                .point(*high)
+                .mark(b'}');
         }
     }
     json.mark(b'}');
@@ -202,7 +248,13 @@ fn obstacle(json: &mut Json, obstacle: &Obstacle) {
 
 fn height_span(json: &mut Json, height: Option<HeightSpan>) {
     if let Some(HeightSpan { low, high }) = height {
-        json.key("height").mark(b'{').key("low").number(low).key("high").number(high).mark(b'}');
+        json.key("height")
+            .mark(b'{')
+            .key("low")
+            .number(low)
+            .key("high")
+            .number(high)
+            .mark(b'}');
     }
 }
 
@@ -217,7 +269,13 @@ fn area(json: &mut Json, area: &Area) {
             json.key("polygon").points(polygon.vertices());
         }
         Area::Box { low, high } => {
-            json.key("box").mark(b'{').key("low").point(*low).key("high").point(*high).mark(b'}');
+            json.key("box")
+                .mark(b'{')
+                .key("low")
+                .point(*low)
+                .key("high")
+                .point(*high)
+                .mark(b'}');
         }
     }
     json.mark(b'}');

@@ -112,7 +112,12 @@ impl fmt::Display for TraceError {
                 f,
                 "the trace is damaged {progress}: {what}; copy it again, or record it again"
             ),
-            TraceError::Message { progress, topic, at, what } => write!(
+            TraceError::Message {
+                progress,
+                topic,
+                at,
+                what,
+            } => write!(
                 f,
                 "the trace has a bad message on {topic} at {at}, {progress}: {what}; record it again with `starl run --trace`"
             ),

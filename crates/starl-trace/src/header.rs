@@ -53,8 +53,14 @@ pub(crate) fn encode_world(json: &mut Json, header: &Header) {
     json.mark(b'{').key("robots").mark(b'[');
     for robot in &header.robots {
         json.item().mark(b'{').key("id").integer(robot.id.0);
-        json.key("name").string(&robot.name).key("model").string(&robot.model);
-        json.key("radius").number(robot.radius).key("height").number(robot.height);
+        json.key("name")
+            .string(&robot.name)
+            .key("model")
+            .string(&robot.model);
+        json.key("radius")
+            .number(robot.radius)
+            .key("height")
+            .number(robot.height);
         json.key("flies").boolean(robot.flies).mark(b'}');
     }
     json.mark(b']').key("way_points");
@@ -81,7 +87,17 @@ pub(crate) fn decode_world(text: &[u8], header: &mut Header) -> Result<(), Strin
     let world: World = decode::parse(text)?;
     header.robots = world.robots;
     header.way_points = (world.way_points.into_iter())
-        .map(|Place { name, position, group }| WayPoint { name, position, group })
+        .map(
+            |Place {
+                 name,
+                 position,
+                 group,
+             }| WayPoint {
+                name,
+                position,
+                group,
+            },
+        )
         .collect();
     header.obstacles = wire::obstacles(world.obstacles)?;
     Ok(())

@@ -67,7 +67,8 @@ impl Json {
     /// A whole number.
     #[inline]
     pub fn integer(&mut self, number: impl itoa::Integer) -> &mut Json {
-        self.text.extend_from_slice(itoa::Buffer::new().format(number).as_bytes());
+        self.text
+            .extend_from_slice(itoa::Buffer::new().format(number).as_bytes());
         self
     }
 
@@ -78,7 +79,8 @@ impl Json {
             self.text.push(b'0');
         } else if number.is_finite() {
             let mut buffer = zmij::Buffer::new();
-            self.text.extend_from_slice(buffer.format_finite(number).as_bytes());
+            self.text
+                .extend_from_slice(buffer.format_finite(number).as_bytes());
         } else {
             self.not_finite = true;
             self.text.extend_from_slice(b"null");
@@ -106,7 +108,10 @@ impl Json {
                 *digit = b'0' + (fraction % 10) as u8;
                 fraction /= 10;
             }
-            let end = digits.iter().rposition(|&digit| digit != b'0').map_or(0, |last| last + 1);
+            let end = digits
+                .iter()
+                .rposition(|&digit| digit != b'0')
+                .map_or(0, |last| last + 1);
             self.text.push(b'.');
             self.text.extend_from_slice(&digits[..end]);
         }
@@ -122,7 +127,10 @@ impl Json {
     pub fn string(&mut self, text: &str) -> &mut Json {
         self.text.push(b'"');
         let mut rest = text.as_bytes();
-        while let Some(at) = rest.iter().position(|&b| b < 0x20 || b == b'"' || b == b'\\') {
+        while let Some(at) = rest
+            .iter()
+            .position(|&b| b < 0x20 || b == b'"' || b == b'\\')
+        {
             self.text.extend_from_slice(&rest[..at]);
             match rest[at] {
                 quoted @ (b'"' | b'\\') => self.text.extend_from_slice(&[b'\\', quoted]),
@@ -201,7 +209,11 @@ pub(crate) fn from_base64(text: &str) -> Option<Vec<u8>> {
     let mut bytes = Vec::with_capacity(text.len() / 4 * 3);
     let groups = text.len() / 4;
     for (index, group) in text.chunks_exact(4).enumerate() {
-        let padding = group.iter().rev().take_while(|&&digit| digit == b'=').count();
+        let padding = group
+            .iter()
+            .rev()
+            .take_while(|&&digit| digit == b'=')
+            .count();
         if padding > 2 || (padding > 0 && index + 1 < groups) {
             return None;
         }

@@ -68,9 +68,9 @@ impl<R: Read> Reader<R> {
                 op::SCHEMA | op::CHANNEL | op::MESSAGE if !versioned => {
                     return Err(TraceError::NotStarl);
                 }
-                op::SCHEMA | op::CHANNEL | op::MESSAGE => {
-                    Err(Fault::Damaged("the world is missing before the messages".into()))
-                }
+                op::SCHEMA | op::CHANNEL | op::MESSAGE => Err(Fault::Damaged(
+                    "the world is missing before the messages".into(),
+                )),
                 _ => Ok(false),
             };
             match done {
@@ -99,7 +99,9 @@ impl<R: Read> Reader<R> {
                     let Some((id, at, data)) = message(body) else {
                         return Err(self.container.damaged("a message is cut short"));
                     };
-                    let Some(&topic) = self.channels.get(&id) else { continue };
+                    let Some(&topic) = self.channels.get(&id) else {
+                        continue;
+                    };
                     let read = if self.summary.is_some() {
                         Err("there are messages after the end record".to_string())
                     } else if topic == Topic::Summary {
@@ -122,7 +124,12 @@ impl<R: Read> Reader<R> {
                         }
                         Err(what) => {
                             let (progress, topic) = (self.container.progress, topic.name().into());
-                            return Err(TraceError::Message { progress, topic, at, what });
+                            return Err(TraceError::Message {
+                                progress,
+                                topic,
+                                at,
+                                what,
+                            });
                         }
                     }
                 }
@@ -171,9 +178,17 @@ pub struct Trace {
 /// Reads a whole trace from memory; the first thing wrong with it is an error.
 pub fn read(bytes: &[u8]) -> Result<Trace, TraceError> {
     let mut reader = Reader::new(bytes)?;
-    let records = reader.by_ref().collect::<Result<Vec<Record>, TraceError>>()?;
-    let Reader { header, summary, .. } = reader;
-    Ok(Trace { header, records, summary: summary.unwrap_or_default() })
+    let records = reader
+        .by_ref()
+        .collect::<Result<Vec<Record>, TraceError>>()?;
+    let Reader {
+        header, summary, ..
+    } = reader;
+    Ok(Trace {
+        header,
+        records,
+        summary: summary.unwrap_or_default(),
+    })
 }
 
 /// What is wrong with a record of the header.
@@ -192,7 +207,12 @@ fn metadata(body: &[u8], header: &mut Header, versioned: &mut bool) -> Result<bo
     if name != topic::METADATA {
         return Ok(false);
     }
-    let get = |wanted: &str| pairs.iter().find(|(key, _)| *key == wanted).map(|(_, value)| *value);
+    let get = |wanted: &str| {
+        pairs
+            .iter()
+            .find(|(key, _)| *key == wanted)
+            .map(|(_, value)| *value)
+    };
     let version = get("format_version").ok_or_else(|| damaged("`format_version` is missing"))?;
     if version != FORMAT_VERSION.to_string() {
         return Err(Fault::Version(version.into()));
@@ -219,7 +239,9 @@ fn attachment(body: &[u8], header: &mut Header) -> Result<bool, Fault> {
         return Err(damaged("an attachment is cut short".into()));
     };
     if saved != 0 && saved != crc32fast::hash(&body[..body.len() - 4]) {
-        return Err(damaged(format!("the checksum of the attachment `{name}` does not match")));
+        return Err(damaged(format!(
+            "the checksum of the attachment `{name}` does not match"
+        )));
     }
     let text = || {
         let text = core::str::from_utf8(data).map(String::from);
@@ -253,9 +275,14 @@ fn channel(body: &[u8], channels: &mut BTreeMap<u16, Topic>) -> Result<(), Strin
     }
     let topic = Topic::named(name).ok_or_else(|| format!("the topic `{name}` is not known"))?;
     if encoding != "json" {
-        return Err(format!("the topic `{name}` is not in JSON but `{encoding}`"));
+        return Err(format!(
+            "the topic `{name}` is not in JSON but `{encoding}`"
+        ));
     }
-    if channels.insert(id, topic).is_some_and(|before| before != topic) {
+    if channels
+        .insert(id, topic)
+        .is_some_and(|before| before != topic)
+    {
         return Err(format!("channel {id} has two topics"));
     }
     Ok(())

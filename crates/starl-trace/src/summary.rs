@@ -30,7 +30,11 @@ pub struct Summary {
 
 /// Writes the summary's message.
 pub(crate) fn encode(json: &mut Json, summary: &Summary) {
-    let Outcome { outcome, digest, end } = &summary.outcome;
+    let Outcome {
+        outcome,
+        digest,
+        end,
+    } = &summary.outcome;
     json.mark(b'{').key("outcome").string(outcome);
     json.key("digest").string(&format!("{digest:016x}"));
     json.key("end_ns").integer(end.0);
@@ -62,9 +66,17 @@ pub(crate) fn decode(text: &[u8]) -> Result<Summary, String> {
     let digest = u64::from_str_radix(&message.digest, 16)
         .map_err(|_| "the digest is not a hexadecimal number".to_string())?;
     Ok(Summary {
-        outcome: Outcome { outcome: message.outcome, digest, end: message.end_ns },
+        outcome: Outcome {
+            outcome: message.outcome,
+            digest,
+            end: message.end_ns,
+        },
         records: message.records,
-        counts: message.counts.into_iter().map(|Count { topic, records }| (topic, records)).collect(),
+        counts: message
+            .counts
+            .into_iter()
+            .map(|Count { topic, records }| (topic, records))
+            .collect(),
     })
 }
 
@@ -84,7 +96,12 @@ impl Tally {
     pub fn counts(&self) -> BTreeMap<String, u64> {
         (Topic::ALL.into_iter().zip(self.0))
             .filter(|&(_, count)| count > 0)
-            .map(|(topic, count)| (topic.name()[crate::topic::PREFIX.len()..].to_string(), count))
+            .map(|(topic, count)| {
+                (
+                    topic.name()[crate::topic::PREFIX.len()..].to_string(),
+                    count,
+                )
+            })
             .collect()
     }
 }

@@ -31,7 +31,9 @@ pub(crate) struct Field {
 
 /// The details of an event, in order.
 pub(crate) fn fields(list: Vec<Field>) -> Result<Fields, String> {
-    list.into_iter().map(|field| Ok((field.name.clone().into(), value(field)?))).collect()
+    list.into_iter()
+        .map(|field| Ok((field.name.clone().into(), value(field)?)))
+        .collect()
 }
 
 fn value(field: Field) -> Result<Value, String> {
@@ -53,7 +55,11 @@ fn value(field: Field) -> Result<Value, String> {
         field.path.map(Value::Path),
         field.robot.map(Value::Robot),
         field.robots.map(Value::Robots),
-        field.obstacles.map(obstacles).transpose()?.map(|list| Value::Obstacles(list.into())),
+        field
+            .obstacles
+            .map(obstacles)
+            .transpose()?
+            .map(|list| Value::Obstacles(list.into())),
         field.area.map(Area::try_from).transpose()?.map(Value::Area),
     ];
     let mut present = candidates.into_iter().flatten();
@@ -81,7 +87,9 @@ impl TryFrom<Mark> for MarkShape {
             ("circle", &[center], Some(radius)) => Ok(MarkShape::Circle { center, radius }),
             ("line", _, None) => Ok(MarkShape::Line(mark.points)),
             ("text", &[at], None) => Ok(MarkShape::Text(at)),
-            (shape, ..) => Err(format!("`{shape}` is no shape with these points and radius")),
+            (shape, ..) => Err(format!(
+                "`{shape}` is no shape with these points and radius"
+            )),
         }
     }
 }
@@ -111,15 +119,21 @@ impl TryFrom<Region> for Area {
     type Error = String;
     fn try_from(region: Region) -> Result<Area, String> {
         match region {
-            Region { circle: Some(Circle { center, radius }), polygon: None, corners: None } => {
-                Ok(Area::Circle { center, radius })
-            }
-            Region { circle: None, polygon: Some(points), corners: None } => {
-                Ok(Area::Polygon(polygon(&points)?))
-            }
-            Region { circle: None, polygon: None, corners: Some(Corners { low, high }) } => {
-                Ok(Area::Box { low, high })
-            }
+            Region {
+                circle: Some(Circle { center, radius }),
+                polygon: None,
+                corners: None,
+            } => Ok(Area::Circle { center, radius }),
+            Region {
+                circle: None,
+                polygon: Some(points),
+                corners: None,
+            } => Ok(Area::Polygon(polygon(&points)?)),
+            Region {
+                circle: None,
+                polygon: None,
+                corners: Some(Corners { low, high }),
+            } => Ok(Area::Box { low, high }),
             _ => Err("an area needs exactly one of `circle`, `polygon` and `box`".into()),
         }
     }
@@ -137,7 +151,11 @@ impl TryFrom<Obstacle> for starl_core::Obstacle {
     type Error = String;
     fn try_from(Obstacle { base, height }: Obstacle) -> Result<starl_core::Obstacle, String> {
         let shape = match (Area::try_from(base)?, height) {
-            (Area::Circle { center, radius }, height) => Shape::Circle { center, radius, height },
+            (Area::Circle { center, radius }, height) => Shape::Circle {
+                center,
+                radius,
+                height,
+            },
             (Area::Polygon(base), height) => Shape::Polygon { base, height },
             (Area::Box { low, high }, None) => Shape::Cuboid { low, high },
             (Area::Box { .. }, Some(_)) => return Err("a box has its height already".into()),

@@ -43,13 +43,26 @@ impl<W: Write> Output<W> {
             publish_time: at.0,
         };
         self.sequence = self.sequence.wrapping_add(1);
-        Ok(self.mcap.write_to_known_channel(&header, self.json.bytes())?)
+        Ok(self
+            .mcap
+            .write_to_known_channel(&header, self.json.bytes())?)
+    }
+
+    /// Writes the view that stands in `json`; none if a number in it cannot be shown.
+    pub fn send_view(&mut self, channel: u16, at: Time) -> Result<(), WriteError> {
+        if self.json.is_finite() {
+            self.send(channel, at)
+        } else {
+            Ok(())
+        }
     }
 
     /// Makes a channel for JSON with this schema.
     pub fn channel(&mut self, topic: &str, name: &str, text: &str) -> Result<u16, WriteError> {
         let schema = self.mcap.add_schema(name, "jsonschema", text.as_bytes())?;
-        Ok(self.mcap.add_channel(schema, topic, "json", &BTreeMap::new())?)
+        Ok(self
+            .mcap
+            .add_channel(schema, topic, "json", &BTreeMap::new())?)
     }
 
     fn attach(&mut self, name: &str, media_type: &str, data: &[u8]) -> Result<(), WriteError> {
@@ -72,7 +85,11 @@ impl<W: Write> Writer<W> {
             .profile("starl")
             .library(format!("starl {}", header.starl_version))
             .create(NoSeek::new(output))?;
-        let mut output = Output { mcap, json: Json::default(), sequence: 0 };
+        let mut output = Output {
+            mcap,
+            json: Json::default(),
+            sequence: 0,
+        };
         write_header(&mut output, header)?;
         for (index, topic) in Topic::ALL.into_iter().enumerate() {
             let text = schema::text(topic);
@@ -80,7 +97,12 @@ impl<W: Write> Writer<W> {
             debug_assert_eq!(usize::from(channel), index + 1);
         }
         let views = Views::new(&mut output, header, options)?;
-        Ok(Writer { output, views, tally: Tally::default(), last: Time::ZERO })
+        Ok(Writer {
+            output,
+            views,
+            tally: Tally::default(),
+            last: Time::ZERO,
+        })
     }
 
     /// Writes a record.
@@ -96,10 +118,15 @@ impl<W: Write> Writer<W> {
         event: &Event,
     ) -> Result<(), WriteError> {
         let topic = Topic::of(event);
+        self.views.advance(&mut self.output, at)?;
         self.output.json.clear();
         encode::event(&mut self.output.json, robot, event);
         if !self.output.json.is_finite() {
-            return Err(WriteError::NotFinite { at, robot, topic: topic.name() });
+            return Err(WriteError::NotFinite {
+                at,
+                robot,
+                topic: topic.name(),
+            });
         }
         self.output.send(topic as u16 + 1, at)?;
         self.tally.add(topic);
@@ -115,7 +142,7 @@ impl<W: Write> Writer<W> {
     /// Writes the end record and the file's index, and gives the output back. A trace that is dropped
     /// instead reads as cut short.
     pub fn finish(mut self, outcome: &Outcome) -> Result<W, WriteError> {
-        self.views.finish(&mut self.output, outcome.end)?;
+        self.views.finish(&mut self.output)?;
         let end = Summary {
             outcome: outcome.clone(),
             records: self.tally.total(),
@@ -128,7 +155,9 @@ impl<W: Write> Writer<W> {
         self.output.send(Topic::Summary as u16 + 1, at)?;
         self.output.mcap.finish()?;
         let mut output = self.output.mcap.into_inner().into_inner();
-        output.flush().map_err(|error| WriteError::Output { what: error.to_string() })?;
+        output.flush().map_err(|error| WriteError::Output {
+            what: error.to_string(),
+        })?;
         Ok(output)
     }
 }
@@ -142,16 +171,31 @@ fn write_header<W: Write>(output: &mut Output<W>, header: &Header) -> Result<(),
     ];
     output.mcap.write_metadata(&Metadata {
         name: topic::METADATA.into(),
-        metadata: metadata.into_iter().map(|(key, value)| (key.to_string(), value)).collect(),
+        metadata: metadata
+            .into_iter()
+            .map(|(key, value)| (key.to_string(), value))
+            .collect(),
     })?;
-    output.attach(topic::SCENARIO, "application/toml", header.scenario.as_bytes())?;
+    output.attach(
+        topic::SCENARIO,
+        "application/toml",
+        header.scenario.as_bytes(),
+    )?;
     for (name, text) in &header.files {
-        output.attach(&format!("{}{name}", topic::FILES), "text/plain", text.as_bytes())?;
+        output.attach(
+            &format!("{}{name}", topic::FILES),
+            "text/plain",
+            text.as_bytes(),
+        )?;
     }
     let mut json = Json::default();
     header::encode_world(&mut json, header);
     if !json.is_finite() {
-        return Err(WriteError::NotFinite { at: Time::ZERO, robot: None, topic: topic::WORLD });
+        return Err(WriteError::NotFinite {
+            at: Time::ZERO,
+            robot: None,
+            topic: topic::WORLD,
+        });
     }
     output.attach(topic::WORLD, "application/json", json.bytes())
 }

@@ -26,7 +26,11 @@ pub(crate) fn frame_transforms() -> String {
         ],
     );
     let members = [always("transforms", array(transform))];
-    root("foxglove.FrameTransforms", "Where frames are in their parents", &members)
+    root(
+        "foxglove.FrameTransforms",
+        "Where frames are in their parents",
+        &members,
+    )
 }
 
 /// `foxglove.Log`.
@@ -55,8 +59,17 @@ pub(crate) fn scene_update() -> String {
         always("frame_id", string("frame of the entity")),
         always("id", string("replaces the entity that had it before")),
         always("lifetime", time()),
-        always("frame_locked", boolean("whether the entity moves with its frame")),
-        always("metadata", array(object("", &[always("key", string("")), always("value", string(""))]))),
+        always(
+            "frame_locked",
+            boolean("whether the entity moves with its frame"),
+        ),
+        always(
+            "metadata",
+            array(object(
+                "",
+                &[always("key", string("")), always("value", string(""))],
+            )),
+        ),
         always("arrows", array(object("", &[]))),
         always("cubes", array(object("", &cube()))),
         always("spheres", array(object("", &cube()))),
@@ -67,14 +80,31 @@ pub(crate) fn scene_update() -> String {
         always("models", array(object("", &[]))),
     ];
     let members = [
-        always("deletions", array(object("\"title\":\"foxglove.SceneEntityDeletion\",", &deletion))),
-        always("entities", array(object("\"title\":\"foxglove.SceneEntity\",", &entity))),
+        always(
+            "deletions",
+            array(object(
+                "\"title\":\"foxglove.SceneEntityDeletion\",",
+                &deletion,
+            )),
+        ),
+        always(
+            "entities",
+            array(object("\"title\":\"foxglove.SceneEntity\",", &entity)),
+        ),
     ];
-    root("foxglove.SceneUpdate", "A change of what is drawn in space", &members)
+    root(
+        "foxglove.SceneUpdate",
+        "A change of what is drawn in space",
+        &members,
+    )
 }
 
 fn cube() -> [Member<'static>; 3] {
-    [always("pose", pose()), always("size", vector()), always("color", color())]
+    [
+        always("pose", pose()),
+        always("size", vector()),
+        always("color", color()),
+    ]
 }
 
 fn cylinder() -> [Member<'static>; 5] {
@@ -92,11 +122,17 @@ fn line() -> [Member<'static>; 8] {
         always("type", choice(&["LINE_STRIP", "LINE_LOOP", "LINE_LIST"])),
         always("pose", pose()),
         always("thickness", number("metres, or pixels if scale_invariant")),
-        always("scale_invariant", boolean("whether the thickness is in pixels")),
+        always(
+            "scale_invariant",
+            boolean("whether the thickness is in pixels"),
+        ),
         always("points", array(vector())),
         always("color", color()),
         always("colors", array(color())),
-        always("indices", array("{\"type\":\"integer\",\"minimum\":0}".into())),
+        always(
+            "indices",
+            array("{\"type\":\"integer\",\"minimum\":0}".into()),
+        ),
     ]
 }
 
@@ -106,7 +142,10 @@ fn triangles() -> [Member<'static>; 5] {
         always("points", array(vector())),
         always("color", color()),
         always("colors", array(color())),
-        always("indices", array("{\"type\":\"integer\",\"minimum\":0}".into())),
+        always(
+            "indices",
+            array("{\"type\":\"integer\",\"minimum\":0}".into()),
+        ),
     ]
 }
 
@@ -114,7 +153,10 @@ fn text() -> [Member<'static>; 6] {
     [
         always("pose", pose()),
         always("billboard", boolean("whether it faces the camera")),
-        always("font_size", number("height of a line, metres, or pixels if scale_invariant")),
+        always(
+            "font_size",
+            number("height of a line, metres, or pixels if scale_invariant"),
+        ),
         always("scale_invariant", boolean("whether the size is in pixels")),
         always("color", color()),
         always("text", string("what it says")),
@@ -126,28 +168,60 @@ fn time() -> String {
         "\"title\":\"time\",",
         &[
             always("sec", "{\"type\":\"integer\",\"minimum\":0}"),
-            always("nsec", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":999999999}"),
+            always(
+                "nsec",
+                "{\"type\":\"integer\",\"minimum\":0,\"maximum\":999999999}",
+            ),
         ],
     )
 }
 
 fn vector() -> String {
     let axis = || number("metres");
-    object("", &[always("x", axis()), always("y", axis()), always("z", axis())])
+    object(
+        "",
+        &[
+            always("x", axis()),
+            always("y", axis()),
+            always("z", axis()),
+        ],
+    )
 }
 
 fn quaternion() -> String {
     let part = || "{\"type\":\"number\"}";
-    object("", &[always("x", part()), always("y", part()), always("z", part()), always("w", part())])
+    object(
+        "",
+        &[
+            always("x", part()),
+            always("y", part()),
+            always("z", part()),
+            always("w", part()),
+        ],
+    )
 }
 
 fn pose() -> String {
-    object("", &[always("position", vector()), always("orientation", quaternion())])
+    object(
+        "",
+        &[
+            always("position", vector()),
+            always("orientation", quaternion()),
+        ],
+    )
 }
 
 fn color() -> String {
     let part = || "{\"type\":\"number\",\"minimum\":0,\"maximum\":1}";
-    object("", &[always("r", part()), always("g", part()), always("b", part()), always("a", part())])
+    object(
+        "",
+        &[
+            always("r", part()),
+            always("g", part()),
+            always("b", part()),
+            always("a", part()),
+        ],
+    )
 }
 
 /// One of a few numbered names.

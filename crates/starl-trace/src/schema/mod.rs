@@ -25,8 +25,10 @@ fn maybe<'a>(name: &'a str, schema: impl Into<String>) -> Member<'a> {
 
 /// The schema of an object, with the rest of its opening members, e.g. `"title":"x",`, before.
 fn object(opening: &str, members: &[Member<'_>]) -> String {
-    let properties: Vec<String> =
-        members.iter().map(|Member(name, schema, _)| format!("\"{name}\":{schema}")).collect();
+    let properties: Vec<String> = members
+        .iter()
+        .map(|Member(name, schema, _)| format!("\"{name}\":{schema}"))
+        .collect();
     let required: Vec<String> = (members.iter().filter(|member| member.2))
         .map(|Member(name, ..)| format!("\"{name}\""))
         .collect();

@@ -31,7 +31,10 @@ pub(crate) fn name(topic: Topic) -> &'static str {
 pub(crate) fn text(topic: Topic) -> String {
     let mut members = Vec::new();
     if topic != Topic::Summary {
-        members.push(maybe("robot", count("number of the robot; absent where the event is the world's")));
+        members.push(maybe(
+            "robot",
+            count("number of the robot; absent where the event is the world's"),
+        ));
     }
     members.extend(own_members(topic));
     root(name(topic), description(topic), &members)
@@ -50,7 +53,9 @@ fn description(topic: Topic) -> &'static str {
         Topic::Program => "The robot's program reports an event of its own",
         Topic::Primitive => "A primitive was given a command, or reports an outcome",
         Topic::Log => "A line of the program's log",
-        Topic::Mark => "The program draws; a mark replaces the one its robot drew under the same label",
+        Topic::Mark => {
+            "The program draws; a mark replaces the one its robot drew under the same label"
+        }
         Topic::Fault => "A fault set in or was healed",
         Topic::Discovered => "The robot met an obstacle that it did not know",
         Topic::Status => "The program has reached its goal, or cannot go on",
@@ -65,14 +70,23 @@ fn own_members(topic: Topic) -> Vec<Member<'static>> {
             always("x", number("metres")),
             always("y", number("metres")),
             always("z", number("metres above the floor")),
-            always("yaw", number("heading, radians from the x axis, left positive")),
+            always(
+                "yaw",
+                number("heading, radians from the x axis, left positive"),
+            ),
             always("pitch", number("nose-down angle, radians")),
             always("roll", number("right-side-down angle, radians")),
         ],
         Topic::Sent => vec![
             always("sequence", count("counts the robot's datagrams")),
-            maybe("to", count("number of the receiving robot; absent for all in reach")),
-            always("port", count("endpoint on the receiver: 0 the program, else a primitive's")),
+            maybe(
+                "to",
+                count("number of the receiving robot; absent for all in reach"),
+            ),
+            always(
+                "port",
+                count("endpoint on the receiver: 0 the program, else a primitive's"),
+            ),
             always(
                 "payload",
                 "{\"type\":\"string\",\"contentEncoding\":\"base64\",\"description\":\"content\"}",
@@ -82,13 +96,19 @@ fn own_members(topic: Topic) -> Vec<Member<'static>> {
         Topic::Dropped => {
             let reasons = ["loss", "range", "partition", "down", "bandwidth", "size"];
             let mut members = datagram();
-            members.push(maybe("to", count("number of the robot that does not receive it; absent where nobody does")));
+            members.push(maybe(
+                "to",
+                count("number of the robot that does not receive it; absent where nobody does"),
+            ));
             members.push(always("reason", word("why", &reasons)));
             members
         }
         Topic::Collision => vec![
             maybe("with_robot", count("number of the other robot")),
-            maybe("with_obstacle", count("index of the obstacle in starl/world.json")),
+            maybe(
+                "with_obstacle",
+                count("index of the obstacle in starl/world.json"),
+            ),
         ],
         Topic::Action => vec![always("name", string("the action"))],
         Topic::Program => vec![always("name", string("the event")), fields()],
@@ -99,14 +119,23 @@ fn own_members(topic: Topic) -> Vec<Member<'static>> {
             fields(),
         ],
         Topic::Log => vec![
-            always("level", word("how much it matters", &["debug", "info", "warning", "error"])),
+            always(
+                "level",
+                word(
+                    "how much it matters",
+                    &["debug", "info", "warning", "error"],
+                ),
+            ),
             always("text", string("one line")),
         ],
         Topic::Mark => {
             let shapes = ["nothing", "dot", "circle", "line", "text"];
             vec![
                 always("label", string("identifies the mark on its robot")),
-                always("shape", word("what to draw; nothing takes the mark away", &shapes)),
+                always(
+                    "shape",
+                    word("what to draw; nothing takes the mark away", &shapes),
+                ),
                 maybe("points", array(point())),
                 maybe("radius", number("of a circle, metres")),
             ]
@@ -114,7 +143,10 @@ fn own_members(topic: Topic) -> Vec<Member<'static>> {
         Topic::Fault => vec![always("text", string("which fault"))],
         Topic::Discovered => vec![always("obstacle", obstacle())],
         Topic::Status => vec![
-            always("status", word("whether the goal was reached", &["finished", "failed"])),
+            always(
+                "status",
+                word("whether the goal was reached", &["finished", "failed"]),
+            ),
             maybe("reason", string("why the program cannot go on")),
         ],
         Topic::Violation => vec![
@@ -124,12 +156,24 @@ fn own_members(topic: Topic) -> Vec<Member<'static>> {
         Topic::Summary => vec![
             always("outcome", string("how the run ended")),
             always("digest", string("hash of all that happened, hexadecimal")),
-            always("end_ns", count("when it ended, nanoseconds since the start")),
-            always("records", count("how many messages there are on topics under /starl/, this one left out")),
-            always("counts", array(object("", &[
-                always("topic", string("the topic without /starl/")),
-                always("records", count("how many messages it has")),
-            ]))),
+            always(
+                "end_ns",
+                count("when it ended, nanoseconds since the start"),
+            ),
+            always(
+                "records",
+                count("how many messages there are on topics under /starl/, this one left out"),
+            ),
+            always(
+                "counts",
+                array(object(
+                    "",
+                    &[
+                        always("topic", string("the topic without /starl/")),
+                        always("records", count("how many messages it has")),
+                    ],
+                )),
+            ),
         ],
     }
 }
@@ -150,7 +194,10 @@ fn fields() -> Member<'static> {
             maybe("bool", boolean("yes or no")),
             maybe("int", described("integer", "a whole number")),
             maybe("float", number("a number")),
-            maybe("not_finite", word("a number that JSON cannot write", &["nan", "inf", "-inf"])),
+            maybe(
+                "not_finite",
+                word("a number that JSON cannot write", &["nan", "inf", "-inf"]),
+            ),
             maybe("text", string("a text")),
             maybe("time_ns", count("a moment, nanoseconds since the start")),
             maybe("point", point()),
@@ -168,7 +215,10 @@ const ONE: &str = "\"minProperties\":1,\"maxProperties\":1,";
 
 /// A shape in the floor plane, or a box in space: exactly one of these.
 fn base() -> Vec<Member<'static>> {
-    let circle = [always("center", point()), always("radius", number("metres"))];
+    let circle = [
+        always("center", point()),
+        always("radius", number("metres")),
+    ];
     let corners = [always("low", point()), always("high", point())];
     vec![
         maybe("circle", object("", &circle)),
@@ -180,7 +230,10 @@ fn base() -> Vec<Member<'static>> {
 /// An area, and unless it is a box its heights; without them it reaches from the floor to the sky.
 fn obstacle() -> String {
     let mut members = base();
-    let height = [always("low", number("metres")), always("high", number("metres"))];
+    let height = [
+        always("low", number("metres")),
+        always("high", number("metres")),
+    ];
     members.push(maybe("height", object("", &height)));
     object("\"minProperties\":1,\"maxProperties\":2,", &members)
 }

@@ -11,7 +11,11 @@ use starl_core::{
 use starl_trace::{Header, Outcome, RobotEntry, ViewOptions, Writer};
 
 pub fn triangle() -> ConvexPolygon {
-    let corners = [Point::planar(0.1, 0.2), Point::planar(1.5, 0.3), Point::planar(0.7, 1.9)];
+    let corners = [
+        Point::planar(0.1, 0.2),
+        Point::planar(1.5, 0.3),
+        Point::planar(0.7, 1.9),
+    ];
     ConvexPolygon::new(&corners).unwrap()
 }
 
@@ -40,8 +44,15 @@ pub fn header() -> Header {
         seed: u64::MAX,
         scenario: "# \"race\"\n[network]\nloss = 0.2 # größer\n".into(),
         files: [("world.wpt".to_string(), "WAY,1,2,0,A\n".to_string())].into(),
-        robots: vec![robot(0, "create0", "create", false), robot(1, "drone\"1", "drone", true)],
-        way_points: vec![WayPoint { name: "A".into(), position: Point::new(0.1, 2.0, 0.0), group: 3 }],
+        robots: vec![
+            robot(0, "create0", "create", false),
+            robot(1, "drone\"1", "drone", true),
+        ],
+        way_points: vec![WayPoint {
+            name: "A".into(),
+            position: Point::new(0.1, 2.0, 0.0),
+            group: 3,
+        }],
         obstacles: obstacles(),
     }
 }
@@ -54,8 +65,15 @@ pub fn records() -> Vec<Record> {
         .map(|(index, event)| {
             let index = index as u64;
             // Times at both ends of the range.
-            let at = if index < middle { Time(index * 33_333_333) } else { Time(u64::MAX - 99 + index) };
-            let robot = (index % 5 != 4).then_some(RobotId(index as u32 % 2));
+            let at = if index < middle {
+                Time(index * 33_333_333)
+            } else {
+                Time(u64::MAX - 99 + index)
+            };
+            let robot = match event {
+                Event::Sent { .. } => Some(RobotId(0)),
+                _ => (index % 5 != 4).then_some(RobotId(index as u32 % 2)),
+            };
             Record { at, robot, event }
         })
         .collect()
@@ -105,7 +123,10 @@ fn every_event() -> Vec<Event> {
             payload: Payload::from_vec((0..length).map(|byte| byte.wrapping_mul(97)).collect()),
         });
     }
-    events.push(Event::Delivered { from: RobotId(1), sequence: 0 });
+    events.push(Event::Delivered {
+        from: RobotId(0),
+        sequence: u32::MAX,
+    });
     for reason in [
         DropReason::Loss,
         DropReason::Range,
@@ -114,7 +135,12 @@ fn every_event() -> Vec<Event> {
         DropReason::Bandwidth,
         DropReason::Size,
     ] {
-        events.push(Event::Dropped { from: RobotId(0), to: Some(RobotId(1)), sequence: 7, reason });
+        events.push(Event::Dropped {
+            from: RobotId(0),
+            to: Some(RobotId(1)),
+            sequence: 7,
+            reason,
+        });
     }
     events.push(Event::Dropped {
         from: RobotId(0),
@@ -122,11 +148,21 @@ fn every_event() -> Vec<Event> {
         sequence: u32::MAX,
         reason: DropReason::Range,
     });
-    events.push(Event::Collided { with: Hit::Robot(RobotId(1)) });
-    events.push(Event::Collided { with: Hit::Obstacle(4) });
+    events.push(Event::Collided {
+        with: Hit::Robot(RobotId(1)),
+    });
+    events.push(Event::Collided {
+        with: Hit::Obstacle(4),
+    });
     events.push(Event::Action("go \"home\"\\\n\t\u{1}ü🤖\u{7f}".into()));
-    events.push(Event::Program { name: "empty".into(), fields: Fields::new() });
-    events.push(Event::Program { name: "full".into(), fields: every_value() });
+    events.push(Event::Program {
+        name: "empty".into(),
+        fields: Fields::new(),
+    });
+    events.push(Event::Program {
+        name: "full".into(),
+        fields: every_value(),
+    });
     events.push(Event::Primitive {
         primitive: "reach_avoid".into(),
         port: Port::named("reach_avoid"),
@@ -134,24 +170,36 @@ fn every_event() -> Vec<Event> {
         fields: every_value(),
     });
     for level in [Level::Debug, Level::Info, Level::Warning, Level::Error] {
-        events.push(Event::Log { level, text: "a line".into() });
+        events.push(Event::Log {
+            level,
+            text: "a line".into(),
+        });
     }
     let here = Point::new(0.1, 0.2, 0.3);
     for shape in [
         MarkShape::Dot(here),
-        MarkShape::Circle { center: here, radius: 0.5 },
+        MarkShape::Circle {
+            center: here,
+            radius: 0.5,
+        },
         MarkShape::Line(vec![here, Point::ZERO, here]),
         MarkShape::Line(Vec::new()),
         MarkShape::Text(here),
         MarkShape::Nothing,
     ] {
-        events.push(Event::Draw(Mark { label: "target".into(), shape }));
+        events.push(Event::Draw(Mark {
+            label: "target".into(),
+            shape,
+        }));
     }
     events.push(Event::Fault("crash".into()));
     events.extend(obstacles().into_iter().map(Event::Discovered));
     events.push(Event::Finished);
     events.push(Event::Failed("no way".into()));
-    events.push(Event::Violated { property: "no_collision".into(), text: "0 met 1".into() });
+    events.push(Event::Violated {
+        property: "no_collision".into(),
+        text: "0 met 1".into(),
+    });
     events
 }
 
@@ -173,15 +221,36 @@ fn every_value() -> Fields {
         ("robot", RobotId(u32::MAX).into()),
         ("robots", vec![RobotId(0), RobotId(9)].into()),
         ("obstacles", Value::Obstacles(obstacles().into())),
-        ("circle", Area::Circle { center: Point::ZERO, radius: 1.5 }.into()),
+        (
+            "circle",
+            Area::Circle {
+                center: Point::ZERO,
+                radius: 1.5,
+            }
+            .into(),
+        ),
         ("polygon", Area::Polygon(triangle()).into()),
-        ("box", Area::Box { low: Point::ZERO, high: Point::new(1.0, 2.0, 3.0) }.into()),
+        (
+            "box",
+            Area::Box {
+                low: Point::ZERO,
+                high: Point::new(1.0, 2.0, 3.0),
+            }
+            .into(),
+        ),
     ];
-    values.into_iter().map(|(name, value)| (name.into(), value)).collect()
+    values
+        .into_iter()
+        .map(|(name, value)| (name.into(), value))
+        .collect()
 }
 
 pub fn outcome() -> Outcome {
-    Outcome { outcome: "finished".into(), digest: 0x0123_4567_89ab_cdef, end: Time(u64::MAX) }
+    Outcome {
+        outcome: "finished".into(),
+        digest: 0x0123_4567_89ab_cdef,
+        end: Time(u64::MAX),
+    }
 }
 
 /// The small run as a file.
