@@ -1,16 +1,20 @@
 //! What a receiver remembers of one sender, to take each message once and in order if so wished.
 //!
 //! Invariant: a message is handed out at most once, and the memory is bounded whatever arrives: a
-//! message that would need more is not taken, so that its sender tries it again. Nothing is ever
-//! forgotten that could make a duplicate look new.
+//! message that would need more is not taken, so that its sender tries it again. Nothing is forgotten
+//! that could make a duplicate look new, unless its sender has restarted [`LIVES`] times since.
+//!
+//! Incarnations have no order: a clock that starts over with the robot would make one look older than
+//! those before it and silence the robot. So the last few are kept side by side, and a late message of
+//! an earlier one, never taken before, is taken.
 
 use super::packet::Stream;
 use alloc::collections::BTreeMap;
 use smallvec::SmallVec;
 use starl_core::Payload;
 
-/// Earlier incarnations of a sender whose delayed datagrams are told apart from a restart.
-const RETIRED: usize = 4;
+/// The incarnations of a sender that are remembered.
+const LIVES: usize = 4;
 
 /// Messages to hand out or to acknowledge, by number.
 #[derive(Debug, Default, PartialEq)]
@@ -21,48 +25,42 @@ pub(super) struct Taken {
     pub again: bool,
 }
 
-/// What is known of one sender.
+/// What is known of one sender: its incarnations, that of which we heard last at the end.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Inbox(SmallVec<[Life; 1]>);
+
+/// What came from one incarnation.
 #[derive(Clone, Debug)]
-pub(super) struct Inbox {
+struct Life {
     incarnation: u32,
-    retired: SmallVec<[u32; RETIRED]>,
     multicast: Sequence,
     direct: Sequence,
 }
 
 impl Inbox {
-    /// Nothing has come from this incarnation yet.
-    pub fn new(incarnation: u32) -> Inbox {
-        let sequence = Sequence::default();
-        Inbox {
-            incarnation,
-            retired: SmallVec::new(),
-            multicast: sequence.clone(),
-            direct: sequence,
+    /// The messages of a stream of one incarnation.
+    pub fn sequence(&mut self, incarnation: u32, stream: Stream) -> &mut Sequence {
+        let lives = &mut self.0;
+        let life = match lives
+            .iter()
+            .position(|life| life.incarnation == incarnation)
+        {
+            Some(at) => lives.remove(at),
+            None => Life {
+                incarnation,
+                multicast: Sequence::default(),
+                direct: Sequence::default(),
+            },
+        };
+        if lives.len() == LIVES {
+            lives.remove(0);
         }
-    }
-
-    /// The messages of a stream of the sender's incarnation, which may be a new one; none if it is an
-    /// earlier one, whose messages are too late.
-    pub fn sequence(&mut self, incarnation: u32, stream: Stream) -> Option<&mut Sequence> {
-        if self.retired.contains(&incarnation) {
-            return None;
+        lives.push(life);
+        let last = lives.len() - 1;
+        match stream {
+            Stream::Multicast => &mut lives[last].multicast,
+            Stream::Direct => &mut lives[last].direct,
         }
-        if incarnation != self.incarnation {
-            let mut retired = core::mem::take(&mut self.retired);
-            if retired.len() == RETIRED {
-                retired.remove(0);
-            }
-            retired.push(self.incarnation);
-            *self = Inbox {
-                retired,
-                ..Inbox::new(incarnation)
-            };
-        }
-        Some(match stream {
-            Stream::Multicast => &mut self.multicast,
-            Stream::Direct => &mut self.direct,
-        })
     }
 }
 

@@ -175,13 +175,8 @@ impl Reliable {
             Some(oldest) if oldest > 0 && is_peer(robot, from) => oldest,
             _ => return Notices::new(), // no message of ours looks like this
         };
-        let inbox = self
-            .inboxes
-            .entry(from)
-            .or_insert_with(|| Inbox::new(incarnation));
-        let Some(sequence) = inbox.sequence(incarnation, stream) else {
-            return Notices::new();
-        };
+        let inbox = self.inboxes.entry(from).or_default();
+        let sequence = inbox.sequence(incarnation, stream);
         let most_gaps = self.options.most_gaps;
         let taken = if self.options.first_in_first_out {
             sequence.take_in_order(number, oldest, content, most_gaps)
