@@ -15,8 +15,6 @@ use starl_core::{Point, math};
 pub(super) struct Border {
     /// Unit vector in the plane, from the robot towards the neighbour.
     pub normal: Point,
-    /// Metres the robot's centre may move that way; negative if it is too near already.
-    pub room: f64,
     /// Metres per second the robot may have that way; negative if it must move away.
     pub speed: f64,
     /// Place of the neighbour in the list handed in.
@@ -108,24 +106,14 @@ impl Cell {
         Some(normal * speed + along * at)
     }
 
-    /// How far the robot may go in a direction of length one before it meets a border, metres; not
-    /// negative, infinite if nothing is that way.
-    pub fn reach(&self, direction: Point) -> f64 {
-        self.least_along(direction, |border| border.room)
-    }
-
     /// How fast the robot may go in a direction of length one, metres per second; not negative,
     /// infinite if nothing is that way.
     pub fn speed(&self, direction: Point) -> f64 {
-        self.least_along(direction, |border| border.speed)
-    }
-
-    fn least_along(&self, direction: Point, bound: impl Fn(&Border) -> f64) -> f64 {
         let mut least = f64::INFINITY;
         for border in &self.borders {
             let slope = direction.dot(border.normal);
             if slope > PARALLEL {
-                least = smaller(least, bound(border) / slope);
+                least = smaller(least, border.speed / slope);
             }
         }
         larger(least, 0.0)
@@ -149,4 +137,44 @@ pub(super) fn smaller(a: f64, b: f64) -> f64 {
 /// The larger number.
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
+}
+
+/// The shortest displacement in the plane from the segment between the origin and `tip` to the one
+/// between `start` and `start + way`; zero where they cross.
+pub(super) fn between_segments(tip: Point, start: Point, way: Point) -> Point {
+    let turn = tip.cross_planar(way);
+    if turn != 0.0 {
+        // Where the lines cross, as parts of both segments.
+        let (here, there) = (start.cross_planar(way) / turn, start.cross_planar(tip) / turn);
+        if (0.0..=1.0).contains(&here) && (0.0..=1.0).contains(&there) {
+            return Point::ZERO;
+        }
+    }
+    let end = start + way;
+    let candidates = [
+        start - on_segment(start, Point::ZERO, tip),
+        end - on_segment(end, Point::ZERO, tip),
+        on_segment(Point::ZERO, start, way),
+        on_segment(tip, start, way) - tip,
+    ];
+    let mut best = candidates[0];
+    for &other in &candidates[1..] {
+        if other.length_squared() < best.length_squared() {
+            best = other;
+        }
+    }
+    best
+}
+
+/// The point of the segment from `start` to `start + way` nearest to `p`.
+fn on_segment(p: Point, start: Point, way: Point) -> Point {
+    let squared = way.length_squared();
+    let along = (p - start).dot(way);
+    if along <= 0.0 || squared <= 0.0 {
+        start
+    } else if along >= squared {
+        start + way
+    } else {
+        start + way * (along / squared)
+    }
 }

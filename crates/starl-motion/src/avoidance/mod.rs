@@ -16,6 +16,7 @@
 mod cell;
 mod height;
 mod options;
+mod passing;
 mod yielding;
 
 pub use options::Options;
@@ -23,15 +24,29 @@ pub use options::Options;
 use crate::Limits;
 use crate::pilot::Neighbour;
 use crate::tracking::Goal;
-use cell::{Border, Cell, larger, smaller};
+use cell::{Border, Cell, between_segments, larger, smaller};
 use starl_core::motion::{Body, Estimate};
-use starl_core::{Obstacle, Point, Random, Time};
+use starl_core::{Obstacle, Point, Random, Time, math};
+use passing::Passing;
 use yielding::Yielding;
 
 /// Estimates that a robot waits for until it may have used up its room: the stopping point closes in
 /// on a border by this fraction of the room a period, or less. Anything above Euler's number keeps
 /// two robots that see each other one period late from overshooting.
 const PERIODS_AHEAD: f64 = 3.0;
+
+/// Where a robot does not go straight to its goal it is given a point so many seconds ahead: far
+/// enough that it need not slow down for it, near enough that a robot on wheels steers towards it.
+const LOOK_AHEAD: f64 = 1.5;
+
+/// That point is at least this far away, metres, so that trackers do not take it for reached.
+const LEAST_STEP: f64 = 0.2;
+
+/// A robot on wheels that heads for a border crawls at this part of its cruise speed while it turns.
+const CRAWL: f64 = 0.02;
+
+/// Slower motion says nothing of how a robot moves, metres per second.
+const SIDLING_SPEED: f64 = 0.02;
 
 /// Room kept to obstacles while a robot is off its planned path, metres.
 const OBSTACLE_MARGIN: f64 = 0.02;
@@ -42,6 +57,8 @@ pub struct Avoidance {
     options: Options,
     last: Option<Time>,
     period: f64,
+    /// Whether it has been seen to move sideways: then its heading says nothing of where it goes.
+    sidles: bool,
     yielding: Yielding,
 }
 
@@ -53,6 +70,7 @@ impl Avoidance {
             options,
             last: None,
             period,
+            sidles: false,
             yielding: Yielding::default(),
         }
     }
@@ -63,7 +81,9 @@ impl Avoidance {
         let room = Pace::new(limits, self.period).room_needed + self.options.margin;
         // A neighbour that comes as fast is known a period late.
         let late = limits.speed * self.period;
-        body.radius + self.options.largest_radius + 2.0 * room + late
+        let braking = 2.0 * room + late;
+        let passing = limits.cruise_speed * passing::AHEAD + 2.0 * self.options.margin;
+        body.radius + self.options.largest_radius + larger(braking, passing)
     }
 
     /// The goal to track until the next estimate: a point of the robot's own cell and a limit of
@@ -84,6 +104,7 @@ impl Avoidance {
         random: &mut Random,
     ) -> Goal {
         let elapsed = self.note_time(estimate.at);
+        self.note_motion(estimate);
         let pace = Pace::new(limits, self.period);
         let mut cell = self.cell(body, &pace, estimate, neighbours);
         let height = self.height(body, &pace, estimate, goal.target.z, neighbours);
@@ -92,21 +113,31 @@ impl Avoidance {
             .yielding
             .destination(position, goal.target, estimate.at);
         let on_course = destination == goal.target;
-        if cell.is_empty() && on_course {
+        let way = (destination - position).at_height(0.0);
+        let distance = way.planar_length();
+        let wish = pace.wish(way, distance, goal.speed_limit);
+        let passing = Passing {
+            body,
+            position,
+            destination,
+            neighbours,
+            gap: 2.0 * self.options.margin,
+        };
+        let in_the_way = passing.in_the_way(wish);
+        if cell.is_empty() && on_course && in_the_way.is_none() {
             self.yielding.unhindered();
             return Goal {
                 target: goal.target.at_height(height),
                 ..*goal
             };
         }
-
-        let way = (destination - position).at_height(0.0);
-        let distance = way.planar_length();
-        let wish = pace.wish(way, distance, goal.speed_limit);
         let mut velocity = cell.velocity(wish);
-        if velocity != wish || !on_course {
+        if velocity != wish || !on_course || in_the_way.is_some() {
             add_obstacles(&mut cell, &pace, body, estimate, obstacles);
             velocity = cell.velocity(wish);
+        }
+        if let Some(in_the_way) = in_the_way {
+            velocity = passing::velocity(&cell, &in_the_way, wish, velocity);
         }
         let hindered = velocity != wish && on_course;
         let scene = yielding::Scene {
@@ -126,21 +157,20 @@ impl Avoidance {
         );
 
         let ahead = velocity.normalized().unwrap_or(Point::ZERO);
-        if velocity == wish && on_course && cell.reach(ahead) >= distance {
-            let speed_limit = smaller(goal.speed_limit, speed_limit(body, estimate, &cell, ahead));
+        if velocity == wish && on_course {
+            let speed_limit = smaller(goal.speed_limit, self.speed_limit(body, &pace, estimate, &cell, ahead));
             return Goal {
                 target: goal.target.at_height(height),
                 next: goal.next,
                 speed_limit,
             };
         }
-        let step = ahead * smaller(cell.reach(ahead), larger(distance, body.radius));
         let speed = smaller(
             velocity.planar_length(),
-            speed_limit(body, estimate, &cell, ahead),
+            self.speed_limit(body, &pace, estimate, &cell, ahead),
         );
         Goal {
-            target: (position + step).at_height(height),
+            target: (position + ahead * larger(speed * LOOK_AHEAD, LEAST_STEP)).at_height(height),
             next: None,
             speed_limit: smaller(goal.speed_limit, speed),
         }
@@ -165,31 +195,68 @@ impl Avoidance {
     ) -> Cell {
         let mut cell = Cell::default();
         let position = estimate.pose.position;
+        let own_way = estimate.twist.linear.at_height(0.0) * pace.braking_time;
         for (index, neighbour) in neighbours.iter().enumerate() {
             let offset = (neighbour.position - position).at_height(0.0);
             let distance = offset.planar_length();
-            let gap = distance - body.radius - neighbour.radius;
-            // Two robots at the very same place: any direction will do, if they take opposite ones.
-            let normal = if distance > 0.0 {
-                offset / distance
-            } else {
-                Point::planar(1.0, 0.0)
-            };
+            let radii = body.radius + neighbour.radius;
+            if distance - radii > 2.0 * (pace.room_needed + self.options.margin) + self.late(neighbour) || self.is_clear_in_height(body, pace, estimate, neighbour) {
+                continue;
+            }
             // What is known of the neighbour may be a period old.
-            let approach = larger(-neighbour.velocity.dot(normal), 0.0) * self.period;
-            let room = 0.5 * (gap - approach) - self.options.margin;
-            if room < pace.room_needed && !self.is_clear_in_height(body, pace, estimate, neighbour)
-            {
-                let speed = pace.speed_towards(normal, room, estimate);
-                cell.push(Border {
-                    normal,
-                    room,
-                    speed,
-                    neighbour: index as u32,
-                });
+            let its_way = neighbour.velocity.at_height(0.0) * (pace.braking_time + self.period);
+            let apart = between_segments(own_way, offset, its_way);
+            let gap = apart.planar_length();
+            let normal = match (apart.normalized(), offset.normalized()) {
+                (Some(normal), _) | (None, Some(normal)) => normal,
+                // At the very same place: any direction will do.
+                (None, None) => Point::planar(1.0, 0.0),
+            };
+            let room = 0.5 * (gap - radii) - self.options.margin;
+            let speed = room / pace.horizon;
+            if speed < pace.cruise_speed {
+                cell.push(Border { normal, speed, neighbour: index as u32 });
             }
         }
         cell
+    }
+
+    /// The greatest speed in a direction, metres per second, at which the stopping point is still in
+    /// the cell when the next estimates have come.
+    fn speed_limit(
+        &self,
+        body: &Body,
+        pace: &Pace,
+        estimate: &Estimate,
+        cell: &Cell,
+        ahead: Point,
+    ) -> f64 {
+        let speed = cell.speed(ahead);
+        if body.flies() || self.sidles {
+            return speed;
+        }
+        // On wheels: until it has turned, the robot goes where it is heading now.
+        let (sine, cosine) = math::sincos(estimate.pose.yaw);
+        let backwards = cosine * ahead.x + sine * ahead.y < 0.0;
+        let sign = if backwards { -1.0 } else { 1.0 };
+        let course = Point::planar(cosine, sine) * sign;
+        let between = (course + ahead).normalized().unwrap_or(course);
+        let speed = smaller(speed, smaller(cell.speed(course), cell.speed(between)));
+        larger(speed, CRAWL * pace.cruise_speed)
+    }
+
+    /// Takes note of a ground robot that moves otherwise than along its heading.
+    fn note_motion(&mut self, estimate: &Estimate) {
+        let velocity = estimate.twist.linear.at_height(0.0);
+        let (sine, cosine) = math::sincos(estimate.pose.yaw);
+        let across = velocity.cross_planar(Point::planar(cosine, sine)).abs();
+        let speed = velocity.planar_length();
+        self.sidles |= speed > SIDLING_SPEED && across > 0.7 * speed;
+    }
+
+    /// Metres a neighbour may have come nearer since it was seen.
+    fn late(&self, neighbour: &Neighbour) -> f64 {
+        neighbour.velocity.planar_length() * self.period
     }
 }
 
@@ -216,7 +283,7 @@ impl Pace {
         } else {
             limits.stopping_distance / cruise_speed
         };
-        let horizon = PERIODS_AHEAD * period;
+        let horizon = PERIODS_AHEAD * period + 0.45 * braking_time;
         let room_needed = cruise_speed * (braking_time + horizon);
         Pace {
             cruise_speed,
@@ -243,21 +310,6 @@ impl Pace {
     }
 }
 
-/// The greatest speed in a direction, metres per second, at which the stopping point is still in the
-/// cell when the next estimates have come.
-fn speed_limit(body: &Body, estimate: &Estimate, cell: &Cell, ahead: Point) -> f64 {
-    let speed = cell.speed(ahead);
-    let course = estimate.twist.linear.at_height(0.0).normalized();
-    match course {
-        // Wheels: until it has turned, the robot goes where it is heading now.
-        Some(course) if !body.flies() => {
-            let between = (course + ahead).normalized().unwrap_or(course);
-            smaller(speed, smaller(cell.speed(course), cell.speed(between)))
-        }
-        _ => speed,
-    }
-}
-
 /// Adds the borders of nearby obstacles, which no robot shares: they keep a robot that is off its
 /// planned path from sliding into a wall.
 fn add_obstacles(
@@ -281,9 +333,7 @@ fn add_obstacles(
         let towards = (obstacle.nearest_point(position) - position).at_height(0.0);
         if let Some(normal) = towards.normalized() {
             let speed = pace.speed_towards(normal, room, estimate);
-            cell.push(Border {
-                normal,
-                room,
+            cell.push(Border { normal,
                 speed,
                 neighbour: u32::MAX,
             });

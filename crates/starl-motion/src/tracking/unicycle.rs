@@ -48,6 +48,8 @@ const TURNING: u32 = 1;
 const PART_PER_ESTIMATE: f64 = 0.5;
 /// Part of the distance left that is driven per second, at most.
 const PART_PER_SECOND: f64 = 2.5;
+/// Below this part of the slow speed the robot crawls: it may hardly move.
+const CRAWL: f64 = 0.25;
 /// Within this distance the robot backs up to a point behind it instead of turning round, metres.
 const BACK_UP: f64 = 0.15;
 
@@ -77,7 +79,8 @@ impl Gains {
             ahead
         };
 
-        if self.turns(tracking, bearing, distance) {
+        let crawls = goal.speed_limit < CRAWL * self.slow_speed;
+        if self.turns(tracking, bearing, distance, crawls) {
             return Drive::Turn {
                 rate: self.turn_rate(bearing, period),
             };
@@ -111,9 +114,18 @@ impl Gains {
     }
 
     /// Whether to turn on the spot, with hysteresis.
-    fn turns(&self, tracking: &mut Tracking, bearing: f64, distance: f64) -> bool {
-        // So near, an arc ends within tolerance although the angle is large.
-        let start = if distance < BACK_UP {
+    fn turns(
+        &self,
+        tracking: &mut Tracking,
+        bearing: f64,
+        distance: f64,
+        crawls: bool,
+    ) -> bool {
+        let start = if crawls {
+            // No arc that slow would ever get it round.
+            radians(12.0)
+        } else if distance < BACK_UP {
+            // So near, an arc ends within tolerance although the angle is large.
             radians(55.0)
         } else {
             radians(30.0)

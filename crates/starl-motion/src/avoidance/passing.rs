@@ -1,0 +1,86 @@
+//! Passing a neighbour that is in the way.
+//!
+//! The velocity nearest to the wish slides along the borders of the cell, but late, and barely if a
+//! neighbour is straight ahead. So a robot that is about to run into a neighbour heads for the tangent
+//! to it, on the right, or on the left if that is much shorter or the right is taken. Two robots that
+//! meet head-on both keep to the right, so they pass; it is a rule of the road, not needed for
+//! safety. A neighbour that stands where the robot wants to go cannot be passed: there the robot
+//! waits, and yields in the end.
+
+use super::cell::{Cell, smaller, turned};
+use crate::pilot::Neighbour;
+use starl_core::motion::Body;
+use starl_core::{Point, math};
+
+/// A robot begins to pass this long before it would be next to the neighbour, seconds.
+pub(super) const AHEAD: f64 = 2.0;
+/// The left is taken if the neighbour's centre is to the right of the way by this part of the room
+/// needed.
+const LEFT: f64 = 0.4;
+/// Passing on a side is worth while if it leaves this part of the speed.
+const WORTH: f64 = 0.4;
+
+/// What is passed, and by whom.
+pub(super) struct Passing<'a> {
+    pub body: &'a Body,
+    pub position: Point,
+    pub destination: Point,
+    pub neighbours: &'a [Neighbour],
+    /// Gap to keep between the bodies, metres.
+    pub gap: f64,
+}
+
+/// A neighbour that is in the way.
+pub(super) struct InTheWay {
+    /// Its place relative to the robot, metres.
+    offset: Point,
+    /// Distance between the centres to pass it at, metres.
+    room: f64,
+}
+
+/// The velocity to pass with, in place of `velocity`, which is the one nearest to the wish.
+pub(super) fn velocity(cell: &Cell, neighbour: &InTheWay, wish: Point, velocity: Point) -> Point {
+    let InTheWay { offset, room } = *neighbour;
+    let (speed, distance) = (wish.planar_length(), offset.planar_length());
+    let angle = math::asin(smaller(room / distance, 1.0));
+    let towards = offset * (speed / distance);
+    let to_the_right = wish.cross_planar(offset) < -LEFT * room * speed;
+    let sides = if to_the_right { [angle, -angle] } else { [-angle, angle] };
+    for side in sides {
+        let way = turned(towards, side);
+        let passing = cell.velocity(way);
+        if passing.dot(way) >= WORTH * speed * speed {
+            return passing;
+        }
+    }
+    velocity
+}
+
+impl Passing<'_> {
+    /// The neighbour soonest run into on the straight way.
+    pub fn in_the_way(&self, wish: Point) -> Option<InTheWay> {
+        let speed = wish.planar_length();
+        if speed <= 0.0 {
+            return None;
+        }
+        let mut soonest = speed * AHEAD;
+        let mut found = None;
+        let way = self.destination.planar_distance(self.position);
+        for neighbour in self.neighbours {
+            let offset = (neighbour.position - self.position).at_height(0.0);
+            let room = self.body.radius + neighbour.radius + self.gap;
+            let along = wish.dot(offset) / speed;
+            let beside = wish.cross_planar(offset).abs() / speed;
+            let closing = speed - neighbour.velocity.dot(wish) / speed;
+            let stands_there = neighbour.position.planar_distance(self.destination) < room;
+            if along <= 0.0 || along >= way || beside >= room || closing <= 0.3 * speed || stands_there {
+                continue;
+            }
+            let until = offset.planar_length() - room;
+            if until < soonest {
+                (soonest, found) = (until, Some(InTheWay { offset, room }));
+            }
+        }
+        found
+    }
+}
