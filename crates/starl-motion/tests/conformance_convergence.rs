@@ -68,12 +68,22 @@ fn errors_shrink_with_the_step() {
 #[test]
 fn one_long_step_is_as_good_as_many_short_ones() {
     for model in every_model_and_variants() {
+        // Without inertia every path is an arc and exact; a quadcopter notices only at the end of
+        // a step that it has taken off.
+        let most = match (
+            model.body().flies(),
+            model.limits().acceleration.is_finite(),
+        ) {
+            (true, _) => 5e-3,
+            (false, true) => 1e-6,
+            (false, false) => 1e-12,
+        };
         for seed in 0..40 {
             let (start, commands) = sequence(&*model, &mut Random::keyed(seed, &[4]));
             let long = integrate(&*model, &start, &commands, HOLD);
             let short = integrate(&*model, &start, &commands, Duration::from_millis(1));
             let error = difference(&long, &short);
-            assert!(error < 5e-3, "{}: seed {seed}: {error} m", model.name());
+            assert!(error < most, "{}: seed {seed}: {error} m", model.name());
         }
     }
 }
