@@ -1,1 +1,49 @@
-fn main() {}
+//! The one command of StarL: runs, replays, lists and measures. See `docs/reference/command.md`.
+//!
+//! Exit status: 0 the goal was reached and no property violated (or, for other commands, all is as it
+//! should be); 1 it was not; 2 bad input or an output that cannot be written, with one message on the
+//! error stream.
+
+mod args;
+mod bench;
+mod console;
+mod examples;
+mod failure;
+mod json;
+mod list;
+mod output;
+mod parameters;
+mod paths;
+mod plot;
+mod programs;
+mod progress;
+mod recording;
+mod replay;
+mod report;
+mod run;
+mod summary;
+mod target;
+mod threads;
+
+use args::{Arguments, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    // Bad arguments end the process here, with exit status 2.
+    let arguments = Arguments::parse();
+    let result = match &arguments.command {
+        Command::Run(arguments) => run::run(arguments),
+        Command::Replay(arguments) => replay::replay(arguments),
+        Command::List(arguments) => list::list(arguments),
+        Command::Bench(arguments) => bench::bench(arguments),
+    };
+    match result {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(1),
+        Err(failure) => {
+            console::error(&failure.0);
+            ExitCode::from(2)
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! The command line.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Distributed robot applications: run, replay and measure them.
+#[derive(Parser, Debug)]
+#[command(name = "starl", version, arg_required_else_help = true)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// Run an example or a scenario file in the simulator
+    Run(RunArguments),
+    /// Run again what a trace recorded, and compare record by record
+    Replay(ReplayArguments),
+    /// Show the examples, programs, robot models and planners
+    List(ListArguments),
+    /// Measure the simulator's speed and memory
+    Bench(BenchArguments),
+}
+
+/// Arguments of `starl run`.
+#[derive(Args, Debug)]
+pub struct RunArguments {
+    /// An example's name (see `starl list`) or a scenario file
+    pub target: String,
+    /// Another fleet: models with how many of each, e.g. create=2,drone=2
+    #[arg(long, value_name = "MODEL=N,...")]
+    pub robots: Option<String>,
+    /// Decides every random draw [default: the scenario's]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub seed: Option<String>,
+    /// Simulated time at which the run ends at the latest, e.g. 120s [default: the scenario's]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub duration: Option<String>,
+    /// Set a field of the scenario, e.g. network.loss=0.2; may be repeated
+    #[arg(long, value_name = "FIELD=VALUE")]
+    pub set: Vec<String>,
+    /// A file of faults ([[fault]] and [fault_rates]) to add to the scenario's
+    #[arg(long, value_name = "FILE")]
+    pub faults: Option<PathBuf>,
+    /// Threads to step robots on; the result is the same for any number [default: all cores for
+    /// more than 2,000 robots, else 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Write everything that happens to this MCAP file
+    #[arg(long, value_name = "PATH")]
+    pub trace: Option<PathBuf>,
+    /// Draw the robots' paths to this .svg or .png file
+    #[arg(long, value_name = "PATH")]
+    pub plot: Option<PathBuf>,
+    /// Print the summary as one JSON object
+    #[arg(long)]
+    pub json: bool,
+    /// Print nothing but errors and violations
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `starl replay`.
+#[derive(Args, Debug)]
+pub struct ReplayArguments {
+    /// A file that `starl run --trace` wrote
+    pub trace: PathBuf,
+    /// Threads to step robots on [default: as for `starl run`]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+}
+
+/// Arguments of `starl list`.
+#[derive(Args, Debug)]
+pub struct ListArguments {
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `starl bench`.
+#[derive(Args, Debug)]
+pub struct BenchArguments {
+    /// What to measure.
+    #[command(subcommand)]
+    pub workload: Workload,
+}
+
+/// Workloads to measure.
+#[derive(Subcommand, Debug)]
+pub enum Workload {
+    /// Ground robots with 24 range rays each spread out and avoid each other
+    Swarm(SwarmArguments),
+    /// Ground robots broadcast at every tick to about eight neighbours
+    Radio(RadioArguments),
+}
+
+/// What all workloads have in common.
+#[derive(Args, Debug)]
+pub struct LoadArguments {
+    /// Simulated seconds
+    #[arg(long, value_name = "S", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub seconds: u32,
+    /// Threads to step robots on
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: u16,
+    /// Decides every random draw
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u32,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `starl bench swarm`.
+#[derive(Args, Debug)]
+pub struct SwarmArguments {
+    /// How many robots
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    pub robots: u32,
+    /// What all workloads have in common.
+    #[command(flatten)]
+    pub load: LoadArguments,
+}
+
+/// Arguments of `starl bench radio`.
+#[derive(Args, Debug)]
+pub struct RadioArguments {
+    /// How many robots
+    #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    pub robots: u32,
+    /// Bodies block the radio
+    #[arg(long)]
+    pub occluded: bool,
+    /// What all workloads have in common.
+    #[command(flatten)]
+    pub load: LoadArguments,
+}

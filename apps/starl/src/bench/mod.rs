@@ -1,0 +1,28 @@
+//! `starl bench`: measures the simulator's speed and memory.
+//!
+//! A workload is an ordinary scenario with an ordinary program, read by the same reader and run by
+//! the same engine as any other; nothing here has a path of its own.
+
+pub mod diffusion;
+mod measure;
+pub mod radio;
+mod workload;
+
+use crate::args::{BenchArguments, Workload};
+use crate::failure::Failure;
+use crate::{console, json};
+
+/// Measures a workload and tells the figures.
+pub fn bench(arguments: &BenchArguments) -> Result<bool, Failure> {
+    let (load, workload) = match &arguments.workload {
+        Workload::Swarm(swarm) => (&swarm.load, workload::swarm(swarm)),
+        Workload::Radio(radio) => (&radio.load, workload::radio(radio)),
+    };
+    let figures = measure::measure(&workload, usize::from(load.threads))?;
+    if load.json {
+        json::print(&figures);
+    } else {
+        console::print(&measure::text(&figures));
+    }
+    Ok(true)
+}

@@ -1,0 +1,97 @@
+//! The workloads as scenarios: a square arena with 1.6 square metres a robot and walls around, small
+//! ground robots strewn over it, ten ticks a second.
+
+use crate::args::{LoadArguments, RadioArguments, SwarmArguments};
+
+/// A scenario to measure.
+pub struct Workload {
+    /// What it is called.
+    pub name: &'static str,
+    /// The scenario file.
+    pub scenario: String,
+}
+
+/// Floor for each robot, square metres.
+const FLOOR: f64 = 1.6;
+
+/// Robots with 24 rays each that turn away from each other and from the walls.
+pub fn swarm(arguments: &SwarmArguments) -> Workload {
+    let sensors = "sensors = { proximity = { rays = 24, range = \"100mm\" } }";
+    let scenario = scenario("diffusion", arguments.robots, &arguments.load, sensors, "");
+    Workload {
+        name: "swarm",
+        scenario,
+    }
+}
+
+/// Robots that broadcast to all within 2.26 m, some eight others, at every tick.
+pub fn radio(arguments: &RadioArguments) -> Workload {
+    let RadioArguments {
+        robots,
+        occluded,
+        load,
+    } = arguments;
+    let network = format!("range = \"2.26m\"\nline_of_sight = {occluded}\n");
+    let scenario = scenario("radio", *robots, load, "", &network);
+    Workload {
+        name: if *occluded {
+            "radio, occluded"
+        } else {
+            "radio"
+        },
+        scenario,
+    }
+}
+
+/// Nothing is random but where the robots start, and messages arrive at the next tick, as in the
+/// systems that this is compared with.
+fn scenario(
+    program: &str,
+    robots: u32,
+    load: &LoadArguments,
+    group: &str,
+    network: &str,
+) -> String {
+    let side = (f64::from(robots) * FLOOR).sqrt();
+    let LoadArguments { seconds, seed, .. } = load;
+    format!(
+        r#"program = "{program}"
+seed = {seed}
+duration = "{seconds}s"
+goal = "duration"
+
+[world.bounds]
+low = [0, 0]
+high = [{side}, {side}]
+
+[[robots]]
+model = "differential"
+count = {robots}
+spacing = "0m"
+control_period = "100ms"
+{group}
+
+[physics]
+step = "100ms"
+
+[positioning]
+period = "100ms"
+
+[motion]
+avoidance = false
+
+[network]
+delay = "0s"
+distribution = "constant"
+{network}
+[properties]
+no_collision = false
+reach_avoid = false
+broadcast = false
+geocast = false
+
+[trace]
+pose_period = "100ms"
+"#
+    )
+}

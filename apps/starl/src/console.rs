@@ -1,0 +1,59 @@
+//! Writes to the terminal, or to wherever the output goes. A reader that has gone away (`| head`) is
+//! no error.
+
+use std::io::{self, Write};
+
+/// Writes text to standard output.
+pub fn print(text: &str) {
+    let mut output = io::stdout().lock();
+    // Nothing can be told to a reader who is gone.
+    let _ = output
+        .write_all(text.as_bytes())
+        .and_then(|()| output.flush());
+}
+
+/// Writes a message to the error stream.
+pub fn error(message: &str) {
+    let _ = writeln!(io::stderr().lock(), "error: {message}");
+}
+
+/// A whole number with its digits in groups of three: `1,234,567`.
+pub fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// Three significant digits or more, in groups of three where there are many.
+pub fn rounded(number: f64) -> String {
+    match number {
+        n if !n.is_finite() => n.to_string(),
+        n if n.abs() >= 100.0 => grouped(n.abs().round() as u64),
+        n if n.abs() >= 10.0 => format!("{n:.1}"),
+        n if n.abs() >= 0.1 || n == 0.0 => format!("{n:.2}"),
+        n => format!("{n:.4}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_grouped_by_three() {
+        let texts: Vec<String> = [0, 999, 1000, 1_234_567].map(grouped).to_vec();
+        assert_eq!(texts, ["0", "999", "1,000", "1,234,567"]);
+    }
+
+    #[test]
+    fn small_and_large_numbers_stay_readable() {
+        let texts: Vec<String> = [0.0, 0.0123, 0.5, 12.34, 1234.5].map(rounded).to_vec();
+        assert_eq!(texts, ["0.00", "0.0123", "0.50", "12.3", "1,235"]);
+    }
+}

@@ -1,0 +1,27 @@
+//! Why a command could not be carried out: exit status 2.
+
+use std::fmt;
+use std::path::Path;
+
+/// One message for the person who gave the command: where, what, and how to mend it.
+#[derive(Debug)]
+pub struct Failure(pub String);
+
+impl Failure {
+    /// A failure to do something with a file.
+    pub fn file(path: &Path, what: impl fmt::Display) -> Failure {
+        Failure(format!("{}: {what}", path.display()))
+    }
+}
+
+impl From<starl_sim::read::Problems> for Failure {
+    fn from(problems: starl_sim::read::Problems) -> Failure {
+        Failure(problems.to_string())
+    }
+}
+
+impl From<starl_sim::read::Problem> for Failure {
+    fn from(problem: starl_sim::read::Problem) -> Failure {
+        Failure(problem.to_string())
+    }
+}

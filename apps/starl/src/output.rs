@@ -1,0 +1,113 @@
+//! Files that are written while a run goes on.
+//!
+//! Invariant: under the name that was asked for there is a whole file or what was there before, never
+//! half a file: what is written goes to a temporary file beside it, which takes the name at the end.
+//! That the place can be written to is found out before the run starts.
+
+use crate::failure::Failure;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// A file in the making. It is thrown away unless [`Output::commit`] is called.
+#[derive(Debug)]
+pub struct Output {
+    path: PathBuf,
+    /// None where there is nothing to rename, such as a pipe or a device.
+    temporary: Option<PathBuf>,
+}
+
+impl Output {
+    /// Opens a file that is to be called `path`.
+    pub fn create(path: &Path) -> Result<(Output, File), Failure> {
+        let cannot = |error: &io::Error| {
+            Failure::file(
+                path,
+                format!("cannot be written: {}; choose another path", reason(error)),
+            )
+        };
+        let special = match fs::metadata(path) {
+            Ok(found) if found.is_dir() => {
+                return Err(Failure::file(path, "is a folder; name a file in it"));
+            }
+            Ok(found) if found.permissions().readonly() => {
+                return Err(cannot(&io::ErrorKind::PermissionDenied.into()));
+            }
+            Ok(found) => !found.is_file(),
+            Err(_) => false,
+        };
+        if special {
+            let file = File::options()
+                .write(true)
+                .open(path)
+                .map_err(|error| cannot(&error))?;
+            return Ok((
+                Output {
+                    path: path.to_path_buf(),
+                    temporary: None,
+                },
+                file,
+            ));
+        }
+        let Some(name) = path.file_name() else {
+            return Err(Failure::file(path, "is not the name of a file; name one"));
+        };
+        let mut name = name.to_os_string();
+        name.push(format!(".partial-{}", std::process::id()));
+        let temporary = path.with_file_name(name);
+        let file = File::create(&temporary).map_err(|error| cannot(&error))?;
+        Ok((
+            Output {
+                path: path.to_path_buf(),
+                temporary: Some(temporary),
+            },
+            file,
+        ))
+    }
+
+    /// Where the file will be.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Gives the finished file its name.
+    pub fn commit(mut self) -> Result<(), Failure> {
+        let Some(temporary) = self.temporary.take() else {
+            return Ok(());
+        };
+        fs::rename(&temporary, &self.path).map_err(|error| {
+            let _ = fs::remove_file(&temporary);
+            Failure::file(&self.path, format!("cannot be written: {}", reason(&error)))
+        })
+    }
+
+    /// Writes all of a file at once and gives it its name.
+    pub fn write(self, mut file: File, content: &[u8]) -> Result<(), Failure> {
+        file.write_all(content)
+            .and_then(|()| file.flush())
+            .map_err(|error| {
+                Failure::file(&self.path, format!("cannot be written: {}", reason(&error)))
+            })?;
+        self.commit()
+    }
+}
+
+impl Drop for Output {
+    fn drop(&mut self) {
+        if let Some(temporary) = &self.temporary {
+            let _ = fs::remove_file(temporary);
+        }
+    }
+}
+
+/// What went wrong with a file, in words.
+pub fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file or folder".to_string(),
+        io::ErrorKind::PermissionDenied => "this user may not".to_string(),
+        io::ErrorKind::StorageFull => "the disk is full".to_string(),
+        io::ErrorKind::IsADirectory => "it is a folder".to_string(),
+        io::ErrorKind::NotADirectory => "a part of the path is not a folder".to_string(),
+        _ => error.to_string(),
+    }
+}

@@ -1,0 +1,158 @@
+//! The programs that scenarios can name, and how each is made from its parameters.
+//!
+//! To add a program, add a line to [`PROGRAMS`].
+
+use crate::bench::{diffusion::Diffusion, radio::Radio};
+use crate::parameters::{Complaint, Parameters};
+use starl_core::Program;
+use starl_core::motion::Planner;
+use starl_primitives::{reach_avoid, reliable};
+use starl_race::Race;
+use starl_sim::scenario::Group;
+
+/// A program with its name.
+pub struct Entry {
+    /// What scenarios call it.
+    pub name: &'static str,
+    /// What it does, in one line.
+    pub summary: &'static str,
+    make: fn(&mut Parameters<'_>) -> Box<dyn Program>,
+}
+
+/// All programs.
+pub const PROGRAMS: [Entry; 3] = [
+    Entry {
+        name: "race",
+        summary: "race through the way-points; the first at each sends all on to the next",
+        make: race,
+    },
+    Entry {
+        name: "diffusion",
+        summary: "drive straight, turn away from what the proximity rays see",
+        make: |_| Box::new(Diffusion),
+    },
+    Entry {
+        name: "radio",
+        summary: "drive in circles and broadcast four bytes at every activation",
+        make: |_| Box::new(Radio::default()),
+    },
+];
+
+/// The names of the planners.
+pub const PLANNERS: [(&str, Planner); 4] = [
+    ("auto", Planner::Auto),
+    ("rrt", Planner::Rrt),
+    ("rrt-connect", Planner::RrtConnect),
+    ("rrt-star", Planner::RrtStar),
+];
+
+/// Makes the program of a group of robots.
+pub fn make(group: &Group) -> Result<Box<dyn Program>, Complaint> {
+    let Some(entry) = PROGRAMS.iter().find(|entry| entry.name == group.program) else {
+        let names: Vec<&str> = PROGRAMS.iter().map(|entry| entry.name).collect();
+        return Err(Complaint {
+            field: "program".to_string(),
+            message: format!("there is no program {:?}", group.program),
+            help: format!("there are: {}", names.join(", ")),
+        });
+    };
+    let mut parameters = Parameters::new(&group.parameters);
+    let program = (entry.make)(&mut parameters);
+    parameters.finish(program)
+}
+
+fn race(parameters: &mut Parameters<'_>) -> Box<dyn Program> {
+    let reach_avoid = reach_avoid_options(parameters);
+    let broadcast = reliable_options(parameters);
+    Box::new(Race::new(starl_race::Options {
+        reach_avoid,
+        broadcast,
+    }))
+}
+
+fn reach_avoid_options(parameters: &mut Parameters<'_>) -> reach_avoid::Options {
+    let default = reach_avoid::Options::default();
+    reach_avoid::Options {
+        vicinity: parameters.length("vicinity", default.vicinity),
+        pass_radius: parameters.length("pass_radius", default.pass_radius),
+        off_path: parameters.length("off_path", default.off_path),
+        stuck_after: parameters.duration("stuck_after", default.stuck_after),
+        least_progress: parameters.length("least_progress", default.least_progress),
+        most_replans: parameters.count("most_replans", default.most_replans),
+        most_plan_failures: parameters.count("most_plan_failures", default.most_plan_failures),
+        plan_pause: parameters.duration("plan_pause", default.plan_pause),
+        planner: parameters.choice("planner", default.planner, &PLANNERS),
+        most_nodes: parameters.count("most_nodes", default.most_nodes),
+    }
+}
+
+fn reliable_options(parameters: &mut Parameters<'_>) -> reliable::Options {
+    let default = reliable::Options::default();
+    reliable::Options {
+        first_timeout: parameters.duration("first_timeout", default.first_timeout),
+        longest_timeout: parameters.duration("longest_timeout", default.longest_timeout),
+        jitter: parameters.fraction("timeout_jitter", default.jitter),
+        retries: parameters.count("retries", default.retries),
+        first_in_first_out: parameters.flag("first_in_first_out", default.first_in_first_out),
+        most_outstanding: parameters.count("most_outstanding", default.most_outstanding),
+        most_gaps: parameters.count("most_gaps", default.most_gaps),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use starl_sim::scenario::{Clock, Parameter, SensorSuite};
+
+    fn group(program: &str, parameters: &[(&str, Parameter)]) -> Group {
+        let named = |(name, value): &(&str, Parameter)| ((*name).to_string(), value.clone());
+        Group {
+            name: "create".to_string(),
+            numbered: true,
+            first_number: 0,
+            model: starl_motion::models::by_name("create").expect("there is this model"),
+            program: program.to_string(),
+            parameters: parameters.iter().map(named).collect(),
+            starts: Vec::new(),
+            control_period: starl_core::Duration::from_millis(100),
+            sensors: SensorSuite::default(),
+            clock: Clock::default(),
+        }
+    }
+
+    #[test]
+    fn every_program_can_be_made_from_its_defaults() {
+        for entry in &PROGRAMS {
+            assert!(make(&group(entry.name, &[])).is_ok(), "{}", entry.name);
+        }
+    }
+
+    #[test]
+    fn an_unknown_parameter_is_answered_with_those_there_are() {
+        let complaint = make(&group("race", &[("vicinty", Parameter::Float(0.1))])).err();
+        let complaint = complaint.expect("there is no such parameter");
+        assert_eq!(complaint.field, "parameters.vicinty");
+        assert!(
+            complaint.help.contains("vicinity, pass_radius"),
+            "{}",
+            complaint.help
+        );
+    }
+
+    #[test]
+    fn a_parameter_of_the_wrong_kind_is_refused() {
+        let wrong = [
+            ("vicinity", Parameter::Float(-0.1)),
+            ("vicinity", Parameter::Text("near".to_string())),
+            ("retries", Parameter::Int(-1)),
+            ("planner", Parameter::Text("dijkstra".to_string())),
+            ("first_in_first_out", Parameter::Int(1)),
+            ("stuck_after", Parameter::Float(4.0)),
+        ];
+        for (name, value) in wrong {
+            let complaint = make(&group("race", &[(name, value.clone())])).err();
+            let complaint = complaint.unwrap_or_else(|| panic!("{name} took {value:?}"));
+            assert_eq!(complaint.field, format!("parameters.{name}"));
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! The progress bar: on a terminal only, on the error stream, so that it never mixes with output.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use starl_core::{Duration, Time};
+
+/// Shows how much of the simulated time has passed.
+pub struct Progress(ProgressBar);
+
+impl Progress {
+    /// A bar for a run of at most this long; where the error stream is no terminal it shows nothing.
+    pub fn new(shown: bool, longest: Duration) -> Progress {
+        let millis = longest.0 / 1_000_000;
+        let bar = match shown {
+            true => {
+                ProgressBar::with_draw_target(Some(millis), ProgressDrawTarget::stderr_with_hz(10))
+            }
+            false => ProgressBar::hidden(),
+        };
+        let template = "{bar:40} {msg} of at most {prefix} simulated, {elapsed} passed";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
+        }
+        bar.set_prefix(longest.to_string());
+        Progress(bar)
+    }
+
+    /// The run has come this far.
+    pub fn advance(&self, now: Time) {
+        if !self.0.is_hidden() {
+            self.0.set_position(now.0 / 1_000_000);
+            self.0.set_message(format!("{:.1}s", now.seconds()));
+        }
+    }
+
+    /// Takes the bar away.
+    pub fn clear(&self) {
+        self.0.finish_and_clear();
+    }
+}

@@ -1,0 +1,137 @@
+//! How the inputs of a run are kept in a trace's header, and got back from it.
+//!
+//! The scenario and the files that it names are kept as they were written; what the command line
+//! changed is kept beside them, in [`OPTIONS`].
+
+use serde::{Deserialize, Serialize};
+use starl_core::Obstacle;
+use starl_sim::Scenario;
+use starl_sim::read::{Content, Inputs, Override, Request, Resolved, Source};
+use starl_trace::{Header, RobotEntry};
+use std::collections::BTreeMap;
+
+/// The file, among those in the trace, that says what the command line changed.
+const OPTIONS: &str = "options.json";
+
+/// Files that the scenario names are kept under this and their paths.
+const FILES: &str = "scenario/";
+
+/// What is read besides the scenario and the files it names.
+#[derive(Serialize, Deserialize)]
+struct Options {
+    /// The scenario's name.
+    name: String,
+    overrides: Vec<Override>,
+    robots: Option<String>,
+    faults: Option<Source>,
+    /// Which of the files are kept as hexadecimal digits.
+    binary: Vec<String>,
+}
+
+/// The header of a run's trace.
+pub fn header(resolved: &Resolved) -> Header {
+    let scenario = &resolved.scenario;
+    let mut programs: Vec<&str> = scenario
+        .fleet
+        .groups
+        .iter()
+        .map(|group| group.program.as_str())
+        .collect();
+    programs.sort_unstable();
+    programs.dedup();
+    Header {
+        starl_version: env!("CARGO_PKG_VERSION").to_string(),
+        program: programs.join(","),
+        seed: scenario.seed,
+        scenario: resolved.inputs.request.source.text.clone(),
+        files: files(&resolved.inputs),
+        robots: robots(scenario),
+        way_points: scenario.world.way_points.clone(),
+        obstacles: obstacles(scenario),
+    }
+}
+
+/// The inputs of the run that a trace with this header records.
+pub fn inputs(header: &Header) -> Result<Inputs, String> {
+    let options = header.files.get(OPTIONS);
+    let options = options.ok_or_else(|| format!("it holds no {OPTIONS}"))?;
+    let options: Options =
+        serde_json::from_str(options).map_err(|error| format!("{OPTIONS}: {error}"))?;
+    let kept = header.files.iter().filter_map(|(name, text)| {
+        let path = name.strip_prefix(FILES)?;
+        let content = match options.binary.iter().any(|binary| binary == path) {
+            true => Content::Hex(text.clone()),
+            false => Content::Text(text.clone()),
+        };
+        Some((path.to_string(), content))
+    });
+    Ok(Inputs {
+        files: kept.collect(),
+        request: Request {
+            source: Source::new(options.name, header.scenario.clone()),
+            overrides: options.overrides,
+            robots: options.robots,
+            faults: options.faults,
+        },
+    })
+}
+
+fn files(inputs: &Inputs) -> BTreeMap<String, String> {
+    let mut binary = Vec::new();
+    let mut files = BTreeMap::new();
+    for (path, content) in &inputs.files {
+        let text = match content {
+            Content::Text(text) => text,
+            Content::Hex(digits) => {
+                binary.push(path.clone());
+                digits
+            }
+        };
+        files.insert(format!("{FILES}{path}"), text.clone());
+    }
+    let Request {
+        source,
+        overrides,
+        robots,
+        faults,
+    } = inputs.request.clone();
+    let options = Options {
+        name: source.name,
+        overrides,
+        robots,
+        faults,
+        binary,
+    };
+    let options = serde_json::to_string_pretty(&options)
+        .unwrap_or_else(|error| unreachable!("texts and lists can be written as JSON: {error}"));
+    files.insert(OPTIONS.to_string(), options);
+    files
+}
+
+fn robots(scenario: &Scenario) -> Vec<RobotEntry> {
+    let mut robots = Vec::new();
+    for group in &scenario.fleet.groups {
+        let body = group.model.body();
+        for _ in &group.starts {
+            let id = starl_core::RobotId(robots.len() as u32);
+            robots.push(RobotEntry {
+                id,
+                name: scenario.fleet.name(id),
+                model: group.model.name().to_string(),
+                radius: body.radius,
+                height: body.height,
+                flies: body.flies(),
+            });
+        }
+    }
+    robots
+}
+
+fn obstacles(scenario: &Scenario) -> Vec<Obstacle> {
+    scenario
+        .world
+        .obstacles
+        .iter()
+        .map(|entry| entry.obstacle.clone())
+        .collect()
+}

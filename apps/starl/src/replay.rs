@@ -1,0 +1,182 @@
+//! `starl replay`: runs the recorded inputs of a trace again and compares record by record.
+//!
+//! The trace is read twice: once in full, so that a damaged one is found before anything is run, and
+//! once beside the run again.
+
+use crate::args::ReplayArguments;
+use crate::console::{self, grouped};
+use crate::failure::Failure;
+use crate::output::reason;
+use crate::report::Ending;
+use crate::{recording, run, target, threads};
+use starl_core::Record;
+use starl_sim::Run;
+use starl_sim::read::{self, Resolved};
+use starl_trace::{Comparison, Difference, Header, Reader, Summary, TraceError};
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+/// Compares a trace with a run again; whether they are the same.
+pub fn replay(arguments: &ReplayArguments) -> Result<bool, Failure> {
+    let path = arguments.trace.as_path();
+    let (header, summary) = read_through(path)?;
+    let resolved = inputs(path, &header)?;
+    let threads = threads::count(arguments.threads, resolved.scenario.fleet.len());
+    let mut run = run::start(&resolved)?;
+    run.set_parallel(threads > 1);
+    let found = threads::with(threads, || compare(path, &mut run, &summary))??;
+    let verdict = found.map_or_else(
+        || ending(&run, &summary),
+        |found| Err(tell(&found, &header)),
+    );
+    let (same, text) = match verdict {
+        Ok(text) => (true, text),
+        Err(text) => (false, text + &other_version(&header)),
+    };
+    console::print(&format!("{}: {text}\n", path.display()));
+    Ok(same)
+}
+
+fn open(path: &Path) -> Result<Reader<BufReader<File>>, Failure> {
+    let file = File::open(path)
+        .map_err(|error| Failure::file(path, format!("cannot be read: {}", reason(&error))))?;
+    Reader::new(BufReader::new(file)).map_err(|error| unreadable(path, &error))
+}
+
+fn unreadable(path: &Path, error: &TraceError) -> Failure {
+    Failure::file(path, error)
+}
+
+/// Reads a trace from end to end.
+fn read_through(path: &Path) -> Result<(Header, Summary), Failure> {
+    let mut reader = open(path)?;
+    for record in &mut reader {
+        record.map_err(|error| unreadable(path, &error))?;
+    }
+    match reader.summary() {
+        Some(summary) => Ok((reader.header().clone(), summary.clone())),
+        None => Err(unreadable(path, &TraceError::NoEnd(reader.progress()))),
+    }
+}
+
+/// What the recorded run was started with.
+fn inputs(path: &Path, header: &Header) -> Result<Resolved, Failure> {
+    let because = |what: String| {
+        Failure::file(
+            path,
+            format!("the recorded inputs cannot be run again: {what}"),
+        )
+    };
+    let inputs = recording::inputs(header).map_err(because)?;
+    let resolved = read::again(&inputs).map_err(|problems| because(problems.to_string()))?;
+    target::check_programs(&resolved).map_err(|failure| because(failure.0))?;
+    Ok(resolved)
+}
+
+/// Runs again up to the recorded end.
+fn compare(path: &Path, run: &mut Run, summary: &Summary) -> Result<Option<Difference>, Failure> {
+    let mut comparison = Comparison::new(open(path)?);
+    while !run.is_over() && run.simulation().now() < summary.outcome.end {
+        for record in run.step() {
+            comparison
+                .push(record)
+                .map_err(|error| unreadable(path, &error))?;
+        }
+        if comparison.difference().is_some() {
+            break;
+        }
+    }
+    comparison
+        .finish()
+        .map_err(|error| unreadable(path, &error))
+}
+
+/// Compares how the runs ended, once their records are the same.
+fn ending(run: &Run, summary: &Summary) -> Result<String, String> {
+    let simulation = run.simulation();
+    let recorded = &summary.outcome;
+    let records = grouped(summary.records);
+    let digest = simulation.digest();
+    let interrupted = recorded.outcome == Ending::Interrupted.word();
+    let outcome = Ending::of(run, interrupted).word();
+    let different = |what: &str, recorded: &str, again: &str| {
+        Err(format!(
+            "different: all {records} records agree, but not the {what}\n  recorded:  {recorded}\n  run again: {again}"
+        ))
+    };
+    if digest.value() != recorded.digest {
+        return different(
+            "digest",
+            &format!("{:016x}", recorded.digest),
+            &digest.to_string(),
+        );
+    }
+    if simulation.now() != recorded.end {
+        return different(
+            "end",
+            &recorded.end.to_string(),
+            &simulation.now().to_string(),
+        );
+    }
+    if outcome != recorded.outcome {
+        return different("outcome", &recorded.outcome, outcome);
+    }
+    Ok(format!("identical: {records} records, digest {digest}"))
+}
+
+/// Says where two runs part.
+fn tell(difference: &Difference, header: &Header) -> String {
+    let Difference {
+        agreed,
+        recorded,
+        rerun,
+    } = difference;
+    let place = match recorded.as_ref().or(rerun.as_ref()) {
+        Some(record) => format!("at {:.9} s, {}", record.at.seconds(), whose(record, header)),
+        None => "at the end".to_string(),
+    };
+    let agreed = grouped(*agreed);
+    format!(
+        "different: first {place}, after {agreed} equal records\n  recorded:  {}\n  run again: {}",
+        show(recorded.as_ref(), header),
+        show(rerun.as_ref(), header)
+    )
+}
+
+fn whose(record: &Record, header: &Header) -> String {
+    match record.robot {
+        Some(robot) => match header.robots.get(robot.index()) {
+            Some(entry) => format!("robot {}", entry.name),
+            None => format!("robot {robot}"),
+        },
+        None => "the world".to_string(),
+    }
+}
+
+fn show(record: Option<&Record>, header: &Header) -> String {
+    const LONGEST: usize = 400;
+    let Some(record) = record else {
+        return "nothing more".to_string();
+    };
+    let event = format!("{:?}", record.event);
+    let shown: String = event.chars().take(LONGEST).collect();
+    let more = if shown.len() < event.len() { "..." } else { "" };
+    format!(
+        "{:.9} s, {}: {shown}{more}",
+        record.at.seconds(),
+        whose(record, header)
+    )
+}
+
+/// A hint where another version made the trace.
+fn other_version(header: &Header) -> String {
+    let ours = env!("CARGO_PKG_VERSION");
+    match header.starl_version == ours {
+        true => String::new(),
+        false => format!(
+            "\n  the trace is by StarL {}, this is {ours}: use that version to repeat it",
+            header.starl_version
+        ),
+    }
+}

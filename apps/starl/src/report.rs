@@ -1,0 +1,227 @@
+//! What there is to say of a run that has ended, for people and for programs alike.
+
+use serde::Serialize;
+use starl_core::RobotId;
+use starl_sim::properties::Violation;
+use starl_sim::{Outcome, Run, Scenario};
+
+/// All that is told of a run. As JSON its fields are described in `docs/reference/command.md`.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    pub target: String,
+    pub title: String,
+    pub seed: u64,
+    pub outcome: Ending,
+    pub digest: String,
+    pub sim_seconds: f64,
+    pub wall_seconds: f64,
+    pub speed_factor: f64,
+    pub threads: usize,
+    pub progress: Progress,
+    pub messages: Messages,
+    pub collisions: u64,
+    pub properties: Vec<Property>,
+    pub robots: Vec<Robot>,
+    pub trace: Option<String>,
+    pub plot: Option<String>,
+    pub replay: String,
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ending {
+    /// The goal was reached and no property violated.
+    Reached,
+    /// The goal was reached, but a property was violated.
+    Violated,
+    /// The time was up before the goal was reached.
+    TimedOut,
+    /// A program failed, or no robot is left.
+    Failed,
+    /// Someone stopped it.
+    Interrupted,
+}
+
+/// How many robots are where.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Progress {
+    pub robots: usize,
+    pub up: usize,
+    pub finished: usize,
+    pub failed: usize,
+}
+
+/// What became of datagrams.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Messages {
+    pub sent: u64,
+    pub delivered: u64,
+    pub lost: u64,
+    pub dropped: u64,
+    pub retransmitted: u64,
+}
+
+/// A property that was checked.
+#[derive(Clone, Debug, Serialize)]
+pub struct Property {
+    pub property: &'static str,
+    pub verdict: &'static str,
+    pub violations: usize,
+    pub first: Option<Breach>,
+}
+
+/// A violation of a property.
+#[derive(Clone, Debug, Serialize)]
+pub struct Breach {
+    pub at_seconds: f64,
+    pub robots: Vec<String>,
+    pub text: String,
+}
+
+/// What one robot did.
+#[derive(Clone, Debug, Serialize)]
+pub struct Robot {
+    pub id: u32,
+    pub name: String,
+    pub model: &'static str,
+    pub distance_m: f64,
+    pub way_points: u32,
+}
+
+/// What a report holds that the simulation does not know.
+pub struct Circumstances {
+    pub target: String,
+    pub replay: String,
+    pub interrupted: bool,
+    pub wall_seconds: f64,
+    pub threads: usize,
+    pub trace: Option<String>,
+    pub plot: Option<String>,
+}
+
+impl Ending {
+    /// How a run ended, or how far it was when it was interrupted.
+    pub fn of(run: &Run, interrupted: bool) -> Ending {
+        match run.outcome() {
+            _ if interrupted && !run.is_over() => Ending::Interrupted,
+            Outcome::Reached => Ending::Reached,
+            Outcome::Violated => Ending::Violated,
+            Outcome::TimedOut => Ending::TimedOut,
+            Outcome::Failed => Ending::Failed,
+        }
+    }
+
+    /// The word for it in JSON and in traces.
+    pub fn word(self) -> &'static str {
+        match self {
+            Ending::Reached => "reached",
+            Ending::Violated => "violated",
+            Ending::TimedOut => "timed_out",
+            Ending::Failed => "failed",
+            Ending::Interrupted => "interrupted",
+        }
+    }
+}
+
+impl Report {
+    /// What there is to say of a run.
+    pub fn of(run: &Run, circumstances: Circumstances) -> Report {
+        let simulation = run.simulation();
+        let scenario = simulation.scenario();
+        let (tally, progress) = (simulation.tally(), simulation.progress());
+        let sim_seconds = simulation.now().seconds();
+        let Circumstances {
+            target,
+            replay,
+            interrupted,
+            wall_seconds,
+            threads,
+            trace,
+            plot,
+        } = circumstances;
+        Report {
+            target,
+            title: scenario.title.clone(),
+            seed: scenario.seed,
+            outcome: Ending::of(run, interrupted),
+            digest: simulation.digest().to_string(),
+            sim_seconds,
+            wall_seconds,
+            speed_factor: sim_seconds / wall_seconds.max(1e-9),
+            threads,
+            progress: Progress {
+                robots: simulation.robots().len(),
+                up: progress.up,
+                finished: progress.finished,
+                failed: progress.failed,
+            },
+            messages: Messages {
+                sent: tally.sent,
+                delivered: tally.delivered,
+                lost: tally.lost,
+                dropped: tally.dropped,
+                retransmitted: tally.retransmitted,
+            },
+            collisions: tally.collisions,
+            properties: properties(run, scenario),
+            robots: robots(run, scenario),
+            trace,
+            plot,
+            replay,
+        }
+    }
+
+    /// Whether the goal was reached and no property was violated.
+    pub fn is_success(&self) -> bool {
+        self.outcome == Ending::Reached
+    }
+}
+
+impl Breach {
+    fn of(violation: &Violation, scenario: &Scenario) -> Breach {
+        Breach {
+            at_seconds: violation.at.seconds(),
+            robots: violation
+                .robots
+                .iter()
+                .map(|&robot| scenario.fleet.name(robot))
+                .collect(),
+            text: violation.text.clone(),
+        }
+    }
+}
+
+fn properties(run: &Run, scenario: &Scenario) -> Vec<Property> {
+    let property = |verdict: starl_sim::Verdict| Property {
+        property: verdict.property,
+        verdict: if verdict.violations == 0 {
+            "holds"
+        } else {
+            "violated"
+        },
+        violations: verdict.violations,
+        first: verdict
+            .first
+            .map(|violation| Breach::of(&violation, scenario)),
+    };
+    run.verdicts().into_iter().map(property).collect()
+}
+
+fn robots(run: &Run, scenario: &Scenario) -> Vec<Robot> {
+    let simulation = run.simulation();
+    let mut robots = Vec::new();
+    for group in &scenario.fleet.groups {
+        for _ in &group.starts {
+            let id = RobotId(robots.len() as u32);
+            robots.push(Robot {
+                id: id.0,
+                name: scenario.fleet.name(id),
+                model: group.model.name(),
+                distance_m: simulation.distance(id),
+                way_points: simulation.way_points(id),
+            });
+        }
+    }
+    robots
+}

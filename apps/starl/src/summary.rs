@@ -1,0 +1,189 @@
+//! The summary that people read, within 80 columns.
+
+use crate::console::{grouped, rounded};
+use crate::report::{Breach, Ending, Property, Report, Robot};
+use std::fmt::{self, Write};
+
+/// Larger fleets are summed up by model instead of robot by robot.
+const MOST_ROBOTS_LISTED: usize = 16;
+
+/// The summary as text.
+pub fn text(report: &Report) -> String {
+    let mut text = String::new();
+    // Writing to a string does not fail.
+    let _ = write(&mut text, report);
+    text
+}
+
+/// The violations alone: what is said even when nothing else is to be.
+pub fn violations(report: &Report) -> String {
+    let mut text = String::new();
+    for property in &report.properties {
+        if let Some(first) = &property.first {
+            let _ = violation(&mut text, property, first, report);
+        }
+    }
+    text
+}
+
+fn write(text: &mut String, report: &Report) -> fmt::Result {
+    writeln!(text, "{}: {}", report.title, ending(report))?;
+    writeln!(text)?;
+    let messages = &report.messages;
+    writeln!(
+        text,
+        "time        {} s simulated in {} s, {} times real time",
+        rounded(report.sim_seconds),
+        rounded(report.wall_seconds),
+        rounded(report.speed_factor)
+    )?;
+    writeln!(
+        text,
+        "messages    {} sent ({} of them again), {} delivered,\n            {} lost, {} dropped",
+        grouped(messages.sent),
+        grouped(messages.retransmitted),
+        grouped(messages.delivered),
+        grouped(messages.lost),
+        grouped(messages.dropped)
+    )?;
+    writeln!(text, "collisions  {}", grouped(report.collisions))?;
+    writeln!(text, "seed        {}", report.seed)?;
+    writeln!(text, "digest      {}", report.digest)?;
+    for (label, path) in [("trace", &report.trace), ("plot", &report.plot)] {
+        if let Some(path) = path {
+            writeln!(text, "{label:12}{path}")?;
+        }
+    }
+    writeln!(text)?;
+    match report.robots.len() {
+        0..=MOST_ROBOTS_LISTED => robots(text, &report.robots)?,
+        _ => models(text, &report.robots)?,
+    }
+    if !report.properties.is_empty() {
+        writeln!(text)?;
+        properties(text, &report.properties)?;
+    }
+    let violations = violations(report);
+    if !violations.is_empty() {
+        write!(text, "\n{violations}")?;
+    }
+    Ok(())
+}
+
+fn ending(report: &Report) -> String {
+    let progress = &report.progress;
+    let at = format!("{:.1} s", report.sim_seconds);
+    let done = format!(
+        "{} of {} robots had finished",
+        progress.finished, progress.robots
+    );
+    match report.outcome {
+        Ending::Reached => format!("goal reached after {at}"),
+        Ending::Violated => format!("goal reached after {at}, but a property was violated"),
+        Ending::TimedOut => format!("goal not reached within {at}; {done}"),
+        Ending::Failed if progress.up == 0 => format!("failed after {at}: no robot is left"),
+        Ending::Failed => {
+            format!(
+                "failed after {at}: {} robots cannot go on; {done}",
+                progress.failed
+            )
+        }
+        Ending::Interrupted => format!("interrupted after {at}; {done}"),
+    }
+}
+
+fn robots(text: &mut String, robots: &[Robot]) -> fmt::Result {
+    let name_width = robots
+        .iter()
+        .map(|robot| robot.name.chars().count())
+        .max()
+        .unwrap_or(0);
+    let name_width = name_width.clamp(5, 30);
+    writeln!(
+        text,
+        "{:name_width$}  {:12}  {:>10}  {:>10}",
+        "robot", "model", "distance", "way-points"
+    )?;
+    for robot in robots {
+        writeln!(
+            text,
+            "{:name_width$}  {:12}  {:>8.2} m  {:>10}",
+            robot.name, robot.model, robot.distance_m, robot.way_points
+        )?;
+    }
+    Ok(())
+}
+
+fn models(text: &mut String, robots: &[Robot]) -> fmt::Result {
+    let mut names: Vec<&str> = robots.iter().map(|robot| robot.model).collect();
+    names.sort_unstable();
+    names.dedup();
+    writeln!(
+        text,
+        "{:12}  {:>10}  {:>30}  {:>10}",
+        "model", "robots", "distance least/mean/greatest", "way-points"
+    )?;
+    for name in names {
+        let of_kind = || robots.iter().filter(|robot| robot.model == name);
+        let distances = || of_kind().map(|robot| robot.distance_m);
+        let count = of_kind().count();
+        let mean = distances().sum::<f64>() / count as f64;
+        let (least, greatest) = (
+            distances().fold(f64::INFINITY, f64::min),
+            distances().fold(0.0, f64::max),
+        );
+        let spread = format!("{least:.2} / {mean:.2} / {greatest:.2} m");
+        let way_points = of_kind().map(|robot| u64::from(robot.way_points)).sum();
+        let (count, way_points) = (grouped(count as u64), grouped(way_points));
+        writeln!(
+            text,
+            "{name:12}  {count:>10}  {spread:>30}  {way_points:>10}"
+        )?;
+    }
+    Ok(())
+}
+
+fn properties(text: &mut String, properties: &[Property]) -> fmt::Result {
+    let width = properties
+        .iter()
+        .map(|entry| entry.property.len())
+        .max()
+        .unwrap_or(0)
+        .max(8);
+    writeln!(text, "{:width$}  verdict", "property")?;
+    for Property {
+        property,
+        violations,
+        ..
+    } in properties
+    {
+        match violations {
+            0 => writeln!(text, "{property:width$}  holds")?,
+            1 => writeln!(text, "{property:width$}  VIOLATED")?,
+            n => writeln!(
+                text,
+                "{property:width$}  VIOLATED {} times",
+                grouped(*n as u64)
+            )?,
+        }
+    }
+    Ok(())
+}
+
+fn violation(
+    text: &mut String,
+    property: &Property,
+    first: &Breach,
+    report: &Report,
+) -> fmt::Result {
+    write!(
+        text,
+        "violated: {} at {:.3} s",
+        property.property, first.at_seconds
+    )?;
+    if !first.robots.is_empty() {
+        write!(text, " by {}", first.robots.join(", "))?;
+    }
+    writeln!(text, "\n  {}", first.text)?;
+    writeln!(text, "  to see it again: {}", report.replay)
+}

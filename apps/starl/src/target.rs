@@ -1,0 +1,123 @@
+//! Finds what `starl run TARGET` means, and reads it with all that the command line changes.
+
+use crate::args::RunArguments;
+use crate::examples::{self, EXAMPLES, Example};
+use crate::failure::Failure;
+use crate::output::reason;
+use crate::programs;
+use starl_sim::read::{self, Loader, Override, Request, Resolved, Source};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Reads the scenario that the arguments name, checked to its last field, programs included.
+pub fn read(arguments: &RunArguments) -> Result<Resolved, Failure> {
+    let (source, loader) = find(&arguments.target)?;
+    let faults = match &arguments.faults {
+        Some(path) => Some(Source::new(path.display().to_string(), text(path)?)),
+        None => None,
+    };
+    let request = Request {
+        overrides: overrides(arguments)?,
+        robots: arguments.robots.clone(),
+        faults,
+        ..Request::new(source)
+    };
+    let resolved = read::scenario(&request, &*loader)?;
+    check_programs(&resolved)?;
+    Ok(resolved)
+}
+
+/// Whether every group's program can be made from its parameters.
+pub fn check_programs(resolved: &Resolved) -> Result<(), Failure> {
+    for (index, group) in resolved.scenario.fleet.groups.iter().enumerate() {
+        if let Err(complaint) = programs::make(group) {
+            let field = complaint.field;
+            // A group without a program or parameters of its own has those of the whole scenario.
+            let own = resolved.problem(&format!("robots.{index}.{field}"), "", None);
+            let table = resolved.problem(&format!("robots.{index}"), "", None);
+            let field = match own.place == table.place {
+                true => field,
+                false => format!("robots.{index}.{field}"),
+            };
+            return Err(resolved
+                .problem(&field, &complaint.message, Some(&complaint.help))
+                .into());
+        }
+    }
+    Ok(())
+}
+
+/// The changes that the command line makes, in the order of their power: the options with names of
+/// their own come last.
+fn overrides(arguments: &RunArguments) -> Result<Vec<Override>, Failure> {
+    let mut overrides = Vec::new();
+    for assignment in &arguments.set {
+        overrides.push(Override::set(assignment)?);
+    }
+    if let Some(seed) = &arguments.seed {
+        overrides.push(Override::named("--seed", "seed", seed));
+    }
+    if let Some(duration) = &arguments.duration {
+        overrides.push(Override::named("--duration", "duration", duration));
+    }
+    Ok(overrides)
+}
+
+fn find(target: &str) -> Result<(Source, Box<dyn Loader>), Failure> {
+    if let Some(example) = examples::find(target) {
+        return Ok((
+            Source::new(example.path, example.text),
+            Box::new(Embedded(example)),
+        ));
+    }
+    let path = Path::new(target);
+    if !path.exists() {
+        let names: Vec<&str> = EXAMPLES.iter().map(|example| example.name).collect();
+        return Err(Failure(format!(
+            "{target}: there is no example or scenario file called this; the examples are: {}",
+            names.join(", ")
+        )));
+    }
+    if path.is_dir() {
+        return Err(Failure::file(
+            path,
+            "is a folder; name the scenario file in it",
+        ));
+    }
+    let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
+    Ok((Source::new(target, text(path)?), Box::new(Folder(folder))))
+}
+
+fn text(path: &Path) -> Result<String, Failure> {
+    let bytes = fs::read(path)
+        .map_err(|error| Failure::file(path, format!("cannot be read: {}", reason(&error))))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
+        let name = path.display();
+        Failure(format!(
+            "{name}:{line}: is not text in UTF-8; save it as that"
+        ))
+    })
+}
+
+/// Brings the files of an example.
+struct Embedded(&'static Example);
+
+impl Loader for Embedded {
+    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+        match self.0.files.iter().find(|file| file.0 == path) {
+            Some(file) => Ok(file.1.to_vec()),
+            None => Err("the example has no such file".to_string()),
+        }
+    }
+}
+
+/// Brings files from the scenario's folder.
+struct Folder(PathBuf);
+
+impl Loader for Folder {
+    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+        fs::read(self.0.join(path)).map_err(|error| reason(&error))
+    }
+}

@@ -1,0 +1,28 @@
+//! On how many threads robots step. The results are the same on any number.
+
+use crate::failure::Failure;
+
+/// Fleets up to this size step on one thread unless told otherwise: what they would gain from more
+/// is lost again in handing work over.
+const SMALL_FLEET: usize = 2_000;
+
+/// How many threads to use.
+pub fn count(asked: Option<u16>, robots: usize) -> usize {
+    match asked {
+        Some(threads) => usize::from(threads),
+        None if robots <= SMALL_FLEET => 1,
+        None => std::thread::available_parallelism().map_or(1, |cores| cores.get()),
+    }
+}
+
+/// Does `job` where so many threads are at hand.
+pub fn with<T: Send>(threads: usize, job: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+    if threads <= 1 {
+        return Ok(job());
+    }
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|error| Failure(format!("{threads} threads cannot be started: {error}")))?;
+    Ok(pool.install(job))
+}
