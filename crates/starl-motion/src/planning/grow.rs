@@ -72,13 +72,32 @@ impl Mover {
         }
     }
 
-    /// Adds what the body's base must keep out of because of another robot.
-    fn push_robot<const D: usize>(&self, robot: &Neighbour, list: &mut GrownList<D>) {
-        let span = HeightSpan::new(robot.position.z, robot.position.z + robot.height);
-        if let Some(span) = self.blocked_heights(Some(span)) {
-            let center = core::iter::once([robot.position.x, robot.position.y]);
-            list.push_round(center, robot.radius + self.body.radius + self.margin, span);
+    /// The least gap in metres between the body at a place and what is there; see
+    /// [`Obstacle::body_gap`].
+    pub fn gap(body: Body, at: Point, obstacles: &[Obstacle], robots: &[Neighbour]) -> f64 {
+        let gap = |obstacle: &Obstacle| obstacle.body_gap(at, body.radius, body.height);
+        let robots = robots.iter().map(|robot| gap(&as_obstacle(robot)));
+        let all = obstacles.iter().map(gap).chain(robots);
+        all.fold(
+            f64::INFINITY,
+            |least, gap| if gap < least { gap } else { least },
+        )
+    }
+
+    /// What the robot's base centre must keep out of.
+    pub fn grow<const D: usize>(
+        &self,
+        obstacles: &[Obstacle],
+        robots: &[Neighbour],
+    ) -> GrownList<D> {
+        let mut list = GrownList::new();
+        for obstacle in obstacles.iter().filter(|obstacle| obstacle.is_valid()) {
+            self.push_obstacle(obstacle, &mut list);
         }
+        for robot in robots.iter().map(as_obstacle).filter(Obstacle::is_valid) {
+            self.push_obstacle(&robot, &mut list);
+        }
+        list
     }
 
     /// The space in which the robot's base centre can move from `start` to `target`.
@@ -90,18 +109,10 @@ impl Mover {
         &self,
         start: Point,
         target: Point,
-        obstacles: &[Obstacle],
-        robots: &[Neighbour],
+        grown: GrownList<D>,
     ) -> FreeSpace<D> {
-        let mut list = GrownList::new();
-        for obstacle in obstacles.iter().filter(|obstacle| obstacle.is_valid()) {
-            self.push_obstacle(obstacle, &mut list);
-        }
-        for robot in robots.iter().filter(|robot| robot.position.is_finite()) {
-            self.push_robot(robot, &mut list);
-        }
-        let (low, high) = self.bounds(start, target, &list);
-        FreeSpace::new(low, high, list)
+        let (low, high) = self.bounds(start, target, &grown);
+        FreeSpace::new(low, high, grown)
     }
 
     fn bounds<const D: usize>(
@@ -139,4 +150,10 @@ impl Mover {
         }
         (low, high)
     }
+}
+
+/// Another robot as the upright cylinder that it is.
+fn as_obstacle(robot: &Neighbour) -> Obstacle {
+    let span = HeightSpan::new(robot.position.z, robot.position.z + robot.height);
+    Obstacle::circle(robot.position, robot.radius).with_height(span)
 }

@@ -120,6 +120,15 @@ impl<const D: usize> GrownList<D> {
         (enter <= leave).then_some((enter, leave))
     }
 
+    /// Whether the segment keeps clear of all of them; looks at every one.
+    pub fn is_clear(&self, a: &Vector<D>, b: &Vector<D>) -> bool {
+        let ray = Ray::new(a, b);
+        (0u32..).zip(&self.list).all(|(number, grown)| {
+            let inside = ray.clip(&grown.low, &grown.high, 1.0);
+            inside.is_none_or(|inside| self.clip(number, &ray, inside).is_none())
+        })
+    }
+
     /// The unit vector across the surface where the segment enters the obstacle, at the fraction
     /// `enter` of its length; its sign means nothing.
     pub fn normal(&self, number: u32, ray: &Ray<D>, enter: f64) -> Option<Vector<D>> {
