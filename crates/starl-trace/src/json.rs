@@ -89,33 +89,11 @@ impl Json {
     }
 
     /// A number to the nearest millionth, for views.
+    #[inline]
     pub fn rounded(&mut self, number: f64) -> &mut Json {
-        const UNITS: u64 = 1_000_000;
-        let scaled = (number * UNITS as f64).round();
-        // Beyond this, millionths no longer fit the mantissa.
-        if scaled.is_nan() || scaled.abs() > 9e15 {
-            return self.number(number);
-        }
-        if scaled < 0.0 {
-            self.text.push(b'-');
-        }
-        let scaled = scaled.abs() as u64;
-        self.integer(scaled / UNITS);
-        let mut fraction = scaled % UNITS;
-        if fraction > 0 {
-            let mut digits = [b'0'; 6];
-            for digit in digits.iter_mut().rev() {
-                *digit = b'0' + (fraction % 10) as u8;
-                fraction /= 10;
-            }
-            let end = digits
-                .iter()
-                .rposition(|&digit| digit != b'0')
-                .map_or(0, |last| last + 1);
-            self.text.push(b'.');
-            self.text.extend_from_slice(&digits[..end]);
-        }
-        self
+        let rounded = (number * 1e6).round() / 1e6;
+        // Too large to have millionths.
+        self.number(if rounded.is_finite() { rounded } else { number })
     }
 
     /// True or false.

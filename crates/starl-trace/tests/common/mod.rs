@@ -71,8 +71,9 @@ pub fn records() -> Vec<Record> {
                 Time(u64::MAX - 99 + index)
             };
             let robot = match event {
+                Event::Fault(_) | Event::Violated { .. } => None,
                 Event::Sent { .. } => Some(RobotId(0)),
-                _ => (index % 5 != 4).then_some(RobotId(index as u32 % 2)),
+                _ => Some(RobotId(index as u32 % 2)),
             };
             Record { at, robot, event }
         })
