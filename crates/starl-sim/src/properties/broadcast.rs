@@ -147,12 +147,16 @@ impl Checker for Broadcast {
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
+        // Recorded ahead of its time where a datagram waits in the sender's queue.
+        if matches!(record.event, Event::Dropped { .. }) {
+            return self.health.observe(record);
+        }
+        self.check_bound(record.at, violations);
         match &record.event {
             Event::Primitive { .. } => {
                 let Some(report) = Report::of(record, "broadcast") else {
                     return;
                 };
-                self.check_bound(record.at, violations);
                 match report.name {
                     "broadcast" => self.sent(&report),
                     "deliver" => self.delivered(&report),
@@ -160,12 +164,7 @@ impl Checker for Broadcast {
                     _ => {}
                 }
             }
-            Event::Fault(_) | Event::Failed(_) => {
-                self.check_bound(record.at, violations);
-                self.health.observe(record);
-            }
-            // Recorded ahead of its time where a datagram waited in the sender's queue.
-            Event::Dropped { .. } => self.health.observe(record),
+            Event::Fault(_) | Event::Failed(_) => self.health.observe(record),
             _ => {}
         }
     }

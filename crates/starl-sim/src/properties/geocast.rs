@@ -101,12 +101,15 @@ impl Geocast {
             return;
         };
         message.delivered.insert(index, robot);
-        let (sent, area) = (message.sent, message.area.clone());
+        let (sent, area) = (message.sent, &message.area);
         let until = at.min(sent + self.bound);
         if !self.health.well_since(robot, sent - self.staleness) {
             return;
         }
-        let Some(kept) = self.distance_kept(robot, &area, sent, until) else {
+        let Some(track) = self.tracks.get(robot.index()) else {
+            return;
+        };
+        let Some(text) = outside(track.between(sent, until), area, &self.tolerance) else {
             return;
         };
         let MessageKey { from, number, .. } = key;
@@ -115,26 +118,9 @@ impl Geocast {
             at,
             robots: vec![robot, from],
             text: format!(
-                "robot {robot} delivered message {number} that robot {from} geocast at {sent}, but \
-                 kept {kept:.3} m or more from its area until {until}"
+                "robot {robot} delivered message {number} that robot {from} geocast at {sent}, {text}"
             ),
         });
-    }
-
-    /// How near the robot came to the area, metres, if it was outside throughout for certain.
-    fn distance_kept(&self, robot: RobotId, area: &Area, since: Time, until: Time) -> Option<f64> {
-        let mut kept = None;
-        for sample in self.tracks.get(robot.index())?.between(since, until) {
-            let distance = match area.is_valid() {
-                true => area.distance(sample.position),
-                false => f64::INFINITY, // such an area holds nobody
-            };
-            if distance <= self.tolerance.around(sample) {
-                return None;
-            }
-            kept = Some(distance.min(kept.unwrap_or(f64::INFINITY)));
-        }
-        kept
     }
 
     fn check_bound(&mut self, now: Time, found: &mut Vec<Violation>) {
@@ -200,28 +186,24 @@ impl Checker for Geocast {
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
+        // Recorded ahead of its time where a datagram waits in the sender's queue.
+        if matches!(record.event, Event::Dropped { .. }) {
+            return self.health.observe(record);
+        }
+        self.check_bound(record.at, violations);
         match (&record.event, record.robot) {
-            (Event::Moved(pose), Some(robot)) => {
-                self.check_bound(record.at, violations);
-                self.moved(record.at, robot, pose.position);
-            }
+            (Event::Moved(pose), Some(robot)) => self.moved(record.at, robot, pose.position),
             (Event::Primitive { .. }, _) => {
                 let Some(report) = Report::of(record, "geocast") else {
                     return;
                 };
-                self.check_bound(record.at, violations);
                 match report.name {
                     "geocast" => self.sent(&report),
                     "deliver" => self.delivered(&report, violations),
                     _ => {}
                 }
             }
-            (Event::Fault(_) | Event::Failed(_), _) => {
-                self.check_bound(record.at, violations);
-                self.health.observe(record);
-            }
-            // Recorded ahead of its time where a datagram waited in the sender's queue.
-            (Event::Dropped { .. }, _) => self.health.observe(record),
+            (Event::Fault(_) | Event::Failed(_), _) => self.health.observe(record),
             _ => {}
         }
     }
@@ -229,6 +211,30 @@ impl Checker for Geocast {
     fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
         self.check_bound(now, violations);
     }
+}
+
+/// Says so if a robot was outside an area at all these samples, for certain.
+fn outside<'a>(
+    samples: impl Iterator<Item = &'a Sample>,
+    area: &Area,
+    tolerance: &Tolerance,
+) -> Option<String> {
+    let mut samples = samples.peekable();
+    samples.peek()?;
+    if !area.is_valid() {
+        return Some("whose area holds nobody".into());
+    }
+    let mut kept = f64::INFINITY;
+    for sample in samples {
+        let distance = area.distance(sample.position);
+        if distance <= tolerance.around(sample) {
+            return None;
+        }
+        kept = kept.min(distance);
+    }
+    Some(format!(
+        "but had come no nearer to its area than {kept:.3} m since"
+    ))
 }
 
 /// How far inside the area a point is, metres; negative outside.
