@@ -114,13 +114,7 @@ impl Gains {
     }
 
     /// Whether to turn on the spot, with hysteresis.
-    fn turns(
-        &self,
-        tracking: &mut Tracking,
-        bearing: f64,
-        distance: f64,
-        crawls: bool,
-    ) -> bool {
+    fn turns(&self, tracking: &mut Tracking, bearing: f64, distance: f64, crawls: bool) -> bool {
         let start = if crawls {
             // No arc that slow would ever get it round.
             radians(12.0)
