@@ -145,7 +145,10 @@ pub(super) fn between_segments(tip: Point, start: Point, way: Point) -> Point {
     let turn = tip.cross_planar(way);
     if turn != 0.0 {
         // Where the lines cross, as parts of both segments.
-        let (here, there) = (start.cross_planar(way) / turn, start.cross_planar(tip) / turn);
+        let (here, there) = (
+            start.cross_planar(way) / turn,
+            start.cross_planar(tip) / turn,
+        );
         if (0.0..=1.0).contains(&here) && (0.0..=1.0).contains(&there) {
             return Point::ZERO;
         }

@@ -14,6 +14,7 @@
 //! What is guaranteed, and under which assumptions, is in `docs/explanation/avoidance.md`.
 
 mod cell;
+mod courtesy;
 mod height;
 mod options;
 mod passing;
@@ -25,9 +26,11 @@ use crate::Limits;
 use crate::pilot::Neighbour;
 use crate::tracking::Goal;
 use cell::{Border, Cell, between_segments, larger, smaller};
+use courtesy::Courtesy;
+use passing::Passing;
+use smallvec::SmallVec;
 use starl_core::motion::{Body, Estimate};
 use starl_core::{Obstacle, Point, Random, Time, math};
-use passing::Passing;
 use yielding::Yielding;
 
 /// Estimates that a robot waits for until it may have used up its room: the stopping point closes in
@@ -41,6 +44,10 @@ const LOOK_AHEAD: f64 = 1.5;
 
 /// That point is at least this far away, metres, so that trackers do not take it for reached.
 const LEAST_STEP: f64 = 0.2;
+
+/// A robot on wheels is given a point this near behind it, metres, so that it backs up instead of
+/// turning round.
+const STEP_BACK: f64 = 0.12;
 
 /// A robot on wheels that heads for a border crawls at this part of its cruise speed while it turns.
 const CRAWL: f64 = 0.02;
@@ -59,6 +66,7 @@ pub struct Avoidance {
     period: f64,
     /// Whether it has been seen to move sideways: then its heading says nothing of where it goes.
     sidles: bool,
+    courtesy: Courtesy,
     yielding: Yielding,
 }
 
@@ -71,6 +79,7 @@ impl Avoidance {
             last: None,
             period,
             sidles: false,
+            courtesy: Courtesy::default(),
             yielding: Yielding::default(),
         }
     }
@@ -106,12 +115,33 @@ impl Avoidance {
         let elapsed = self.note_time(estimate.at);
         self.note_motion(estimate);
         let pace = Pace::new(limits, self.period);
-        let mut cell = self.cell(body, &pace, estimate, neighbours);
         let height = self.height(body, &pace, estimate, goal.target.z, neighbours);
+        // From here on only robots at the same height count.
+        let neighbours: SmallVec<[Neighbour; 12]> = neighbours
+            .iter()
+            .filter(|neighbour| !self.is_clear_in_height(body, &pace, estimate, neighbour))
+            .copied()
+            .collect();
+        let neighbours = &neighbours[..];
+        let mut cell = self.cell(body, &pace, estimate, neighbours);
         let position = estimate.pose.position;
-        let destination = self
+        let gap = 2.0 * self.options.margin;
+        let mut destination = self
             .yielding
             .destination(position, goal.target, estimate.at);
+        if destination == goal.target
+            && let Some(place) = self.courtesy.wait(
+                body,
+                gap,
+                position,
+                goal.target,
+                neighbours,
+                estimate.at,
+                random,
+            )
+        {
+            destination = place;
+        }
         let on_course = destination == goal.target;
         let way = (destination - position).at_height(0.0);
         let distance = way.planar_length();
@@ -121,7 +151,7 @@ impl Avoidance {
             position,
             destination,
             neighbours,
-            gap: 2.0 * self.options.margin,
+            gap,
         };
         let in_the_way = passing.in_the_way(wish);
         if cell.is_empty() && on_course && in_the_way.is_none() {
@@ -143,6 +173,8 @@ impl Avoidance {
         let scene = yielding::Scene {
             body,
             position,
+            moves: moves(&pace, estimate),
+            cruise_speed: pace.cruise_speed,
             target: goal.target,
             neighbours,
             cell: &cell,
@@ -158,7 +190,10 @@ impl Avoidance {
 
         let ahead = velocity.normalized().unwrap_or(Point::ZERO);
         if velocity == wish && on_course {
-            let speed_limit = smaller(goal.speed_limit, self.speed_limit(body, &pace, estimate, &cell, ahead));
+            let speed_limit = smaller(
+                goal.speed_limit,
+                self.speed_limit(body, &pace, estimate, &cell, ahead),
+            );
             return Goal {
                 target: goal.target.at_height(height),
                 next: goal.next,
@@ -170,7 +205,7 @@ impl Avoidance {
             self.speed_limit(body, &pace, estimate, &cell, ahead),
         );
         Goal {
-            target: (position + ahead * larger(speed * LOOK_AHEAD, LEAST_STEP)).at_height(height),
+            target: (position + ahead * self.step(body, estimate, ahead, speed)).at_height(height),
             next: None,
             speed_limit: smaller(goal.speed_limit, speed),
         }
@@ -200,7 +235,8 @@ impl Avoidance {
             let offset = (neighbour.position - position).at_height(0.0);
             let distance = offset.planar_length();
             let radii = body.radius + neighbour.radius;
-            if distance - radii > 2.0 * (pace.room_needed + self.options.margin) + self.late(neighbour) || self.is_clear_in_height(body, pace, estimate, neighbour) {
+            let near = 2.0 * (pace.room_needed + self.options.margin) + self.late(neighbour);
+            if distance - radii > near {
                 continue;
             }
             // What is known of the neighbour may be a period old.
@@ -215,7 +251,11 @@ impl Avoidance {
             let room = 0.5 * (gap - radii) - self.options.margin;
             let speed = room / pace.horizon;
             if speed < pace.cruise_speed {
-                cell.push(Border { normal, speed, neighbour: index as u32 });
+                cell.push(Border {
+                    normal,
+                    speed,
+                    neighbour: index as u32,
+                });
             }
         }
         cell
@@ -243,6 +283,16 @@ impl Avoidance {
         let between = (course + ahead).normalized().unwrap_or(course);
         let speed = smaller(speed, smaller(cell.speed(course), cell.speed(between)));
         larger(speed, CRAWL * pace.cruise_speed)
+    }
+
+    /// How far ahead to put the point to track, metres.
+    fn step(&self, body: &Body, estimate: &Estimate, ahead: Point, speed: f64) -> f64 {
+        let (sine, cosine) = math::sincos(estimate.pose.yaw);
+        let behind = cosine * ahead.x + sine * ahead.y < -0.5;
+        if behind && !body.flies() && !self.sidles {
+            return STEP_BACK;
+        }
+        larger(speed * LOOK_AHEAD, LEAST_STEP)
     }
 
     /// Takes note of a ground robot that moves otherwise than along its heading.
@@ -310,6 +360,12 @@ impl Pace {
     }
 }
 
+/// Whether the robot drives or turns, rather than standing still.
+fn moves(pace: &Pace, estimate: &Estimate) -> bool {
+    let twist = &estimate.twist;
+    twist.linear.planar_length() > 0.2 * pace.cruise_speed || twist.yaw.abs() > 0.2
+}
+
 /// Adds the borders of nearby obstacles, which no robot shares: they keep a robot that is off its
 /// planned path from sliding into a wall.
 fn add_obstacles(
@@ -333,7 +389,8 @@ fn add_obstacles(
         let towards = (obstacle.nearest_point(position) - position).at_height(0.0);
         if let Some(normal) = towards.normalized() {
             let speed = pace.speed_towards(normal, room, estimate);
-            cell.push(Border { normal,
+            cell.push(Border {
+                normal,
                 speed,
                 neighbour: u32::MAX,
             });

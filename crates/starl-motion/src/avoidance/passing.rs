@@ -45,7 +45,11 @@ pub(super) fn velocity(cell: &Cell, neighbour: &InTheWay, wish: Point, velocity:
     let angle = math::asin(smaller(room / distance, 1.0));
     let towards = offset * (speed / distance);
     let to_the_right = wish.cross_planar(offset) < -LEFT * room * speed;
-    let sides = if to_the_right { [angle, -angle] } else { [-angle, angle] };
+    let sides = if to_the_right {
+        [angle, -angle]
+    } else {
+        [-angle, angle]
+    };
     for side in sides {
         let way = turned(towards, side);
         let passing = cell.velocity(way);
@@ -73,7 +77,12 @@ impl Passing<'_> {
             let beside = wish.cross_planar(offset).abs() / speed;
             let closing = speed - neighbour.velocity.dot(wish) / speed;
             let stands_there = neighbour.position.planar_distance(self.destination) < room;
-            if along <= 0.0 || along >= way || beside >= room || closing <= 0.3 * speed || stands_there {
+            if along <= 0.0
+                || along >= way
+                || beside >= room
+                || closing <= 0.3 * speed
+                || stands_there
+            {
                 continue;
             }
             let until = offset.planar_length() - room;

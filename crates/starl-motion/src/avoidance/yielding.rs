@@ -18,6 +18,14 @@ use starl_core::{Duration, Point, Random, Time, math};
 const PROGRESS: f64 = 0.03;
 /// Coming nearer to the target by this ends the growth of the back-off, metres.
 const GOOD_PROGRESS: f64 = 0.2;
+/// A robot this near to the place of its detour is there, metres.
+const THERE: f64 = 0.1;
+/// The way to that place may take so many times what it takes at cruise speed...
+const SLOWLY: f64 = 1.5;
+/// ... and the time it takes to turn round, seconds.
+const TURNING: f64 = 3.0;
+/// Time without progress counts for this part while the robot moves: turning round, or passing.
+const MOVING: f64 = 0.25;
 /// After this many vain attempts times grow no further.
 const MOST_LEVELS: u32 = 4;
 
@@ -25,16 +33,24 @@ const MOST_LEVELS: u32 = 4;
 pub(super) struct Scene<'a> {
     pub body: &'a Body,
     pub position: Point,
+    /// Whether it drives or turns.
+    pub moves: bool,
+    /// Metres per second.
+    pub cruise_speed: f64,
     pub target: Point,
     pub neighbours: &'a [Neighbour],
     pub cell: &'a Cell,
 }
 
-/// A place off the course, and how long to stay away.
+/// A place off the course, and how long to stay there.
 #[derive(Clone, Copy, Debug)]
 struct Detour {
     place: Point,
-    until: Time,
+    /// When it must have got there; it stays wherever it is then.
+    deadline: Time,
+    stay: Duration,
+    /// When it goes back on its course, once it is there.
+    until: Option<Time>,
 }
 
 /// Progress towards the target, and the detour that the robot is on.
@@ -71,16 +87,20 @@ impl Yielding {
             self.stuck = 0.0;
             self.detour = None;
         }
-        match self.detour {
-            Some(detour) if now < detour.until => detour.place.at_height(position.z),
-            _ => {
-                if self.detour.take().is_some() {
-                    self.nearest = f64::INFINITY;
-                    self.stuck = 0.0;
-                }
-                target
-            }
+        let Some(detour) = &mut self.detour else {
+            return target;
+        };
+        let there = position.planar_distance(detour.place) < THERE || now >= detour.deadline;
+        if there && detour.until.is_none() {
+            detour.until = Some(now + detour.stay);
         }
+        if detour.until.is_none_or(|until| now < until) {
+            return detour.place.at_height(position.z);
+        }
+        self.detour = None;
+        self.nearest = f64::INFINITY;
+        self.stuck = 0.0;
+        target
     }
 
     /// Nobody is near.
@@ -106,7 +126,11 @@ impl Yielding {
             self.nearest = distance;
             self.stuck = 0.0;
         } else if hindered {
-            self.stuck += elapsed;
+            self.stuck += if scene.moves {
+                elapsed * MOVING
+            } else {
+                elapsed
+            };
         }
         if distance < self.record - GOOD_PROGRESS {
             self.record = distance;
@@ -139,13 +163,17 @@ impl Yielding {
         } else {
             random.between(0.6 * math::PI, 1.4 * math::PI)
         };
-        let distance =
-            random.between(1.0, 2.0) * (scene.body.radius + 0.1) * larger(1.0, 0.5 * growth);
+        let distance = random.between(1.0, 2.0)
+            * (scene.body.radius + 0.1)
+            * (1.0 + 0.5 * f64::from(self.level));
         let time =
             smaller(options.patience * growth, options.longest_yield) * random.between(0.5, 1.5);
+        let way = distance / scene.cruise_speed.max(0.01);
         Detour {
             place: scene.position + turned(towards, angle) * distance,
-            until: now + Duration::from_seconds_f64(time),
+            deadline: now + Duration::from_seconds_f64(SLOWLY * way + TURNING),
+            stay: Duration::from_seconds_f64(time),
+            until: None,
         }
     }
 }
