@@ -15,6 +15,7 @@ mod container;
 mod decode;
 mod encode;
 mod error;
+mod fields;
 mod header;
 mod json;
 mod reader;
