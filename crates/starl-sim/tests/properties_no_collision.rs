@@ -57,12 +57,20 @@ fn an_obstacle_that_is_hit_is_reported_with_the_place() {
 }
 
 #[test]
-fn walls_that_the_setting_does_not_list_count_too() {
+fn the_edge_of_the_world_counts_too() {
     let mut story = Story::of_ground_robots(1);
+    pillar(&mut story, 9.0, u64::MAX / 1_000_000);
     story.stays(0, 900, 0, at(2.28, 0.0));
-    story.collided(450, 0, Hit::Obstacle(17));
-    story.collided(650, 0, Hit::Obstacle(17));
-    assert_only(&story.verdict(1000), "no_collision", 450, &[0]);
+    // Hosts count the walls of the world's bounds after the obstacles.
+    story.collided(450, 0, Hit::Obstacle(1));
+    story.collided(650, 0, Hit::Obstacle(1));
+    let verdict = story.verdict(1000);
+    assert_only(&verdict, "no_collision", 450, &[0]);
+    assert!(
+        verdict[0]
+            .text
+            .starts_with("robot 0 ran into the edge of the world")
+    );
 }
 
 #[test]

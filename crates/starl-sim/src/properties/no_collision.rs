@@ -24,6 +24,9 @@ const OVERLAP: f64 = 0.001;
 /// stopped stands off what it would have hit.
 const APART: f64 = 0.1;
 
+/// What the host stops bodies at that is no obstacle of the world.
+const EDGE: &str = "the edge of the world";
+
 /// Watches all bodies.
 #[derive(Clone, Debug)]
 pub(super) struct NoCollision {
@@ -87,10 +90,13 @@ impl NoCollision {
                 let pair = (robot.min(other), robot.max(other));
                 (self.pairs.insert(pair), format!("robot {other}"))
             }
-            Hit::Obstacle(index) => (
-                self.touch(robot, index, place.unwrap_or_default()),
-                format!("obstacle {index}"),
-            ),
+            Hit::Obstacle(index) => {
+                let is_new = self.touch(robot, index, place.unwrap_or_default());
+                let is_listed = (index as usize) < self.expires.len();
+                let name = || format!("obstacle {index}");
+                let other = if is_listed { name() } else { EDGE.into() };
+                (is_new, other)
+            }
         };
         if !is_new {
             return;
@@ -148,7 +154,7 @@ impl NoCollision {
             let obstacle = map.obstacles().get(index as usize);
             obstacle.map(|obstacle| obstacle.body_gap(position, radius, height))
         };
-        // The host may stop bodies at obstacles that the setting does not list.
+        // The edge of the world is not listed: one is off it who is off the place of the collision.
         self.walls[robot.index()]
             .retain(|wall| gap(wall.index).unwrap_or_else(|| wall.met.distance(position)) < APART);
         let around = Bounds::of_body(position, position, radius, height);
