@@ -59,21 +59,27 @@ impl<const D: usize> FreeSpace<D> {
         let part = random.uniform();
         let off = 0.1 * longest * part * part;
         core::array::from_fn(|axis| {
-            let low = if grown.low[axis] > self.low[axis] {
-                grown.low[axis]
+            let (low, high) = (grown.low[axis], grown.high[axis]);
+            let side = if (sides >> axis) & 1 == 0 {
+                low - off
+            } else {
+                high + off
+            };
+            // Where an obstacle sticks out of the box one can only be beside it.
+            if axis != edge && self.low[axis] <= side && side <= self.high[axis] {
+                return side;
+            }
+            let low = if low > self.low[axis] {
+                low
             } else {
                 self.low[axis]
             };
-            let high = if grown.high[axis] < self.high[axis] {
-                grown.high[axis]
+            let high = if high < self.high[axis] {
+                high
             } else {
                 self.high[axis]
             };
-            match (sides >> axis) & 1 {
-                _ if axis == edge => random.between(low, high),
-                0 => low - off,
-                _ => high + off,
-            }
+            random.between(low, high)
         })
     }
 

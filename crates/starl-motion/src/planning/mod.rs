@@ -7,6 +7,20 @@
 //!
 //! The planners know nothing of robots: they search a [`space::Space`]. Everything is exact, no path
 //! is tested at sample points, and the same request gives the same path on every machine.
+//!
+//! ```
+//! use starl_core::Random;
+//! use starl_motion::planning::free_space::FreeSpace;
+//! use starl_motion::planning::grown::GrownList;
+//! use starl_motion::planning::rrt_connect::{Options, rrt_connect};
+//!
+//! let mut list = GrownList::new();
+//! list.push_box([3.0, 1.0], [4.0, 9.0]);
+//! let space = FreeSpace::new([0.0, 0.0], [10.0, 10.0], list);
+//! let options = Options { most_nodes: 1_000, longest_step: f64::INFINITY, shortest_step: 1e-3 };
+//! let path = rrt_connect(&space, &[1.0, 5.0], &[9.0, 5.0], &options, &mut Random::keyed(1, &[]));
+//! assert!(path.is_some());
+//! ```
 
 pub mod box_tree;
 pub mod cost_tree;
@@ -43,7 +57,7 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Options {
         Options {
-            margin_radii: 0.15,
+            margin_radii: 0.3,
             escape_radii: 4.0,
         }
     }

@@ -1,6 +1,6 @@
 //! Which point of a growing set is nearest: a k-d tree with buckets.
 //!
-//! Points arrive one by one and are never taken out. A bucket holds up to [`BUCKET`] points axis by
+//! Points arrive one by one and are never taken out. A bucket holds up to 32 points axis by
 //! axis, so that distances to all of them are computed side by side; when it is full it is cut at the
 //! median of its longer side. A small set is one bucket, looked through from end to end, which is
 //! faster than any structure. (Bentley 1975, "Multidimensional binary search trees used for
@@ -115,7 +115,7 @@ impl<const D: usize> Nearest<D> {
     }
 
     /// Adds a point with finite coordinates; its number is how many there were before. One at the
-    /// very place of [`BUCKET`] others is numbered but never found: they stand for it.
+    /// very place of 32 others is numbered but never found: they stand for it.
     pub fn add(&mut self, point: &Vector<D>) {
         let number = self.count;
         self.count += 1;
