@@ -1,7 +1,8 @@
 //! The tree of boxes finds what looking at every box does, and a touch counts.
 
 use starl_core::Random;
-use starl_motion::planning::box_tree::{BoxTree, Ray};
+use starl_motion::planning::box_tree::BoxTree;
+use starl_motion::planning::ray::Ray;
 use starl_motion::planning::vector::Vector;
 
 fn point<const D: usize>(random: &mut Random, low: f64, high: f64) -> Vector<D> {

@@ -8,8 +8,8 @@ use starl_core::{Duration, Point, Pose, Time};
 use starl_motion::tracking::{Goal, Tracking};
 use starl_motion::{Disturbance, Model};
 
-/// Drives along the way-points, from one to the next within 0.1 m; the least gap on the way, and where
-/// it ends.
+/// Drives along the way-points with an estimate every 0.1 s, from one to the next within 0.1 m; the
+/// least gap on the way, and where it ends.
 fn follow(model: &dyn Model, case: &Case, path: &[Point]) -> (f64, Point) {
     let mut state = model.at_rest(Pose::level(case.from, case.yaw));
     let body = model.body();
@@ -20,10 +20,10 @@ fn follow(model: &dyn Model, case: &Case, path: &[Point]) -> (f64, Point) {
         let mut tracking = Tracking::default();
         let mut command = starl_core::Command::Stop;
         for step in 0..5_000 {
-            if state.pose.position.distance(target) <= 0.1 {
-                break;
-            }
             if step % 5 == 0 {
+                if state.pose.position.distance(target) <= 0.1 {
+                    break;
+                }
                 let estimate = Estimate {
                     pose: state.pose,
                     twist: state.twist,

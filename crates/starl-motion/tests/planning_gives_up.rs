@@ -39,7 +39,7 @@ fn a_gap_too_narrow_for_the_body_is_closed() {
         ]
     };
     for planner in PLANNERS {
-        for (width, passes) in [(1.98 * radius, false), (4.0 * radius, true)] {
+        for (width, passes) in [(1.98 * radius, false), (6.0 * radius, true)] {
             let (a, b) = (Point::planar(-4.0, -1.5), Point::planar(5.0, 1.5));
             let mut case = Case::new(a, b, gap(width)).with(planner, 2);
             case.request.most_nodes = 2_000;

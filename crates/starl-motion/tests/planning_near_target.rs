@@ -24,7 +24,7 @@ fn the_nearest_free_point_is_gone_to_if_it_is_near_enough() {
     let body = model.body();
     let clear = body.radius * (1.0 + Options::default().margin_radii);
     for planner in PLANNERS {
-        let case = case(0.2).with(planner, 4);
+        let case = case(0.4).with(planner, 4);
         let path = case.plan(&*model).expect("a path to near the target");
         let end = *path.last().expect("a way-point");
         assert!((end.y - (1.0 + clear)).abs() < 1e-4, "{end}");
@@ -79,7 +79,7 @@ fn a_target_pinched_by_two_walls_moves_to_where_both_leave_room() {
         Point::planar(0.05, 0.05),
         obstacles,
     );
-    case.request.vicinity = 0.3;
+    case.request.vicinity = 0.5;
     let options = Options::default();
     let path = planning::plan_with(&options, &*model, &case.estimate(), &case.request, &[])
         .expect("a path");

@@ -7,6 +7,7 @@ use planning_support::{Case, least_gap, model, room, wall};
 use starl_core::geometry::{ConvexPolygon, Obstacle};
 use starl_core::motion::{Body, Planner};
 use starl_core::{Point, Random};
+use starl_motion::planning::Options;
 
 const SIDE: f64 = 5.0;
 const CELL: f64 = 0.05;
@@ -109,6 +110,7 @@ fn gap(body: Body, at: Point, obstacles: &[Obstacle]) -> f64 {
 fn paths_are_found_where_there_are_some_and_keep_clear() {
     let model = model("create");
     let body = model.body();
+    let clear = body.radius * (1.0 + Options::default().margin_radii);
     let (mut open, mut closed) = (0, 0);
     for seed in 0..150 {
         let mut random = Random::keyed(seed, &[]);
@@ -117,7 +119,7 @@ fn paths_are_found_where_there_are_some_and_keep_clear() {
         if gap(body, from, &obstacles) < 0.1 || gap(body, to, &obstacles) < 0.1 {
             continue;
         }
-        let wide = flood(&obstacles, from, to, 1.15 * body.radius + CELL);
+        let wide = flood(&obstacles, from, to, clear + CELL);
         let narrow = flood(&obstacles, from, to, body.radius - CELL);
         for planner in [Planner::RrtConnect, Planner::RrtStar] {
             let mut case = Case::new(from, to, obstacles.clone()).with(planner, seed);

@@ -65,5 +65,5 @@ fn a_target_taken_by_a_robot_is_approached_as_far_as_the_vicinity_allows() {
     let path = planning::plan(&*model, &case.estimate(), &case.request, &others).expect("a path");
     let end = *path.last().expect("a way-point");
     let apart = end.distance(others[0].position);
-    assert!(apart >= 0.365 && apart <= 0.4, "{apart}");
+    assert!((0.365..=0.4).contains(&apart), "{apart}");
 }

@@ -71,10 +71,10 @@ fn for_robots_it_finds_the_shorter_way_round() {
     let model = model("create");
     let obstacles = vec![rectangle((1.0, -0.6), (1.2, 3.0))];
     let case = Case::new(Point::ZERO, Point::planar(2.2, 0.0), obstacles);
-    let reach: f64 = 0.165 * 1.15;
+    let reach = 0.165 * (1.0 + starl_motion::planning::Options::default().margin_radii);
     // Taut round the lower corners of the grown block, all but its rounding.
-    let (x, y) = (1.0 - reach * 0.3, 0.6 + reach);
-    let about = 2.0 * x.hypot(y) + 0.2 + reach;
+    let (x, y): (f64, f64) = (1.0 - reach * 0.3, 0.6 + reach);
+    let about = 2.0 * (x * x + y * y).sqrt() + 0.2 + reach;
     for seed in 0..10 {
         let case = case.clone().with(Planner::RrtStar, seed);
         let path = case.plan(&*model).expect("a path");

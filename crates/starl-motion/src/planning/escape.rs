@@ -1,7 +1,7 @@
 //! Where to go when one is already too near to something.
 
-use super::box_tree::Ray;
 use super::free_space::FreeSpace;
+use super::ray::Ray;
 use super::space::Space;
 use super::vector::{Vector, between};
 use alloc::vec::Vec;

@@ -1,7 +1,8 @@
 //! The space planners search: a box of the world less the grown obstacles.
 
-use super::box_tree::{BoxTree, Ray};
+use super::box_tree::BoxTree;
 use super::grown::GrownList;
+use super::ray::Ray;
 use super::space::{Reach, Space};
 use super::vector::Vector;
 use starl_core::Random;

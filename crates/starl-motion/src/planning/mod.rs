@@ -31,6 +31,8 @@ pub mod free_space;
 mod grow;
 pub mod grown;
 pub mod nearest;
+mod outline;
+pub mod ray;
 pub mod rrt;
 pub mod rrt_connect;
 pub mod rrt_star;
