@@ -34,7 +34,9 @@ wasm: $(STARL)
 trace: $(STARL)
 	$(STARL) run race --quiet --trace target/race.mcap
 	$(STARL) replay target/race.mcap
-	$(VENV)/python crates/starl-trace/tests/python/read_trace.py target/race.mcap
+	cargo run --quiet -p starl-trace --example every_event > target/every_event.mcap
+	$(VENV)/python crates/starl-trace/tests/python/read_trace.py target/race.mcap target/every_event.mcap
+	$(VENV)/python crates/starl-trace/tests/python/documentation.py target/race.mcap
 
 # Every example reaches its goal, in calm and in bad weather.
 examples: $(STARL)

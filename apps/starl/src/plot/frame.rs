@@ -163,9 +163,9 @@ fn extent(data: &PlotData) -> ((f64, f64), (f64, f64)) {
     ((low.0 - room, low.1 - room), (high.0 + room, high.1 + room))
 }
 
-/// A step of 1, 2 or 5 times a power of ten that gives four to ten ticks over a length.
+/// A step of 1, 2 or 5 times a power of ten that gives four to eleven ticks over a length.
 fn step_for(length: f64) -> f64 {
-    let rough = length / 8.0;
+    let rough = length / 10.0;
     let power = 10f64.powf(rough.log10().floor());
     let factor = [1.0, 2.0, 5.0, 10.0]
         .into_iter()
