@@ -81,7 +81,10 @@ fn draft(
     let given = table.count("count");
     let count = given.unwrap_or(starts.len().max(1) as u64) as usize;
     if starts.len() > count {
-        let message = format!("{} starts are given for {count} robots", starts.len());
+        let message = format!(
+            "there are more starts ({}) than robots ({count})",
+            starts.len()
+        );
         table.problem("start", message, "leave some out, or raise `count`");
     }
     let name = table.text("name");
@@ -101,7 +104,7 @@ fn draft(
     }
     let mut own_parameters = parameters.clone();
     add_parameters(table, &mut own_parameters);
-    let area = table.optional_table("area", |corners| start::area(corners));
+    let area = table.optional_table("area", start::area);
     let model_name = table.model("model");
     let draft = Draft {
         count,

@@ -10,12 +10,15 @@ mod fault;
 mod fleet;
 mod grid;
 mod inputs;
+mod leaves;
 mod names;
 mod network;
 mod obstacle;
 mod occupancy;
 mod parameter;
+mod path;
 mod place;
+mod placing;
 mod problem;
 mod reach;
 mod report;
@@ -36,8 +39,9 @@ pub use problem::{Place, Problem, Problems};
 
 use crate::Scenario;
 use inputs::Recorder;
+use path::Path;
 use report::{Origin, Report};
-use section::{Path, Section};
+use section::Section;
 use std::collections::BTreeMap;
 use tree::{Node, Table, Value};
 

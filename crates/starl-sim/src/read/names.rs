@@ -208,8 +208,8 @@ impl Names {
     fn unknown(&self, name: &str, origin: Origin, path: &str, report: &Report) {
         let mut known: Vec<String> = Vec::new();
         for group in self.groups.iter().filter(|group| group.count > 0) {
-            known.push(group.name.clone());
             known.extend((0..group.count.min(64)).map(|index| group.name_of(index)));
+            known.push(group.name.clone());
         }
         known.dedup();
         let known: Vec<&str> = known.iter().map(String::as_str).collect();

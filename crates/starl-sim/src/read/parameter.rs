@@ -4,7 +4,7 @@ use super::schema::{Dimension, Range};
 use super::section::Section;
 use super::tree::{Node, Value};
 use super::unit::Quantity;
-use super::value;
+use super::value::{self, Complaint};
 use super::{Report, suggest};
 use crate::scenario::Parameter;
 use starl_core::{Duration, math};
@@ -90,20 +90,17 @@ pub(super) fn model(table: Section<'_>, name: &str) -> Option<Arc<dyn Model>> {
                     .problem_with_help(entry.name_origin, &path, message, help);
                 continue;
             };
-            let (dimension, units_per_si) = unit_of(field.unit);
-            let setting = value::quantity(&entry.node, dimension, Range::Any)
-                .map(|number| number * units_per_si)
-                .and_then(|number| {
-                    match models::with_parameters(name, &[(parameter.clone(), number)]) {
-                        Err(starl_motion::ParameterError::OutOfRange { field, value }) => {
-                            let (low, high, unit) = (field.low, field.high, field.unit);
-                            let message = format!("{value} {unit} is out of range");
-                            Err((message, Some(format!("give {low} to {high} {unit}"))))
-                        }
-                        // How parameters go together is judged when all are known.
-                        _ => Ok(number),
+            let setting = in_unit(&entry.node, field.unit).and_then(|number| {
+                match models::with_parameters(name, &[(parameter.clone(), number)]) {
+                    Err(starl_motion::ParameterError::OutOfRange { field, value }) => {
+                        let (low, high, unit) = (field.low, field.high, field.unit);
+                        let message = format!("{value} {unit} is out of range");
+                        Err((message, Some(format!("give {low} to {high} {unit}"))))
                     }
-                });
+                    // How parameters go together is judged when all are known.
+                    _ => Ok(number),
+                }
+            });
             match setting {
                 Ok(number) => settings.push((parameter.clone(), number)),
                 Err((message, help)) => {
@@ -124,19 +121,30 @@ pub(super) fn model(table: Section<'_>, name: &str) -> Option<Arc<dyn Model>> {
     }
 }
 
-/// What a model's parameter of this unit measures, and how many of the unit make one in SI.
-fn unit_of(unit: &str) -> (Dimension, f64) {
-    let degrees = math::degrees(1.0);
-    match unit {
-        "m" => (Dimension::Length, 1.0),
-        "m/s" => (Dimension::Speed, 1.0),
-        "m/s2" => (Dimension::Acceleration, 1.0),
-        "kg" => (Dimension::Mass, 1.0),
-        "s" => (Dimension::Time, 1.0),
-        "rad" => (Dimension::Angle, 1.0),
-        "rad/s" => (Dimension::TurnRate, 1.0),
-        "degrees" => (Dimension::Angle, degrees),
-        "degrees/s" => (Dimension::TurnRate, degrees),
-        _ => (Dimension::Ratio, 1.0),
-    }
+/// A quantity in the unit that a model wants it in; one that is written in that unit is taken as it
+/// is, so that no bit is lost between degrees and radians.
+fn in_unit(node: &Node, unit: &str) -> Result<f64, Complaint> {
+    let (unit, dimension) = match unit {
+        "m" => (unit, Dimension::Length),
+        "m/s" => (unit, Dimension::Speed),
+        "m/s2" => (unit, Dimension::Acceleration),
+        "kg" => (unit, Dimension::Mass),
+        "kg/s" => (unit, Dimension::Drag),
+        "s" => (unit, Dimension::Time),
+        "rad" => (unit, Dimension::Angle),
+        "rad/s" => (unit, Dimension::TurnRate),
+        "degrees" => ("deg", Dimension::Angle),
+        "degrees/s" => ("deg/s", Dimension::TurnRate),
+        _ => ("", Dimension::Ratio),
+    };
+    let in_si = value::quantity(node, dimension, Range::Any)?;
+    let as_written = match &node.value {
+        Value::Text(text) => Quantity::split(text).filter(|quantity| quantity.unit == unit),
+        _ => None,
+    };
+    Ok(match (as_written, unit) {
+        (Some(quantity), _) => quantity.number,
+        (None, "deg" | "deg/s") => math::degrees(in_si),
+        (None, _) => in_si,
+    })
 }

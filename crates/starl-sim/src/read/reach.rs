@@ -18,6 +18,9 @@ const VICINITY: f64 = 0.075;
 /// Cells of the search; enough for cells of 25 mm in a hall of 25 m.
 const MOST_CELLS: f64 = 1_000_000.0;
 
+/// Straight lines are tried from so many starts.
+const STARTS_LOOKED_FROM: usize = 16;
+
 /// Looks at every way-point.
 pub(super) fn check(fleet: &Fleet, contents: &Contents, report: &Report) {
     let mut open: Vec<&Placed<WayPoint>> = contents.way_points.iter().collect();
@@ -30,9 +33,12 @@ pub(super) fn check(fleet: &Fleet, contents: &Contents, report: &Report) {
         for (place, stands) in contents.way_points.iter().zip(&mut standing) {
             *stands |= free.can_stand_near(place.value.position);
         }
-        // All the starts are one search: reachable is what any of the group can reach.
-        let reached = free.flood(group);
-        open.retain(|place| !free.near_reached(&reached, place.value.position));
+        open = free.not_in_sight(group, open);
+        if !open.is_empty() {
+            // All the starts are one search: reachable is what any of the group can reach.
+            let reached = free.flood(group);
+            open.retain(|place| !free.near_reached(&reached, place.value.position));
+        }
     }
     for (place, stands) in contents.way_points.iter().zip(standing) {
         let name = &place.value.name;
@@ -143,6 +149,37 @@ impl FreeSpace {
     /// Whether a body can be within the vicinity of this point.
     fn can_stand_near(&self, point: Point) -> bool {
         self.could_be_free(point, self.vicinity)
+    }
+
+    /// The way-points that are not at the end of a free straight line from a start or from another
+    /// such way-point; in most worlds there are none left, and the search can be saved.
+    fn not_in_sight<'p>(
+        &self,
+        group: &Group,
+        open: Vec<&'p Placed<WayPoint>>,
+    ) -> Vec<&'p Placed<WayPoint>> {
+        let mut from: Vec<Point> = group
+            .starts
+            .iter()
+            .take(STARTS_LOOKED_FROM)
+            .map(|pose| pose.position)
+            .collect();
+        let in_sight = |place: &&Placed<WayPoint>| {
+            let to = place.value.position.at_height(0.0);
+            let free = |from: &Point| {
+                let from = from.at_height(0.0);
+                !self
+                    .obstacles
+                    .blocks_body(from, to, self.radius, self.height)
+            };
+            let seen = self.could_be_free(to, 0.0) && from.iter().any(free);
+            if seen && from.len() < 2 * STARTS_LOOKED_FROM {
+                from.push(to);
+            }
+            seen
+        };
+        let (_, hidden): (Vec<_>, Vec<_>) = open.into_iter().partition(in_sight);
+        hidden
     }
 
     fn center(&self, column: usize, row: usize) -> Point {

@@ -16,7 +16,7 @@ pub(super) fn nearest<'a>(
 }
 
 /// `did you mean "loss"?`, or else what there is to choose from.
-pub(super) fn help<'a>(word: &str, candidates: &[&'a str], kind: &str) -> Option<String> {
+pub(super) fn help(word: &str, candidates: &[&str], kind: &str) -> Option<String> {
     if let Some(candidate) = nearest(word, candidates.iter().copied()) {
         return Some(format!("did you mean `{candidate}`?"));
     }

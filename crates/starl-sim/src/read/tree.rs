@@ -91,11 +91,13 @@ pub(super) fn parse_document(text: &str, start: Origin, report: &Report) -> Opti
 
 /// Parses the value of a command-line option: TOML, or a text without quotes.
 pub(super) fn parse_value(text: &str, start: Origin) -> Node {
-    let value = match DeValue::parse(text) {
-        Ok(value) if !matches!(value.get_ref(), DeValue::Datetime(_)) => {
-            convert(value.get_ref(), start)
-        }
-        _ => Value::Text(text.to_string()),
+    let parsed = DeValue::parse(text).map(|value| convert(value.get_ref(), start));
+    let digits = |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '_');
+    let value = match parsed {
+        // The parser takes `1_000s` for a number.
+        Ok(Value::Other("number", _)) if !text.chars().all(digits) => Value::Text(text.to_string()),
+        Err(_) | Ok(Value::Other("date", _)) => Value::Text(text.to_string()),
+        Ok(value) => value,
     };
     let mut node = Node {
         origin: start,
@@ -159,7 +161,10 @@ fn convert(value: &DeValue<'_>, start: Origin) -> Value {
             Err(_) => Value::Other("number", integer.to_string()),
         },
         // Too large a number becomes infinite, which no field takes.
-        DeValue::Float(float) => Value::Float(float.as_str().parse().unwrap_or(f64::NAN)),
+        DeValue::Float(float) => match float.as_str().parse() {
+            Ok(number) => Value::Float(number),
+            Err(_) => Value::Other("number", float.to_string()),
+        },
         DeValue::Boolean(flag) => Value::Flag(*flag),
         DeValue::Datetime(date) => Value::Other("date", date.to_string()),
         DeValue::Array(list) => Value::List(list.iter().map(|value| node(value, start)).collect()),

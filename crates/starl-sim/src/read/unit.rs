@@ -21,6 +21,8 @@ pub enum Dimension {
     Acceleration,
     /// Kilograms.
     Mass,
+    /// Kilograms per second: force over speed.
+    Drag,
     /// Bits per second.
     BitRate,
     /// Events per second.
@@ -40,6 +42,7 @@ impl Dimension {
             Dimension::TurnRate => "a rate of turn",
             Dimension::Acceleration => "an acceleration",
             Dimension::Mass => "a mass",
+            Dimension::Drag => "a linear drag",
             Dimension::BitRate => "a bit rate",
             Dimension::Rate => "a rate",
             Dimension::Ratio => "a ratio",
@@ -56,6 +59,7 @@ impl Dimension {
             Dimension::TurnRate => "\"50deg/s\" or \"0.9rad/s\"",
             Dimension::Acceleration => "\"2m/s2\"",
             Dimension::Mass => "\"0.5kg\" or \"500g\"",
+            Dimension::Drag => "\"0.3kg/s\"",
             Dimension::BitRate => "\"1Mbit/s\" or \"250kbit/s\"",
             Dimension::Rate => "\"0.1/s\" or \"2/min\"",
             Dimension::Ratio => "0.05 or \"5%\"",
@@ -117,6 +121,7 @@ const UNITS: &[Unit] = &[
     unit("m/s2", Dimension::Acceleration, 1.0, 1.0),
     unit("g", Dimension::Mass, 1.0, 1e3),
     unit("kg", Dimension::Mass, 1.0, 1.0),
+    unit("kg/s", Dimension::Drag, 1.0, 1.0),
     unit("bit/s", Dimension::BitRate, 1.0, 1.0),
     unit("kbit/s", Dimension::BitRate, 1e3, 1.0),
     unit("Mbit/s", Dimension::BitRate, 1e6, 1.0),

@@ -26,6 +26,7 @@ pub(super) fn text(node: &Node) -> Result<String, Complaint> {
         ),
         Value::Text(text) => Ok(text.clone()),
         Value::List(_) | Value::Table(_) => not_a(node, "a text", "write it in quotes"),
+        Value::Other(..) => not_a(node, "a text", "write it in quotes"),
         other => {
             let plain = other.describe();
             complain(
@@ -178,9 +179,14 @@ fn write_such(dimension: Dimension) -> String {
 }
 
 /// A list of coordinates, each a bare number in SI or a quantity.
-fn coordinates(node: &Node, dimension: Dimension, what: &str) -> Result<Vec<f64>, Complaint> {
+fn coordinates(
+    node: &Node,
+    dimension: Dimension,
+    what: &str,
+    help: &str,
+) -> Result<Vec<f64>, Complaint> {
     let Value::List(list) = &node.value else {
-        return not_a(node, what, format!("write {what}"));
+        return not_a(node, what, help);
     };
     let number = |node: &Node| match &node.value {
         // In lists, numbers without a unit are SI.
@@ -210,55 +216,31 @@ pub(super) fn point(
     dimension: Dimension,
     spatial: bool,
 ) -> Result<(Point, usize), Complaint> {
-    let what = match (dimension, spatial) {
-        (Dimension::Speed, _) => "a velocity [x, y] or [x, y, z] in metres per second",
-        (_, true) => "a point [x, y] or [x, y, z] in metres",
-        (_, false) => "a point [x, y] in metres",
+    let (what, help) = match (dimension, spatial) {
+        (Dimension::Speed, _) => (
+            "a velocity",
+            "write [x, y] or [x, y, z] in metres per second",
+        ),
+        (_, true) => ("a point", "write [x, y] or [x, y, z] in metres"),
+        (_, false) => ("a point", "write [x, y] in metres"),
     };
-    match coordinates(node, dimension, what)?.as_slice() {
+    match coordinates(node, dimension, what, help)?.as_slice() {
         &[x, y] => Ok((Point::planar(x, y), 2)),
         &[x, y, z] if spatial => Ok((Point::new(x, y, z), 3)),
-        others => complain(
-            format!("a list of {} is not {what}", others.len()),
-            format!("write {what}"),
-        ),
+        others => complain(format!("a list of {} is not {what}", others.len()), help),
     }
 }
 
 /// `[low, high]`.
 pub(super) fn heights(node: &Node) -> Result<(f64, f64), Complaint> {
-    let what = "a pair of heights [low, high] in metres";
-    match coordinates(node, Dimension::Length, what)?.as_slice() {
+    let (what, help) = ("a pair of heights", "write [low, high] in metres");
+    match coordinates(node, Dimension::Length, what, help)?.as_slice() {
         &[low, high] if low < high => Ok((low, high)),
         &[_, _] => complain(
             "the lower height is not below the upper".to_string(),
             "swap them",
         ),
-        others => complain(
-            format!("a list of {} is not {what}", others.len()),
-            format!("write {what}"),
-        ),
-    }
-}
-
-/// A quantity of whatever dimension, or a bare number in SI; for tables of a model's own.
-pub(super) fn any_quantity(node: &Node) -> Result<f64, Complaint> {
-    let help = "write a number in SI units, or a quantity such as \"0.2m\"";
-    match &node.value {
-        Value::Integer(number) => ranged(*number as f64, node),
-        Value::Float(number) => ranged(*number, node),
-        Value::Text(text) => match Quantity::split(text) {
-            Some(quantity) if quantity.unit.is_empty() => ranged(quantity.number, node),
-            Some(quantity) => match quantity.in_si() {
-                Some((_, number)) => ranged(number, node),
-                None => complain(
-                    format!("there is no unit {:?}, in {text:?}", quantity.unit),
-                    help,
-                ),
-            },
-            None => not_a(node, "a number", help),
-        },
-        _ => not_a(node, "a number", help),
+        others => complain(format!("a list of {} is not {what}", others.len()), help),
     }
 }
 

@@ -24,8 +24,8 @@ pub(super) struct Contents {
 /// What is in the world.
 pub(super) fn read(table: Section<'_>, names: &Names, files: &Recorder<'_>) -> Contents {
     let mut contents = Contents {
-        bounds: table.optional_table("bounds", |table| start::area(table)),
-        start_area: table.optional_table("start_area", |table| start::area(table)),
+        bounds: table.optional_table("bounds", start::area),
+        start_area: table.optional_table("start_area", start::area),
         ..Contents::default()
     };
     for (path, origin, field) in table.texts("files") {

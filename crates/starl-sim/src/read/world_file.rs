@@ -3,6 +3,8 @@
 //! Lengths are in millimetres, headings in degrees, times in milliseconds; see
 //! `docs/reference/world-files.md`. Errors name the line and the column of the value.
 
+mod word;
+
 use super::names::Names;
 use super::obstacle::explain;
 use super::report::{Origin, Report};
@@ -10,6 +12,7 @@ use super::world::Contents;
 use super::{Placed, suggest};
 use crate::scenario::{Thing, WorldObstacle};
 use starl_core::{ConvexPolygon, Duration, Obstacle, Point, Pose, Time, WayPoint, math};
+use word::{Word, words};
 
 /// Adds what is in a file to the world.
 pub(super) fn read(
@@ -58,32 +61,6 @@ pub(super) fn read(
         }
         offset += line.len() + 1;
     }
-}
-
-/// A value of a line, without blanks around it, and where it is.
-#[derive(Clone, Copy)]
-struct Word<'a> {
-    text: &'a str,
-    origin: Origin,
-}
-
-/// The values between separators.
-fn words(line: &str, begin: Origin, separator: char) -> Vec<Word<'_>> {
-    let mut offset = begin.offset;
-    line.split(separator)
-        .map(|part| {
-            let blank = (part.len() - part.trim_start().len()) as u32;
-            let word = Word {
-                text: part.trim(),
-                origin: Origin {
-                    offset: offset + blank,
-                    ..begin
-                },
-            };
-            offset += part.len() as u32 + 1;
-            word
-        })
-        .collect()
 }
 
 struct File<'a> {

@@ -5,6 +5,7 @@
 //! being documented, nor documented without being read.
 
 mod faults;
+mod motion;
 mod network;
 mod robots;
 mod settings;

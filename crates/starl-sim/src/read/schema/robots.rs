@@ -38,7 +38,7 @@ pub(super) const ROBOTS: &[Field] = &[
     field(
         "parameters",
         Kind::Parameters,
-        Default::Value("none"),
+        Default::Word("none"),
         "Handed to their program, besides the scenario's `parameters` and before them.",
     ),
     tables(
@@ -75,7 +75,7 @@ pub(super) const ROBOTS: &[Field] = &[
     field(
         "model_parameters",
         Kind::ModelParameters,
-        Default::Value("the model's own"),
+        Default::Depends("the model's own"),
         "Changes the model; see `models.md` for the names.",
     ),
 ];

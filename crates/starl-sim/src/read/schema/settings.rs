@@ -38,7 +38,7 @@ pub const SCENARIO: &[Field] = &[
     field(
         "parameters",
         Kind::Parameters,
-        Default::Value("none"),
+        Default::Word("none"),
         "Handed to every program, unless its group says otherwise.",
     ),
     table("world", world::WORLD, "What robots move in."),
@@ -57,7 +57,7 @@ pub const SCENARIO: &[Field] = &[
     ),
     table(
         "motion",
-        MOTION,
+        motion::MOTION,
         "How exactly robots move, and how they keep clear of each other.",
     ),
     table(
@@ -85,7 +85,7 @@ const PHYSICS: &[Field] = &[
     field(
         "step",
         PERIOD,
-        Default::Value("20ms"),
+        Default::Value("25ms"),
         "The physics step. A message takes at least until the next one.",
     ),
     field(
@@ -120,60 +120,6 @@ const POSITIONING: &[Field] = &[
         Kind::Quantity(Dimension::Speed, Range::NotNegative),
         Default::Value("0m/s"),
         "Standard deviation of each component of an estimated velocity.",
-    ),
-];
-
-const MOTION: &[Field] = &[
-    field(
-        "speed_noise",
-        RATIO,
-        Default::Value("0"),
-        "Standard deviation of the relative error of driven speeds.",
-    ),
-    field(
-        "turn_noise",
-        RATIO,
-        Default::Value("0"),
-        "Standard deviation of the relative error of rates of turn.",
-    ),
-    field(
-        "noise_period",
-        PERIOD,
-        Default::Value("500ms"),
-        "How long one draw of these errors lasts.",
-    ),
-    field(
-        "avoidance",
-        Kind::Switch(AVOIDANCE),
-        Default::Value("true"),
-        "Reciprocal avoidance of other robots; `false` switches it off.",
-    ),
-];
-
-const AVOIDANCE: &[Field] = &[
-    field(
-        "margin",
-        LENGTH,
-        Default::Value("30mm"),
-        "Room that each robot keeps on its side of the border between two bodies.",
-    ),
-    field(
-        "vertical_clearance",
-        LENGTH,
-        Default::Value("100mm"),
-        "Free height at which robots above one another need not avoid each other in the plane.",
-    ),
-    field(
-        "patience",
-        PERIOD,
-        Default::Value("800ms"),
-        "Time without progress, while a neighbour is in the way, after which a robot may yield.",
-    ),
-    field(
-        "longest_yield",
-        PERIOD,
-        Default::Value("6s"),
-        "Longest time a robot yields before it tries again.",
     ),
 ];
 
