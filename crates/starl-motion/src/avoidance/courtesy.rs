@@ -14,9 +14,11 @@ use starl_core::{Duration, Point, Random, Time};
 const SPARE: f64 = 0.1;
 /// How much farther out the next robot waits, as a part of the room that two bodies need.
 const STAGGER: f64 = 0.5;
+/// No more than so many robots ahead of it make a robot wait farther out.
+const MOST_AHEAD: u32 = 4;
 /// Bounds of the time a robot waits, seconds.
 const WAIT: (f64, f64) = (6.0, 12.0);
-/// Bounds of the time it then presses on, seconds.
+/// Bounds of the time it then presses on, seconds, beyond the time it takes to get there.
 const PRESS: (f64, f64) = (3.0, 6.0);
 
 /// How long a robot has waited.
@@ -33,6 +35,7 @@ impl Courtesy {
     pub fn wait(
         &mut self,
         body: &Body,
+        cruise_speed: f64,
         gap: f64,
         position: Point,
         target: Point,
@@ -52,7 +55,7 @@ impl Courtesy {
             if its_distance < distance {
                 nearer += 1;
                 let both = body.radius + neighbour.radius + gap;
-                taken |= its_distance < both;
+                taken |= its_distance < both - gap;
                 room = if both > room { both } else { room };
             }
         }
@@ -66,10 +69,11 @@ impl Courtesy {
         let until = *self.until.get_or_insert_with(|| seconds(WAIT, random));
         if now >= until {
             self.until = None;
-            self.pressing = Some(seconds(PRESS, random));
+            let way = Duration::from_seconds_f64(distance / cruise_speed.max(0.01));
+            self.pressing = Some(seconds(PRESS, random) + way);
             return None;
         }
-        let ring = room * (1.0 + STAGGER * f64::from(nearer - 1)) + SPARE;
+        let ring = room * (1.0 + STAGGER * f64::from(nearer.min(MOST_AHEAD) - 1)) + SPARE;
         Some(target + from_target * (ring / distance))
     }
 }

@@ -49,8 +49,15 @@ const LEAST_STEP: f64 = 0.2;
 /// turning round.
 const STEP_BACK: f64 = 0.12;
 
-/// A robot on wheels that heads for a border crawls at this part of its cruise speed while it turns.
+/// A robot that may be on wheels and heads for a border crawls at this part of its cruise speed, to
+/// find out whether it is.
 const CRAWL: f64 = 0.02;
+
+/// Below this part of its cruise speed a car may still choose its direction.
+const CREEP: f64 = 0.05;
+
+/// A robot that has turned through this angle without moving sideways is on wheels, radians.
+const TURNED: f64 = 0.3;
 
 /// Slower motion says nothing of how a robot moves, metres per second.
 const SIDLING_SPEED: f64 = 0.02;
@@ -66,6 +73,8 @@ pub struct Avoidance {
     period: f64,
     /// Whether it has been seen to move sideways: then its heading says nothing of where it goes.
     sidles: bool,
+    /// Angle it has been seen to turn through in all, radians.
+    turned: f64,
     courtesy: Courtesy,
     yielding: Yielding,
 }
@@ -79,6 +88,7 @@ impl Avoidance {
             last: None,
             period,
             sidles: false,
+            turned: 0.0,
             courtesy: Courtesy::default(),
             yielding: Yielding::default(),
         }
@@ -113,7 +123,7 @@ impl Avoidance {
         random: &mut Random,
     ) -> Goal {
         let elapsed = self.note_time(estimate.at);
-        self.note_motion(estimate);
+        self.note_motion(estimate, elapsed);
         let pace = Pace::new(limits, self.period);
         let height = self.height(body, &pace, estimate, goal.target.z, neighbours);
         // From here on only robots at the same height count.
@@ -132,6 +142,7 @@ impl Avoidance {
         if destination == goal.target
             && let Some(place) = self.courtesy.wait(
                 body,
+                pace.cruise_speed,
                 gap,
                 position,
                 goal.target,
@@ -169,7 +180,9 @@ impl Avoidance {
         if let Some(in_the_way) = in_the_way {
             velocity = passing::velocity(&cell, &in_the_way, wish, velocity);
         }
-        let hindered = velocity != wish && on_course;
+        let ahead = velocity.normalized().unwrap_or(Point::ZERO);
+        let limit = self.speed_limit(body, &pace, estimate, &cell, ahead);
+        let hindered = on_course && (velocity != wish || limit < 0.5 * wish.planar_length());
         let scene = yielding::Scene {
             body,
             position,
@@ -188,22 +201,14 @@ impl Avoidance {
             random,
         );
 
-        let ahead = velocity.normalized().unwrap_or(Point::ZERO);
         if velocity == wish && on_course {
-            let speed_limit = smaller(
-                goal.speed_limit,
-                self.speed_limit(body, &pace, estimate, &cell, ahead),
-            );
             return Goal {
                 target: goal.target.at_height(height),
                 next: goal.next,
-                speed_limit,
+                speed_limit: smaller(goal.speed_limit, limit),
             };
         }
-        let speed = smaller(
-            velocity.planar_length(),
-            self.speed_limit(body, &pace, estimate, &cell, ahead),
-        );
+        let speed = smaller(velocity.planar_length(), limit);
         Goal {
             target: (position + ahead * self.step(body, estimate, ahead, speed)).at_height(height),
             next: None,
@@ -277,12 +282,20 @@ impl Avoidance {
         }
         // On wheels: until it has turned, the robot goes where it is heading now.
         let (sine, cosine) = math::sincos(estimate.pose.yaw);
-        let backwards = cosine * ahead.x + sine * ahead.y < 0.0;
-        let sign = if backwards { -1.0 } else { 1.0 };
-        let course = Point::planar(cosine, sine) * sign;
+        let heading = Point::planar(cosine, sine);
+        if pace.turn_radius > 0.0 {
+            return car_speed_limit(pace, estimate, cell, heading);
+        }
+        let backwards = heading.dot(ahead) < 0.0;
+        let course = if backwards { -heading } else { heading };
         let between = (course + ahead).normalized().unwrap_or(course);
         let speed = smaller(speed, smaller(cell.speed(course), cell.speed(between)));
-        larger(speed, CRAWL * pace.cruise_speed)
+        let known_to_roll = self.turned > TURNED;
+        if known_to_roll {
+            speed
+        } else {
+            larger(speed, CRAWL * pace.cruise_speed)
+        }
     }
 
     /// How far ahead to put the point to track, metres.
@@ -296,8 +309,9 @@ impl Avoidance {
     }
 
     /// Takes note of a ground robot that moves otherwise than along its heading.
-    fn note_motion(&mut self, estimate: &Estimate) {
+    fn note_motion(&mut self, estimate: &Estimate, elapsed: f64) {
         let velocity = estimate.twist.linear.at_height(0.0);
+        self.turned += estimate.twist.yaw.abs() * elapsed;
         let (sine, cosine) = math::sincos(estimate.pose.yaw);
         let across = velocity.cross_planar(Point::planar(cosine, sine)).abs();
         let speed = velocity.planar_length();
@@ -313,6 +327,8 @@ impl Avoidance {
 /// How a robot stops and how far ahead it has to think.
 #[derive(Clone, Copy, Debug)]
 struct Pace {
+    /// Metres; 0 for a robot that turns on the spot.
+    turn_radius: f64,
     cruise_speed: f64,
     /// Seconds for which its speed carries on when it brakes: stopping distance over cruise speed.
     /// As the distance grows faster than the speed, or just as fast, this does for lower speeds too.
@@ -336,6 +352,7 @@ impl Pace {
         let horizon = PERIODS_AHEAD * period + 0.45 * braking_time;
         let room_needed = cruise_speed * (braking_time + horizon);
         Pace {
+            turn_radius: limits.turn_radius,
             cruise_speed,
             braking_time,
             horizon,
@@ -357,6 +374,16 @@ impl Pace {
     fn speed_towards(&self, normal: Point, room: f64, estimate: &Estimate) -> f64 {
         let coast = larger(estimate.twist.linear.dot(normal), 0.0) * self.braking_time;
         smaller(larger(room - coast, 0.0), room) / self.horizon
+    }
+}
+
+/// The same for a robot with a turning radius: whatever it is told, it goes on along its course, and
+/// from a stand forwards or backwards as its tracker sees fit.
+fn car_speed_limit(pace: &Pace, estimate: &Estimate, cell: &Cell, heading: Point) -> f64 {
+    let velocity = estimate.twist.linear.at_height(0.0);
+    match velocity.normalized() {
+        Some(course) if velocity.planar_length() > CREEP * pace.cruise_speed => cell.speed(course),
+        _ => smaller(cell.speed(heading), cell.speed(-heading)),
     }
 }
 

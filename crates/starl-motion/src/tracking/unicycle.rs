@@ -115,19 +115,16 @@ impl Gains {
 
     /// Whether to turn on the spot, with hysteresis.
     fn turns(&self, tracking: &mut Tracking, bearing: f64, distance: f64, crawls: bool) -> bool {
-        let start = if crawls {
+        let limit = if crawls {
             // No arc that slow would ever get it round.
-            radians(12.0)
+            radians(2.0)
+        } else if tracking.phase == TURNING {
+            radians(8.0)
         } else if distance < BACK_UP {
             // So near, an arc ends within tolerance although the angle is large.
             radians(55.0)
         } else {
             radians(30.0)
-        };
-        let limit = if tracking.phase == TURNING {
-            radians(8.0)
-        } else {
-            start
         };
         let turns = fabs(bearing) > limit;
         tracking.phase = if turns { TURNING } else { 0 };
