@@ -5,13 +5,16 @@
 //! motors stick, its sensors freeze or its variables are overwritten: the properties are promised for
 //! actuators and positioning that work.
 
+mod command;
+
 use super::health::{Health, Needs};
 use super::report::Report;
 use super::track::{Tolerance, Track};
 use super::{Checker, Setting, Violation};
 use crate::scenario::Scenario;
-use starl_core::event::{Event, Value};
-use starl_core::motion::{Body, Obstacles};
+use command::{Command, Phase};
+use starl_core::event::Event;
+use starl_core::motion::Body;
 use starl_core::{Duration, Point, Port, Record, RobotId, Time};
 use std::collections::VecDeque;
 
@@ -41,30 +44,6 @@ struct Watch {
     track: Track,
     /// At most one for each instance.
     commands: Vec<Command>,
-}
-
-#[derive(Clone, Debug)]
-struct Command {
-    port: Port,
-    started: Time,
-    /// Where the robot is to go, which it can.
-    target: Point,
-    vicinity: f64,
-    unsafe_set: Obstacles,
-    phase: Phase,
-    /// Where its safety was last judged.
-    judged: Option<Point>,
-    /// The robot was this far from the unsafe set, less what it has moved since, metres.
-    clearance: f64,
-    entered: bool,
-    overdue: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Phase {
-    Active,
-    /// The robot says that it has entered the unsafe set; the next pose will show.
-    Failed,
 }
 
 impl ReachAvoid {
@@ -226,59 +205,5 @@ impl Checker for ReachAvoid {
 
     fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
         self.check_progress(now, violations);
-    }
-}
-
-impl Command {
-    /// The command that a `start` gives; none if it lacks a detail.
-    fn started(report: &Report<'_>, body: &Body) -> Option<Command> {
-        let (
-            Some(&Value::Point(target)),
-            Some(&Value::Float(vicinity)),
-            Some(Value::Obstacles(unsafe_set)),
-        ) = (
-            report.get("target"),
-            report.get("vicinity"),
-            report.get("unsafe_set"),
-        )
-        else {
-            return None;
-        };
-        Some(Command {
-            port: report.port,
-            started: report.at,
-            target: body.reachable(target),
-            vicinity,
-            unsafe_set: unsafe_set.clone(),
-            phase: Phase::Active,
-            judged: None,
-            clearance: 0.0,
-            entered: false,
-            overdue: false,
-        })
-    }
-
-    /// What is wrong if the robot has now entered the unsafe set; said once. The way between two poses
-    /// is taken as straight. The set is looked at only when the robot can have come to it.
-    fn check_safety(&mut self, at: Time, robot: RobotId, position: Point) -> Option<String> {
-        let from = self.judged.replace(position).unwrap_or(position);
-        self.clearance -= from.distance(position);
-        if self.entered || self.clearance > 0.0 {
-            return None;
-        }
-        self.clearance = f64::INFINITY;
-        for (index, obstacle) in self.unsafe_set.iter().enumerate() {
-            if obstacle.blocks_segment(from, position, 0.0) {
-                self.entered = true;
-                let way = at.since(self.started);
-                return Some(format!(
-                    "robot {robot} went from {from} to {position}, into obstacle {index} of the unsafe \
-                     set of the command to {} that it was given {way} before",
-                    self.target,
-                ));
-            }
-            self.clearance = self.clearance.min(obstacle.distance(position));
-        }
-        None
     }
 }
