@@ -1,14 +1,15 @@
-//! A robot's cell: the convex part of the plane in which it may stop.
+//! A robot's cell: the velocities with which its stopping point stays on its own side of every border.
 //!
-//! Every neighbour gives one half-plane. Its border is perpendicular to the line between the two
-//! centres and splits the gap between the two bodies, not the distance of their centres, so that
-//! robots of unequal size get equal room. The nearest point of the cell is found by the incremental
-//! method for convex programs in the plane (Seidel 1991, "Small-dimensional linear programming and
-//! convex hulls made easy"; used for velocities by van den Berg et al. 2011), in the order given
-//! instead of a random one: there are few half-planes and the answer must not depend on chance.
+//! Invariant: standing still is in the cell unless the robot is too near to a neighbour already, and
+//! then moving away from it is. Every border is a half-plane; the velocity nearest to a wish is found
+//! by the incremental method for convex programs in the plane (Seidel 1991, "Small-dimensional linear
+//! programming and convex hulls made easy"; used for the velocities of robots by van den Berg, Guy,
+//! Lin and Manocha 2011), in the order given instead of a random one: borders are few, and the answer
+//! must not depend on chance.
 
+use super::plane::{larger, smaller};
 use smallvec::SmallVec;
-use starl_core::{Point, math};
+use starl_core::Point;
 
 /// The border towards one neighbour or obstacle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,8 +18,8 @@ pub(super) struct Border {
     pub normal: Point,
     /// Metres per second the robot may have that way; negative if it must move away.
     pub speed: f64,
-    /// Place of the neighbour in the list handed in.
-    pub neighbour: u32,
+    /// Distance of the neighbour from the robot's target, metres; infinite for an obstacle.
+    pub from_target: f64,
 }
 
 /// Borders relative to the robot's centre.
@@ -117,67 +118,5 @@ impl Cell {
             }
         }
         larger(least, 0.0)
-    }
-}
-
-/// The displacement in the plane turned to the left by an angle in radians.
-pub(super) fn turned(vector: Point, angle: f64) -> Point {
-    let (sine, cosine) = math::sincos(angle);
-    Point::planar(
-        vector.x * cosine - vector.y * sine,
-        vector.x * sine + vector.y * cosine,
-    )
-}
-
-/// The smaller number.
-pub(super) fn smaller(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
-}
-
-/// The larger number.
-pub(super) fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-/// The shortest displacement in the plane from the segment between the origin and `tip` to the one
-/// between `start` and `start + way`; zero where they cross.
-pub(super) fn between_segments(tip: Point, start: Point, way: Point) -> Point {
-    let turn = tip.cross_planar(way);
-    if turn != 0.0 {
-        // Where the lines cross, as parts of both segments.
-        let (here, there) = (
-            start.cross_planar(way) / turn,
-            start.cross_planar(tip) / turn,
-        );
-        if (0.0..=1.0).contains(&here) && (0.0..=1.0).contains(&there) {
-            return Point::ZERO;
-        }
-    }
-    let end = start + way;
-    let candidates = [
-        start - on_segment(start, Point::ZERO, tip),
-        end - on_segment(end, Point::ZERO, tip),
-        on_segment(Point::ZERO, start, way),
-        on_segment(tip, start, way) - tip,
-    ];
-    let mut best = candidates[0];
-    for &other in &candidates[1..] {
-        if other.length_squared() < best.length_squared() {
-            best = other;
-        }
-    }
-    best
-}
-
-/// The point of the segment from `start` to `start + way` nearest to `p`.
-fn on_segment(p: Point, start: Point, way: Point) -> Point {
-    let squared = way.length_squared();
-    let along = (p - start).dot(way);
-    if along <= 0.0 || squared <= 0.0 {
-        start
-    } else if along >= squared {
-        start + way
-    } else {
-        start + way * (along / squared)
     }
 }

@@ -6,6 +6,7 @@
 //! passes by, the wait is short. As the neighbour may stand there for good, a robot waits no longer
 //! than a random time before it presses on for another.
 
+use super::plane::larger;
 use crate::pilot::Neighbour;
 use starl_core::motion::Body;
 use starl_core::{Duration, Point, Random, Time};
@@ -30,50 +31,58 @@ pub(super) struct Courtesy {
     pressing: Option<Time>,
 }
 
+/// A robot and the target that it may have to wait for.
+pub(super) struct Queue<'a> {
+    pub body: &'a Body,
+    /// Metres per second.
+    pub cruise_speed: f64,
+    /// Gap to keep between bodies, metres.
+    pub gap: f64,
+    pub position: Point,
+    pub target: Point,
+    pub neighbours: &'a [Neighbour],
+}
+
+impl Queue<'_> {
+    /// How far from the target to wait, metres; none if it is free, or this robot is the nearest.
+    fn ring(&self, distance: f64) -> Option<f64> {
+        let (mut taken, mut nearer, mut room) = (false, 0, 0.0);
+        for neighbour in self.neighbours {
+            let its_distance = neighbour.position.planar_distance(self.target);
+            if its_distance < distance {
+                let radii = self.body.radius + neighbour.radius;
+                nearer += 1;
+                taken |= its_distance < radii;
+                room = larger(room, radii + self.gap);
+            }
+        }
+        let others = f64::from(u32::min(nearer, MOST_AHEAD)) - 1.0;
+        taken.then_some(room * (1.0 + STAGGER * others) + SPARE)
+    }
+}
+
 impl Courtesy {
-    /// Where to wait for the target to become free; none if it need not.
-    pub fn wait(
-        &mut self,
-        body: &Body,
-        cruise_speed: f64,
-        gap: f64,
-        position: Point,
-        target: Point,
-        neighbours: &[Neighbour],
-        now: Time,
-        random: &mut Random,
-    ) -> Option<Point> {
+    /// Where to wait for the target to become free; none if the robot need not wait.
+    pub fn wait(&mut self, queue: &Queue, now: Time, random: &mut Random) -> Option<Point> {
         if self.pressing.is_some_and(|until| now < until) {
             return None;
         }
         self.pressing = None;
-        let from_target = (position - target).at_height(0.0);
-        let distance = from_target.planar_length();
-        let (mut taken, mut nearer, mut room) = (false, 0u32, 0.0);
-        for neighbour in neighbours {
-            let its_distance = neighbour.position.planar_distance(target);
-            if its_distance < distance {
-                nearer += 1;
-                let both = body.radius + neighbour.radius + gap;
-                taken |= its_distance < both - gap;
-                room = if both > room { both } else { room };
-            }
-        }
-        if !taken || distance <= 0.0 {
+        let out = (queue.position - queue.target).at_height(0.0);
+        let distance = out.planar_length();
+        let Some(ring) = queue.ring(distance) else {
             self.until = None;
             return None;
-        }
-        let seconds = |(low, high): (f64, f64), random: &mut Random| {
-            now + Duration::from_seconds_f64(random.between(low, high))
         };
-        let until = *self.until.get_or_insert_with(|| seconds(WAIT, random));
+        let mut after =
+            |(low, high): (f64, f64)| now + Duration::from_seconds_f64(random.between(low, high));
+        let until = *self.until.get_or_insert_with(|| after(WAIT));
         if now >= until {
+            let way = Duration::from_seconds_f64(distance / larger(queue.cruise_speed, 0.01));
+            self.pressing = Some(after(PRESS) + way);
             self.until = None;
-            let way = Duration::from_seconds_f64(distance / cruise_speed.max(0.01));
-            self.pressing = Some(seconds(PRESS, random) + way);
             return None;
         }
-        let ring = room * (1.0 + STAGGER * f64::from(nearer.min(MOST_AHEAD) - 1)) + SPARE;
-        Some(target + from_target * (ring / distance))
+        Some(queue.target + out * (ring / distance))
     }
 }

@@ -4,8 +4,9 @@
 //! which both judge alike. A robot does not climb or sink into that clearance, each taking half of
 //! the height that is left, unless it has room beside the other.
 
-use super::cell::{larger, smaller};
-use super::{Avoidance, Pace};
+use super::Avoidance;
+use super::pace::Pace;
+use super::plane::{larger, smaller};
 use crate::pilot::Neighbour;
 use starl_core::motion::{Body, Estimate};
 

@@ -7,7 +7,8 @@
 //! safety. A neighbour that stands where the robot wants to go cannot be passed: there the robot
 //! waits, and yields in the end.
 
-use super::cell::{Cell, smaller, turned};
+use super::cell::Cell;
+use super::plane::{smaller, turned};
 use crate::pilot::Neighbour;
 use starl_core::motion::Body;
 use starl_core::{Point, math};
@@ -17,18 +18,10 @@ pub(super) const AHEAD: f64 = 2.0;
 /// The left is taken if the neighbour's centre is to the right of the way by this part of the room
 /// needed.
 const LEFT: f64 = 0.4;
+/// A neighbour that goes the same way is followed unless it is slower by this part of the speed.
+const CLOSING: f64 = 0.3;
 /// Passing on a side is worth while if it leaves this part of the speed.
 const WORTH: f64 = 0.4;
-
-/// What is passed, and by whom.
-pub(super) struct Passing<'a> {
-    pub body: &'a Body,
-    pub position: Point,
-    pub destination: Point,
-    pub neighbours: &'a [Neighbour],
-    /// Gap to keep between the bodies, metres.
-    pub gap: f64,
-}
 
 /// A neighbour that is in the way.
 pub(super) struct InTheWay {
@@ -60,36 +53,37 @@ pub(super) fn velocity(cell: &Cell, neighbour: &InTheWay, wish: Point, velocity:
     velocity
 }
 
-impl Passing<'_> {
-    /// The neighbour soonest run into on the straight way.
-    pub fn in_the_way(&self, wish: Point) -> Option<InTheWay> {
-        let speed = wish.planar_length();
-        if speed <= 0.0 {
-            return None;
-        }
-        let mut soonest = speed * AHEAD;
-        let mut found = None;
-        let way = self.destination.planar_distance(self.position);
-        for neighbour in self.neighbours {
-            let offset = (neighbour.position - self.position).at_height(0.0);
-            let room = self.body.radius + neighbour.radius + self.gap;
-            let along = wish.dot(offset) / speed;
-            let beside = wish.cross_planar(offset).abs() / speed;
-            let closing = speed - neighbour.velocity.dot(wish) / speed;
-            let stands_there = neighbour.position.planar_distance(self.destination) < room;
-            if along <= 0.0
-                || along >= way
-                || beside >= room
-                || closing <= 0.3 * speed
-                || stands_there
-            {
-                continue;
-            }
-            let until = offset.planar_length() - room;
-            if until < soonest {
-                (soonest, found) = (until, Some(InTheWay { offset, room }));
-            }
-        }
-        found
+/// The neighbour soonest run into on the straight way to the destination, when the bodies are to keep
+/// `gap` metres apart.
+pub(super) fn in_the_way(
+    body: &Body,
+    gap: f64,
+    way: Point,
+    wish: Point,
+    position: Point,
+    neighbours: &[Neighbour],
+) -> Option<InTheWay> {
+    let speed = wish.planar_length();
+    if speed <= 0.0 {
+        return None;
     }
+    let mut soonest = speed * AHEAD;
+    let mut found = None;
+    for neighbour in neighbours {
+        let offset = (neighbour.position - position).at_height(0.0);
+        let room = body.radius + neighbour.radius + gap;
+        let until = offset.planar_length() - room;
+        if until >= soonest {
+            continue;
+        }
+        let along = wish.dot(offset) / speed;
+        let beside = wish.cross_planar(offset).abs() / speed;
+        let closing = speed - neighbour.velocity.dot(wish) / speed;
+        let ahead = along > 0.0 && along < way.planar_length() && beside < room;
+        let stands_there = offset.planar_distance(way) < room;
+        if ahead && closing > CLOSING * speed && !stands_there {
+            (soonest, found) = (until, Some(InTheWay { offset, room }));
+        }
+    }
+    found
 }

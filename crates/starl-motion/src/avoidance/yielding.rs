@@ -9,9 +9,10 @@
 //! target mostly stands its ground: of robots that want the same point, the others make way.
 
 use super::Options;
-use super::cell::{Cell, larger, smaller, turned};
-use crate::pilot::Neighbour;
-use starl_core::motion::Body;
+use super::cell::Cell;
+use super::pace::Pace;
+use super::plane::{larger, smaller, turned};
+use starl_core::motion::{Body, Estimate};
 use starl_core::{Duration, Point, Random, Time, math};
 
 /// Coming nearer to the target by this counts as progress, metres.
@@ -26,20 +27,22 @@ const SLOWLY: f64 = 1.5;
 const TURNING: f64 = 3.0;
 /// Time without progress counts for this part while the robot moves: turning round, or passing.
 const MOVING: f64 = 0.25;
+/// Probability that the robot that is nearest to its target yields.
+const FIRST_YIELDS: f64 = 0.25;
+/// Probability that another one yields.
+const OTHERS_YIELD: f64 = 0.75;
 /// After this many vain attempts times grow no further.
 const MOST_LEVELS: u32 = 4;
 
 /// What a robot sees when it judges its progress.
 pub(super) struct Scene<'a> {
     pub body: &'a Body,
-    pub position: Point,
-    /// Whether it drives or turns.
-    pub moves: bool,
-    /// Metres per second.
-    pub cruise_speed: f64,
+    pub pace: &'a Pace,
+    pub estimate: &'a Estimate,
     pub target: Point,
-    pub neighbours: &'a [Neighbour],
     pub cell: &'a Cell,
+    /// Whether something keeps it from going to its target as it would like to.
+    pub hindered: bool,
 }
 
 /// A place off the course, and how long to stay there.
@@ -57,9 +60,13 @@ struct Detour {
 #[derive(Clone, Debug)]
 pub(super) struct Yielding {
     target: Option<Point>,
+    /// Least distance to the target on this attempt, metres.
     nearest: f64,
+    /// Least distance when the back-off was last reset, metres.
     record: f64,
+    /// Seconds without progress.
     stuck: f64,
+    /// Vain attempts since the last good progress.
     level: u32,
     detour: Option<Detour>,
 }
@@ -81,11 +88,10 @@ impl Yielding {
     /// Where to go now: the target, or the place of a detour.
     pub fn destination(&mut self, position: Point, target: Point, now: Time) -> Point {
         if self.target != Some(target) {
-            self.target = Some(target);
-            self.nearest = f64::INFINITY;
-            self.record = f64::INFINITY;
-            self.stuck = 0.0;
-            self.detour = None;
+            *self = Yielding {
+                target: Some(target),
+                ..Yielding::default()
+            };
         }
         let Some(detour) = &mut self.detour else {
             return target;
@@ -103,59 +109,58 @@ impl Yielding {
         target
     }
 
+    /// Whether the robot is on no detour from its way to the target.
+    pub fn on_course(&self, target: Point) -> bool {
+        self.detour.is_none() || self.target != Some(target)
+    }
+
     /// Nobody is near.
     pub fn unhindered(&mut self) {
         self.stuck = 0.0;
     }
 
     /// Takes note of the progress made and starts a detour when patience has run out.
-    pub fn observe(
-        &mut self,
-        options: &Options,
-        scene: &Scene,
-        hindered: bool,
-        elapsed: f64,
-        now: Time,
-        random: &mut Random,
-    ) {
+    pub fn observe(&mut self, options: &Options, scene: &Scene, elapsed: f64, random: &mut Random) {
         if self.detour.is_some() {
             return;
         }
-        let distance = scene.target.planar_distance(scene.position);
+        let position = scene.estimate.pose.position;
+        let distance = scene.target.planar_distance(position);
+        let moves = scene.pace.moves(scene.estimate);
+        self.note_progress(distance, scene.hindered, moves, elapsed);
+        if self.stuck <= options.patience {
+            return;
+        }
+        self.stuck = 0.0;
+        let first = scene
+            .cell
+            .borders()
+            .iter()
+            .all(|border| border.from_target >= distance);
+        if random.chance(if first { FIRST_YIELDS } else { OTHERS_YIELD }) {
+            self.detour = Some(self.draw(options, scene, random));
+            self.level = (self.level + 1).min(MOST_LEVELS);
+        }
+    }
+
+    fn note_progress(&mut self, distance: f64, hindered: bool, moves: bool, elapsed: f64) {
         if distance < self.nearest - PROGRESS {
             self.nearest = distance;
             self.stuck = 0.0;
         } else if hindered {
-            self.stuck += if scene.moves {
-                elapsed * MOVING
-            } else {
-                elapsed
-            };
+            self.stuck += if moves { elapsed * MOVING } else { elapsed };
         }
         if distance < self.record - GOOD_PROGRESS {
             self.record = distance;
             self.level = 0;
         }
-        if self.stuck <= options.patience {
-            return;
-        }
-        self.stuck = 0.0;
-        let first = !scene.cell.borders().iter().any(|border| {
-            scene
-                .neighbours
-                .get(border.neighbour as usize)
-                .is_some_and(|neighbour| {
-                    neighbour.position.planar_distance(scene.target) < distance
-                })
-        });
-        if random.chance(if first { 0.25 } else { 0.75 }) {
-            self.detour = Some(self.draw(options, scene, now, random));
-            self.level = (self.level + 1).min(MOST_LEVELS);
-        }
     }
 
-    fn draw(&self, options: &Options, scene: &Scene, now: Time, random: &mut Random) -> Detour {
-        let towards = (scene.target - scene.position).at_height(0.0);
+    /// A place off the course, and how long to stay there: to the right, or anywhere backwards.
+    fn draw(&self, options: &Options, scene: &Scene, random: &mut Random) -> Detour {
+        let position = scene.estimate.pose.position;
+        let now = scene.estimate.at;
+        let towards = (scene.target - position).at_height(0.0);
         let towards = towards.normalized().unwrap_or(Point::planar(1.0, 0.0));
         let growth = f64::from(1u32 << self.level);
         let angle = if random.chance(0.5) {
@@ -168,9 +173,9 @@ impl Yielding {
             * (1.0 + 0.5 * f64::from(self.level));
         let time =
             smaller(options.patience * growth, options.longest_yield) * random.between(0.5, 1.5);
-        let way = distance / scene.cruise_speed.max(0.01);
+        let way = distance / larger(scene.pace.cruise_speed, 0.01);
         Detour {
-            place: scene.position + turned(towards, angle) * distance,
+            place: position + turned(towards, angle) * distance,
             deadline: now + Duration::from_seconds_f64(SLOWLY * way + TURNING),
             stay: Duration::from_seconds_f64(time),
             until: None,
