@@ -20,7 +20,12 @@ pub struct Pose {
 impl Pose {
     /// A level pose.
     pub const fn level(position: Point, yaw: f64) -> Pose {
-        Pose { position, yaw, pitch: 0.0, roll: 0.0 }
+        Pose {
+            position,
+            yaw,
+            pitch: 0.0,
+            roll: 0.0,
+        }
     }
 }
 
