@@ -4,7 +4,7 @@
 mod harness;
 
 use harness::pilot::{AIR, Bench, block, p};
-use starl_core::{Input, Point};
+use starl_core::{Input, Point, Time};
 use starl_primitives::reach_avoid::Options;
 
 fn under_way() -> Bench {
@@ -166,4 +166,52 @@ fn a_way_point_that_was_overshot_is_passed() {
     let mut bench = under_way();
     bench.at(p(2.1, 0.25));
     assert_eq!(bench.tracked, Some((p(4.0, 0.0), None)));
+}
+
+#[test]
+fn a_path_that_begins_where_the_robot_is_sends_it_to_the_next_point() {
+    let mut bench = Bench::new(Options::default());
+    bench.go(p(4.0, 0.0), [].into());
+    bench.answer(Some(vec![p(0.0, 0.0), p(0.05, 0.0), p(4.0, 0.0)]));
+    assert_eq!(bench.tracked, Some((p(4.0, 0.0), None)));
+}
+
+#[test]
+fn a_robot_on_the_move_brakes_before_it_asks_for_a_path() {
+    let mut bench = Bench::new(Options::default());
+    bench.velocity = p(0.5, 0.0);
+    bench.go(p(4.0, 0.0), [].into());
+    assert_eq!(bench.flags(), (true, false, false));
+    assert_eq!((bench.plans.len(), bench.tracked), (0, None));
+    bench.at(p(0.1, 0.0));
+    assert_eq!(bench.plans.len(), 0);
+    bench.velocity = p(0.1, 0.0);
+    bench.at(p(0.2, 0.0));
+    assert_eq!(bench.plans.len(), 1);
+}
+
+#[test]
+fn a_robot_that_never_comes_to_rest_asks_all_the_same() {
+    let mut bench = Bench::new(Options::default());
+    bench.velocity = p(0.5, 0.0);
+    bench.go(p(4.0, 0.0), [].into());
+    bench.time_out();
+    assert_eq!(bench.plans.len(), 1);
+}
+
+#[test]
+fn when_the_way_to_the_next_point_is_not_free_where_it_was_pushed_to() {
+    let wall = block(p(1.0, 0.45), p(2.0, 0.9));
+    let mut bench = Bench::new(Options::default());
+    bench.go(p(4.0, 0.0), [wall].into());
+    bench.answer(Some(vec![p(4.0, 0.0)]));
+    bench.now = Time(600_000_000);
+    bench.at(p(0.5, 0.2));
+    assert_eq!(
+        bench.plans.len(),
+        1,
+        "the body passes the wall within the positioning accuracy"
+    );
+    bench.at(p(0.5, 0.45));
+    assert_eq!(bench.plans.len(), 2);
 }

@@ -12,7 +12,12 @@ impl ReachAvoid {
         if self.check_safety(robot) || self.check_arrival(robot) || self.check_path(robot) {
             return;
         }
-        if self.follow(robot) {
+        let phase = self.command.as_ref().map(|command| &command.phase);
+        if let Some(&Phase::Braking { around_robots }) = phase {
+            if self.at_rest(robot) {
+                self.request(robot, around_robots);
+            }
+        } else if self.follow(robot) {
             self.track(robot);
         }
     }
@@ -38,7 +43,7 @@ impl ReachAvoid {
         true
     }
 
-    /// Whether the robot is at the target; then the command is done. It goes on tracking the target,
+    /// Whether the robot is at the target; then the command is done. It goes on to the end of its path,
     /// so that it comes to rest there and not short of it.
     fn check_arrival(&mut self, robot: &mut Robot<'_>) -> bool {
         let Some(command) = &self.command else {
@@ -52,10 +57,15 @@ impl ReachAvoid {
         if distance > self.options.vicinity {
             return false;
         }
+        // Where the target itself is not free, the path ends beside it.
+        let end = match &command.phase {
+            Phase::Following { route, .. } => route.end(),
+            _ => position,
+        };
         self.clear();
         self.done = true;
         robot.cancel_timer(self.timer());
-        robot.track(target, None);
+        robot.track(end, None);
         self.report(robot, "done", [("position", position.into())]);
         true
     }
@@ -65,11 +75,12 @@ impl ReachAvoid {
         let Some(command) = &mut self.command else {
             return true;
         };
-        let Phase::Following { route, .. } = &command.phase else {
-            return true;
+        let Phase::Following { route, since, .. } = &command.phase else {
+            return false;
         };
         let body = robot.body();
         let position = body.reachable(robot.position());
+        let settled = robot.now().since(*since) >= self.options.plan_pause;
         let now_known = robot.obstacles();
         if !Arc::ptr_eq(&now_known, &command.known) {
             let known = core::mem::replace(&mut command.known, now_known.clone());
@@ -80,14 +91,20 @@ impl ReachAvoid {
             };
             if route
                 .ahead(position)
-                .any(|(from, to)| news().any(|o| blocks(o, from, to, body)))
+                .any(|(from, to)| news().any(|o| blocks(o, from, to, body, 0.0)))
             {
                 robot.halt();
                 self.replan(robot, "obstacle on the path", false);
                 return true;
             }
         }
-        if route.cross_track(position) > self.options.off_path {
+        // Avoidance of other robots, or wind, may have pushed it aside so that the straight way to
+        // the next point is not the one that was planned.
+        let slack = 0.5 * self.options.vicinity;
+        let mut obstacles = command.unsafe_set.iter().chain(command.known.iter());
+        if route.cross_track(position) > self.options.off_path
+            || settled && obstacles.any(|o| blocks(o, position, route.current(), body, slack))
+        {
             self.replan(robot, "off the path", false);
             return true;
         }
@@ -109,9 +126,9 @@ impl ReachAvoid {
             return false;
         };
         let body = robot.body();
-        let free = |from: Point, to: Point| {
+        let free = |from: Point, to: Point, slack: f64| {
             let mut obstacles = unsafe_set.iter().chain(known.iter());
-            !obstacles.any(|obstacle| blocks(obstacle, from, to, body))
+            !obstacles.any(|obstacle| blocks(obstacle, from, to, body, slack))
         };
         let Options {
             vicinity,
@@ -144,9 +161,13 @@ impl ReachAvoid {
             return;
         };
         match &mut command.phase {
+            Phase::Braking { around_robots } => {
+                let around_robots = *around_robots;
+                self.request(robot, around_robots);
+            }
             Phase::Planning => self.no_path(robot),
             Phase::Pausing => self.replan(robot, "no path", false),
-            Phase::Following { route, mark } => {
+            Phase::Following { route, mark, .. } => {
                 let left = to_go(route, robot.position(), robot.body());
                 if left > *mark - self.options.least_progress {
                     self.replan(robot, "stuck", true);
@@ -170,6 +191,9 @@ pub(super) fn to_go(route: &Route, position: Point, body: &Body) -> f64 {
     climb + route.remaining(reachable)
 }
 
-fn blocks(obstacle: &Obstacle, from: Point, to: Point, body: &Body) -> bool {
-    obstacle.blocks_body(from, to, body.radius, body.height)
+/// Whether the body comes nearer to the obstacle than `-slack` on the straight way, metres. Positions are
+/// accurate to half the vicinity, so with that for slack a body beside the obstacle is not taken for one
+/// that runs into it.
+fn blocks(obstacle: &Obstacle, from: Point, to: Point, body: &Body, slack: f64) -> bool {
+    obstacle.blocks_body(from, to, (body.radius - slack).max(0.0), body.height)
 }

@@ -1,7 +1,7 @@
 //! ReachAvoid: go to a target, keep out of an unsafe set (thesis, section 3.2).
 //!
-//! It asks the host's planner for a path and feeds its points to the way-point tracker one by one. It
-//! plans again when the robot is pushed off the path, when it comes no further, and when an obstacle
+//! It asks the host's planner for a path from where the robot has come to rest and feeds its points to
+//! the way-point tracker one by one. It plans again when the robot is pushed off the path or to where the straight way on is not free, when it comes no further, and when an obstacle
 //! that it had not known is in the way. Properties, under the thesis's assumptions (the actuators do
 //! not fail, positions are accurate to half the vicinity, a path of some width exists):
 //! - safety: the robot's position stays outside the unsafe set; where it does not, it has failed;
@@ -21,7 +21,7 @@ pub use options::Options;
 
 use route::Route;
 use starl_core::motion::Obstacles;
-use starl_core::{Input, Point, Port, Primitive, Robot, TimerKey, Value};
+use starl_core::{Input, Point, Port, Primitive, Robot, Time, TimerKey, Value};
 
 const KIND: &str = "reach_avoid";
 
@@ -53,6 +53,8 @@ struct Command {
 
 #[derive(Clone, Debug)]
 enum Phase {
+    /// The robot comes to rest; then it asks for a path.
+    Braking { around_robots: bool },
     /// The planner is to answer.
     Planning,
     /// The robot is on its way.
@@ -60,6 +62,8 @@ enum Phase {
         route: Route,
         /// How far it had to go when the time-out for progress began, metres.
         mark: f64,
+        /// When the path was found.
+        since: Time,
     },
     /// No path was found; it waits to try again.
     Pausing,
@@ -110,7 +114,9 @@ impl ReachAvoid {
             target: robot.body().reachable(target),
             unsafe_set,
             known: robot.obstacles(),
-            phase: Phase::Planning,
+            phase: Phase::Braking {
+                around_robots: false,
+            },
             replans: 0,
             plan_failures: 0,
         });

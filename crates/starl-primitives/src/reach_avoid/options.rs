@@ -23,8 +23,12 @@ pub struct Options {
     pub most_replans: u32,
     /// When a planner finds no path this many times in a row the command gives up. Default 3.
     pub most_plan_failures: u32,
-    /// Between two such times, so that whatever is in the way can move. Default 500 ms.
+    /// Between two such times, so that whatever is in the way can move; also the shortest time that
+    /// a path is followed before another is asked for because the way on is not free. Default 500 ms.
     pub plan_pause: Duration,
+    /// A robot that moves faster than this brakes before it asks for a path, metres per second. Default
+    /// 0.15.
+    pub rest_speed: f64,
     /// Which planner.
     pub planner: Planner,
     /// A planner gives up when its tree has this many nodes. Default 20,000.
@@ -42,6 +46,7 @@ impl Default for Options {
             most_replans: 30,
             most_plan_failures: 3,
             plan_pause: Duration::from_millis(500),
+            rest_speed: 0.15,
             planner: Planner::Auto,
             most_nodes: 20_000,
         }

@@ -10,8 +10,26 @@ use starl_core::motion::{Obstacles, Path, PlanRequest};
 use starl_core::{Obstacle, Robot};
 
 impl ReachAvoid {
-    /// Asks for a path from here.
+    /// Asks for a path once the robot stands. A path from where a robot is on the move would be left
+    /// at once by the way it takes to brake, perhaps towards an obstacle.
     pub(super) fn plan(&mut self, robot: &mut Robot<'_>, around_robots: bool) {
+        if self.at_rest(robot) {
+            return self.request(robot, around_robots);
+        }
+        robot.halt();
+        if let Some(command) = &mut self.command {
+            command.phase = Phase::Braking { around_robots };
+            robot.set_timer(self.timer(), self.options.stuck_after);
+        }
+    }
+
+    /// Whether the robot hardly moves.
+    pub(super) fn at_rest(&self, robot: &Robot<'_>) -> bool {
+        robot.velocity().length() <= self.options.rest_speed
+    }
+
+    /// Asks for a path from here.
+    pub(super) fn request(&mut self, robot: &mut Robot<'_>, around_robots: bool) {
         let timer = self.timer();
         let Some(command) = &mut self.command else {
             return;
@@ -66,12 +84,15 @@ impl ReachAvoid {
         command.plan_failures = 0;
         let mark = to_go(&route, position, &body);
         let points = route.points().to_vec();
-        command.phase = Phase::Following { route, mark };
+        command.phase = Phase::Following {
+            route,
+            mark,
+            since: robot.now(),
+        };
         self.report(robot, "path", [("path", points.into())]);
         robot.set_timer(self.timer(), self.options.stuck_after);
-        if !self.follow(robot) {
-            self.track(robot);
-        }
+        self.follow(robot);
+        self.track(robot);
     }
 
     /// No path was found: waits and tries again, or gives up.

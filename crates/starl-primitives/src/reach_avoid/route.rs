@@ -39,20 +39,27 @@ impl Route {
         self.points.get(self.at + 1).copied()
     }
 
+    /// The last point.
+    pub fn end(&self) -> Point {
+        self.points[self.points.len() - 1]
+    }
+
     /// Where it starts, then all way-points.
     pub fn points(&self) -> &[Point] {
         &self.points
     }
 
-    /// Counts way-points as passed that the robot at `position` has come to: within `near` metres, or
-    /// within `wide` metres, or past it and within twice that, if `free` says that one can go straight
-    /// on to the next. Says whether there were any. The last point is never passed.
+    /// Counts way-points as passed that the robot at `position` has come to: within `near` metres if
+    /// one can go straight on to the next but for half of that, within `wide` metres, or past it and
+    /// within twice that, if one can go straight on for certain; in any case within a quarter of
+    /// `near`. `free` says whether one can go from a point to another, with so many metres of slack.
+    /// Says whether any were passed. The last never is.
     pub fn advance(
         &mut self,
         position: Point,
         near: f64,
         wide: f64,
-        free: impl Fn(Point, Point) -> bool,
+        free: impl Fn(Point, Point, f64) -> bool,
     ) -> bool {
         let before = self.at;
         while let Some(next) = self.next() {
@@ -60,7 +67,10 @@ impl Route {
             let distance = position.distance(current);
             let past = (position - current).dot(current - from) >= 0.0;
             let reach = if past { 2.0 * wide } else { wide };
-            if distance > near && !(distance <= reach && free(position, next)) {
+            let passed = distance <= 0.25 * near
+                || distance <= near && free(position, next, 0.5 * near)
+                || distance <= reach && free(position, next, 0.0);
+            if !passed {
                 break;
             }
             self.at += 1;

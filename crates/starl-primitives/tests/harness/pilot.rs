@@ -4,7 +4,7 @@ use starl_core::effect::Effects;
 use starl_core::motion::{Body, Obstacles, PlanRequest, Workspace};
 use starl_core::{
     ConvexPolygon, Duration, Effect, Estimate, Event, Input, MotionRequest, Obstacle, Point, Pose,
-    Primitive, Random, Robot, RobotId, Sensors, Time, TimerKey, View,
+    Primitive, Random, Robot, RobotId, Sensors, Time, TimerKey, Twist, View,
 };
 use starl_primitives::ReachAvoid;
 use starl_primitives::reach_avoid::Options;
@@ -12,6 +12,8 @@ use starl_primitives::reach_avoid::Options;
 pub struct Bench {
     pub reach_avoid: ReachAvoid,
     pub position: Point,
+    pub velocity: Point,
+    pub now: Time,
     pub body: Body,
     pub known: Obstacles,
     /// All that was asked of the planner, in order.
@@ -39,6 +41,8 @@ impl Bench {
         Bench {
             reach_avoid: ReachAvoid::new("test", options),
             position: Point::ZERO,
+            velocity: Point::ZERO,
+            now: Time::ZERO,
             body: GROUND,
             known: [].into(),
             plans: Vec::new(),
@@ -88,9 +92,13 @@ impl Bench {
     pub fn with(&mut self, act: impl FnOnce(&mut ReachAvoid, &mut Robot<'_>)) {
         let view = View {
             id: RobotId(0),
-            now: Time::ZERO,
+            now: self.now,
             estimate: Estimate {
                 pose: Pose::level(self.position, 0.0),
+                twist: Twist {
+                    linear: self.velocity,
+                    ..Twist::default()
+                },
                 ..Estimate::default()
             },
             body: self.body,
