@@ -1,11 +1,11 @@
 //! Going to a place as a robot of a given model does: tracked in closed loop, simulated step by step.
 //!
-//! This is what a tree of the thesis is grown by. A way-point counts as reached within
-//! [`ARRIVAL`] metres, from where the robot goes on to the next without stopping, as it does when it
-//! follows a path. Between two estimates the body moves along a short arc; its chord is what is
-//! tested, exactly, and the margin of the grown obstacles covers the height of the arc. The straight way
-//! between the way-points must be clear as well: it is what is seen of a path from outside, and a test
-//! that takes no time.
+//! This is what a tree of the thesis is grown by. A robot that follows a path goes on to the next
+//! way-point without stopping, from [`PASS`] metres if that way is free, so from there the straight way
+//! on must be clear; it must be clear from the way-point itself, too, which is what is seen of a path
+//! from outside. Since any way-point may be the last the robot is simulated until it is [`NEAR`].
+//! Between two estimates the body moves along a short arc; its chord is what is tested, exactly, and the
+//! margin of the grown obstacles covers the height of the arc.
 
 use super::free_space::FreeSpace;
 use super::grow::Mover;
@@ -17,11 +17,14 @@ use alloc::vec::Vec;
 use starl_core::motion::Estimate;
 use starl_core::{Duration, Time, math};
 
-/// How near to a way-point the robot goes on to the next, metres.
-const ARRIVAL: f64 = 0.1;
+/// How near to a way-point the robot goes on to the next if that way is free, metres.
+const PASS: f64 = 0.15;
 
-/// Nearer places are not worth driving to, metres: they are as good as reached.
-pub const SHORTEST_DRIVE: f64 = 2.0 * ARRIVAL;
+/// How near to the last way-point the robot comes, metres.
+const NEAR: f64 = 0.06;
+
+/// Nearer places are not worth driving to, metres: they are as good as passed.
+pub const SHORTEST_DRIVE: f64 = 0.2;
 
 /// Time between estimates.
 const PERIOD: Duration = Duration::from_millis(100);
@@ -47,7 +50,8 @@ impl<const D: usize> Driving<'_, D> {
         (seconds / PERIOD.seconds()) as u32
     }
 
-    /// Drives to a place; `clear` is asked about every step from one place to the next.
+    /// Drives to a place; the state from which the robot would go on to another. `clear` is asked about
+    /// every step from one place to the next.
     fn drive(
         &self,
         from: &State,
@@ -59,10 +63,14 @@ impl<const D: usize> Driving<'_, D> {
         let mut tracking = Tracking::default();
         let mut state = *from;
         let mut at = Time::ZERO;
-        let reached = |state: &State| state.pose.position.distance(target) <= ARRIVAL;
+        let mut passing = None;
         for _ in 0..self.most_steps(from.pose.position.distance(target)) {
-            if reached(&state) {
-                return Some(state);
+            let distance = state.pose.position.distance(target);
+            if distance <= PASS {
+                passing = passing.or(Some(state));
+            }
+            if distance <= NEAR {
+                return passing;
             }
             let estimate = Estimate {
                 pose: state.pose,
@@ -80,7 +88,7 @@ impl<const D: usize> Driving<'_, D> {
             state = next;
             at += PERIOD;
         }
-        reached(&state).then_some(state)
+        None
     }
 
     /// Drives to a place whatever is in the way; where the robot is then, or was at first if it does
@@ -123,7 +131,8 @@ impl<const D: usize> Steering<D> for Driving<'_, D> {
     type State = State;
 
     fn go(&self, from: &Vector<D>, state: &State, to: &Vector<D>) -> Option<State> {
-        if !self.space.is_clear(from, to) {
+        let here = Mover::to_space(state.pose.position);
+        if !self.space.is_clear(from, to) || !self.space.is_clear(&here, to) {
             return None;
         }
         self.drive(state, to, |a, b| self.space.is_clear(a, b))
