@@ -2,7 +2,7 @@
 
 use crate::engine::{Simulation, StartError};
 use crate::properties::{self, Checker, Setting, Violation};
-use crate::scenario::{Goal, Group, Scenario};
+use crate::scenario::{Bounds, Goal, Group, Scenario};
 use starl_core::event::Event;
 use starl_core::{Program, Record, Time};
 
@@ -69,6 +69,7 @@ impl Run {
 
     /// Advances by one physics step and returns what happened, violations included.
     pub fn step(&mut self) -> &[Record] {
+        let before = self.simulation.now();
         self.simulation.step();
         let known = self.violations.len();
         for checker in &mut self.checkers {
@@ -81,13 +82,17 @@ impl Run {
         self.records.extend_from_slice(self.simulation.records());
         self.records
             .extend(self.violations[known..].iter().map(|violation| Record {
-                at: violation.at,
+                // A bound may have run out, or a pose been taken, a little earlier.
+                at: violation.at.max(before),
                 robot: violation.robots.first().copied(),
                 event: Event::Violated {
                     property: violation.property.into(),
                     text: violation.text.clone().into(),
                 },
             }));
+        if self.violations.len() > known {
+            self.records.sort_by_key(|record| record.at);
+        }
         &self.records
     }
 
@@ -155,12 +160,18 @@ impl Setting {
     pub fn of(scenario: &Scenario) -> Setting {
         let groups = &scenario.fleet.groups;
         let body = |group: &Group| vec![group.model.body(); group.starts.len()];
-        let obstacles = &scenario.world.obstacles;
+        let obstacles = scenario.world.obstacles.iter();
+        let walls = scenario
+            .world
+            .bounds
+            .as_ref()
+            .map_or(Vec::new(), Bounds::walls);
         Setting {
+            walls: walls.len(),
             bodies: groups.iter().flat_map(body).collect(),
             obstacles: obstacles
-                .iter()
-                .map(|o| (o.obstacle.clone(), o.expires))
+                .map(|entry| (entry.obstacle.clone(), entry.expires))
+                .chain(walls.into_iter().map(|wall| (wall, Time::NEVER)))
                 .collect(),
         }
     }

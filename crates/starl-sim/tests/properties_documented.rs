@@ -8,6 +8,7 @@ const REFERENCE: &str = include_str!("../../../docs/reference/properties.md");
 #[test]
 fn the_reference_has_a_section_for_each_property() {
     let setting = Setting {
+        walls: 0,
         bodies: Vec::new(),
         obstacles: Vec::new(),
     };

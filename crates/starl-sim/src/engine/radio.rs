@@ -6,7 +6,7 @@
 use super::inbox::{Calendar, Delivery, Transmission};
 use super::mind::Outgoing;
 use super::record::Log;
-use super::shared::Shared;
+use super::shared::{Shared, Window};
 use super::{Stream, stream};
 use crate::scenario::{DelayDistribution, Link};
 use starl_core::event::DropReason;
@@ -25,6 +25,7 @@ pub struct Posted {
 /// Decides who receives a datagram and when.
 pub fn route(
     shared: &Shared,
+    window: Window,
     (index, outgoing): (u32, &Outgoing),
     digest: &mut Digest,
     log: &mut Log,
@@ -40,7 +41,8 @@ pub fn route(
             sequence,
             reason,
         };
-        log.record(digest, from, outgoing.at, event);
+        // It may still be in the sender's queue, but its fate is known now.
+        log.record(digest, from, outgoing.at.min(window.to), event);
     };
     let mut offer = |to: RobotId| {
         if shared.parted(from, to) {

@@ -143,13 +143,14 @@ impl Shard {
     }
 
     /// Decides who receives what this shard's robots have sent.
-    pub fn route(&mut self, shared: &Shared) {
+    pub fn route(&mut self, shared: &Shared, window: Window) {
         self.posted.clear();
         for (index, outgoing) in self.outbox.iter().enumerate() {
             let sender = (outgoing.message.from.0 - self.first) as usize;
             let digest = &mut self.minds[sender].digest;
             radio::route(
                 shared,
+                window,
                 (index as u32, outgoing),
                 digest,
                 &mut self.log,

@@ -12,8 +12,7 @@ use crate::scenario::{Fault, FaultKind, Group, Scenario};
 use starl_core::event::Hit;
 use starl_core::geometry::ObstacleIndex;
 use starl_core::{
-    Agent, Command, ConvexPolygon, Digest, Duration, Estimate, Event, Obstacle, Point, Program,
-    Record, RobotId, Time, math,
+    Agent, Command, Digest, Duration, Estimate, Event, Point, Program, Record, RobotId, Time, math,
 };
 use starl_motion::{Neighbour, State};
 use std::sync::Arc;
@@ -207,7 +206,7 @@ impl Simulation {
     fn route(&mut self, window: Window, step: Duration) {
         let shared = &self.shared;
         run(self.parallel, self.shards.iter_mut().collect(), |shard| {
-            shard.route(shared)
+            shard.route(shared, window)
         });
         for shard in &self.shards {
             radio::post(
@@ -324,7 +323,7 @@ impl Simulation {
             obstacles.push(entry.obstacle.clone());
         }
         if let Some(bounds) = &world.bounds {
-            for (side, wall) in walls(bounds.low, bounds.high).into_iter().enumerate() {
+            for (side, wall) in bounds.walls().into_iter().enumerate() {
                 known.push(wall.clone());
                 standing.push((world.obstacles.len() + side) as u32);
                 obstacles.push(wall);
@@ -542,22 +541,6 @@ fn crash(mind: &mut Mind) {
     mind.plans.clear();
     mind.knowledge = None;
     mind.frozen = None;
-}
-
-/// The four walls around a rectangle.
-fn walls(low: Point, high: Point) -> Vec<Obstacle> {
-    let corners = [
-        low,
-        Point::planar(high.x, low.y),
-        high,
-        Point::planar(low.x, high.y),
-        low,
-    ];
-    corners
-        .windows(2)
-        .filter_map(|ends| ConvexPolygon::new(ends).ok())
-        .map(Obstacle::polygon)
-        .collect()
 }
 
 /// The air's velocity.

@@ -24,6 +24,8 @@ pub struct Setting {
     pub bodies: Vec<Body>,
     /// The obstacles of the world, by index, with the time at which each vanishes.
     pub obstacles: Vec<(Obstacle, Time)>,
+    /// How many of them, the last, are the walls around the world.
+    pub walls: usize,
 }
 
 /// A property that does not hold.

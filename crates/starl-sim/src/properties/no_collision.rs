@@ -24,7 +24,7 @@ const OVERLAP: f64 = 0.001;
 /// stopped stands off what it would have hit.
 const APART: f64 = 0.1;
 
-/// What the host stops bodies at that is no obstacle of the world.
+/// What the walls around the world are called.
 const EDGE: &str = "the edge of the world";
 
 /// Watches all bodies.
@@ -34,6 +34,8 @@ pub(super) struct NoCollision {
     obstacles: Arc<ObstacleIndex>,
     /// When each obstacle vanishes.
     expires: Arc<[Time]>,
+    /// How many of them are in the scenario; the walls around the world follow.
+    listed: usize,
     /// Each robot's last pose.
     positions: Vec<Option<Point>>,
     round: Round,
@@ -68,6 +70,7 @@ impl NoCollision {
         NoCollision {
             bodies: setting.bodies.clone(),
             obstacles: Arc::new(ObstacleIndex::new(&obstacles)),
+            listed: expires.len() - setting.walls.min(expires.len()),
             expires: expires.into(),
             positions: vec![None; robots],
             round: Round {
@@ -92,10 +95,7 @@ impl NoCollision {
             }
             Hit::Obstacle(index) => {
                 let is_new = self.touch(robot, index, place.unwrap_or_default());
-                let is_listed = (index as usize) < self.expires.len();
-                let name = || format!("obstacle {index}");
-                let other = if is_listed { name() } else { EDGE.into() };
-                (is_new, other)
+                (is_new, self.name(index))
             }
         };
         if !is_new {
@@ -141,6 +141,14 @@ impl NoCollision {
         }
     }
 
+    /// What an obstacle is called.
+    fn name(&self, index: u32) -> String {
+        match (index as usize) < self.listed {
+            true => format!("obstacle {index}"),
+            false => EDGE.into(),
+        }
+    }
+
     fn check_obstacles(
         &mut self,
         at: Time,
@@ -154,7 +162,6 @@ impl NoCollision {
             let obstacle = map.obstacles().get(index as usize);
             obstacle.map(|obstacle| obstacle.body_gap(position, radius, height))
         };
-        // The edge of the world is not listed: one is off it who is off the place of the collision.
         self.walls[robot.index()]
             .retain(|wall| gap(wall.index).unwrap_or_else(|| wall.met.distance(position)) < APART);
         let around = Bounds::of_body(position, position, radius, height);
@@ -167,8 +174,9 @@ impl NoCollision {
                     at,
                     robots: vec![robot],
                     text: format!(
-                        "the body of robot {robot} at {position} reaches {:.3} m into obstacle {index}",
+                        "the body of robot {robot} at {position} reaches {:.3} m into {}",
                         -gap,
+                        self.name(index),
                     ),
                 });
             }

@@ -46,6 +46,7 @@ use std::collections::BTreeMap;
 use tree::{Node, Table, Value};
 
 /// A scenario that was read.
+#[derive(Clone, Debug)]
 pub struct Resolved {
     /// What it says.
     pub scenario: Scenario,

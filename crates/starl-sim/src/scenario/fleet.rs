@@ -96,7 +96,12 @@ pub struct Clock {
 
 impl Default for SensorSuite {
     fn default() -> SensorSuite {
-        SensorSuite { bumper: true, proximity: None, detector: None, discovery_range: 0.6 }
+        SensorSuite {
+            bumper: true,
+            proximity: None,
+            detector: None,
+            discovery_range: 0.6,
+        }
     }
 }
 
@@ -136,6 +141,8 @@ impl Fleet {
 
     /// The robot with this name.
     pub fn find(&self, name: &str) -> Option<RobotId> {
-        (0..self.len() as u32).map(RobotId).find(|&robot| self.name(robot) == name)
+        (0..self.len() as u32)
+            .map(RobotId)
+            .find(|&robot| self.name(robot) == name)
     }
 }

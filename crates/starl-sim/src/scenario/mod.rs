@@ -112,15 +112,15 @@ pub struct Properties {
     pub no_collision: bool,
     /// ReachAvoid's safety, goal and progress; default true.
     pub reach_avoid: bool,
-    /// ReachAvoid's active flag falls within this time; default 120 s.
+    /// ReachAvoid's active flag falls within this time; default 180 s.
     pub progress_bound: Duration,
     /// Broadcasts reach every robot that is up; default true.
     pub broadcast: bool,
-    /// The thesis's d1: within this time; default 30 s.
+    /// The thesis's d1: within this time; default 35 s.
     pub broadcast_bound: Duration,
     /// Geocast's exclusion and inclusion; default true.
     pub geocast: bool,
-    /// The thesis's d2; default 30 s.
+    /// The thesis's d2; default 35 s.
     pub geocast_bound: Duration,
 }
 
@@ -133,7 +133,10 @@ pub struct Trace {
 
 impl Default for Physics {
     fn default() -> Physics {
-        Physics { step: Duration::from_millis(25), collisions: true }
+        Physics {
+            step: Duration::from_millis(25),
+            collisions: true,
+        }
     }
 }
 
@@ -164,18 +167,20 @@ impl Default for Properties {
         Properties {
             no_collision: true,
             reach_avoid: true,
-            progress_bound: Duration::from_seconds(120),
+            progress_bound: Duration::from_seconds(180),
             broadcast: true,
-            broadcast_bound: Duration::from_seconds(30),
+            broadcast_bound: Duration::from_seconds(35),
             geocast: true,
-            geocast_bound: Duration::from_seconds(30),
+            geocast_bound: Duration::from_seconds(35),
         }
     }
 }
 
 impl Default for Trace {
     fn default() -> Trace {
-        Trace { pose_period: Duration::from_millis(100) }
+        Trace {
+            pose_period: Duration::from_millis(100),
+        }
     }
 }
 
@@ -192,7 +197,10 @@ impl Default for Scenario {
             physics: Physics::default(),
             positioning: Positioning::default(),
             motion: Motion::default(),
-            wind: Wind { gust_period: Duration::from_seconds(10), ..Wind::default() },
+            wind: Wind {
+                gust_period: Duration::from_seconds(10),
+                ..Wind::default()
+            },
             network: Network::default(),
             faults: Faults::default(),
             properties: Properties::default(),

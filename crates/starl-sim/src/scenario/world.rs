@@ -1,6 +1,6 @@
 //! The world that robots move in.
 
-use starl_core::{Obstacle, Point, Time, WayPoint};
+use starl_core::{ConvexPolygon, Obstacle, Point, Time, WayPoint};
 
 /// Obstacles, way-points and things.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -22,6 +22,24 @@ pub struct Bounds {
     pub low: Point,
     /// Highest x and y, metres.
     pub high: Point,
+}
+
+impl Bounds {
+    /// The four walls, from the lowest y on, counter-clockwise.
+    pub fn walls(&self) -> Vec<Obstacle> {
+        let Bounds { low, high } = *self;
+        let corners = [
+            low,
+            Point::planar(high.x, low.y),
+            high,
+            Point::planar(low.x, high.y),
+            low,
+        ];
+        let sides = corners
+            .windows(2)
+            .filter_map(|ends| ConvexPolygon::new(ends).ok());
+        sides.map(Obstacle::polygon).collect()
+    }
 }
 
 /// An obstacle with what the simulator knows of it.

@@ -51,6 +51,7 @@ impl Story {
         Story {
             scenario: Scenario::default(),
             setting: Setting {
+                walls: 0,
                 bodies: bodies.to_vec(),
                 obstacles: Vec::new(),
             },

@@ -160,7 +160,7 @@ const PROPERTIES: &[Field] = &[
     field(
         "progress_bound",
         PERIOD,
-        Default::Value("120s"),
+        Default::Value("180s"),
         "Within this time of its start a ReachAvoid is no longer active.",
     ),
     field(
@@ -172,7 +172,7 @@ const PROPERTIES: &[Field] = &[
     field(
         "broadcast_bound",
         PERIOD,
-        Default::Value("30s"),
+        Default::Value("35s"),
         "Within this time, the thesis's d1.",
     ),
     field(
@@ -184,7 +184,7 @@ const PROPERTIES: &[Field] = &[
     field(
         "geocast_bound",
         PERIOD,
-        Default::Value("30s"),
+        Default::Value("35s"),
         "Within this time, the thesis's d2.",
     ),
 ];
