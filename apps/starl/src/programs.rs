@@ -83,6 +83,7 @@ fn reach_avoid_options(parameters: &mut Parameters<'_>) -> reach_avoid::Options 
         plan_pause: parameters.duration("plan_pause", default.plan_pause),
         planner: parameters.choice("planner", default.planner, &PLANNERS),
         most_nodes: parameters.count("most_nodes", default.most_nodes),
+        ..default
     }
 }
 

@@ -100,7 +100,7 @@ pub fn text(figures: &Figures) -> String {
     let mut text = String::new();
     let mut line = |label: &str, value: String| {
         // Writing to a string does not fail.
-        let _ = writeln!(text, "{label:26}{value}");
+        let _ = writeln!(text, "{label:28}{value}");
     };
     line("workload", figures.workload.to_string());
     line("robots", grouped(figures.robots));
