@@ -48,8 +48,8 @@ impl Looks {
             palette::color(index, self.count)
         };
         let (width, opacity) = match self.count {
-            0..=MOST_COLORS => (1.8, 1.0),
-            ..=300 => (1.2, 0.7),
+            count if count <= MOST_COLORS => (1.8, 1.0),
+            count if count <= 300 => (1.2, 0.7),
             _ => (0.8, 0.5),
         };
         Stroke {

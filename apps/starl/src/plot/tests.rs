@@ -47,8 +47,8 @@ fn assert_sound(svg: &str) {
     let mut open = Vec::new();
     for tag in svg.split('<').skip(1) {
         let name = tag.split([' ', '>', '/']).next().unwrap();
-        if tag.starts_with('/') {
-            let closed = tag[1..].split('>').next().unwrap();
+        if let Some(closed) = tag.strip_prefix('/') {
+            let closed = closed.split('>').next().unwrap();
             assert_eq!(open.pop(), Some(closed), "in {tag}");
         } else if !tag.split('>').next().unwrap().ends_with('/') {
             open.push(name);

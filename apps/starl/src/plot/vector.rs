@@ -83,9 +83,9 @@ fn element(text: &mut String, shape: &Shape, clips: &mut u32) -> core::fmt::Resu
             if *rim {
                 text.push_str(" stroke=\"#fff\" stroke-width=\"4\" stroke-linejoin=\"round\" paint-order=\"stroke\"");
             }
-            write!(
+            writeln!(
                 text,
-                " fill=\"{}\">{}</text>\n",
+                " fill=\"{}\">{}</text>",
                 hexadecimal(*color),
                 escaped(words)
             )?;
