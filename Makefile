@@ -1,8 +1,9 @@
 # The two commands of the README, and the parts that `make test` is made of.
-.PHONY: run setup test check unit portable wasm trace examples docs deny bench
+.PHONY: run setup test check unit portable wasm golden wasm-module trace examples docs deny bench
 
 VENV = target/venv/bin
-STARL = target/release/starl
+CARGO_TARGET_DIR ?= target
+STARL = $(CARGO_TARGET_DIR)/release/starl
 
 run:
 	cargo run --release -- run race
@@ -25,10 +26,16 @@ unit:
 portable:
 	cargo check -p starl-core -p starl-primitives -p starl-motion --target thumbv7em-none-eabihf
 
-# The same run has the same digest natively and in WebAssembly.
-wasm: $(STARL)
-	cargo build --release -p starl-wasm --target wasm32-unknown-unknown
+# The same run has the same digest natively and in WebAssembly. `make golden` writes the digests down
+# anew after a change of behaviour that is meant.
+wasm: wasm-module
 	node apps/starl-wasm/golden.mjs $(STARL)
+
+golden: wasm-module
+	node apps/starl-wasm/golden.mjs $(STARL) --write
+
+wasm-module: $(STARL)
+	cargo build --release -p starl-wasm --target wasm32-unknown-unknown
 
 # Traces read with libraries that are not ours.
 trace: $(STARL)

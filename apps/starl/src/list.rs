@@ -1,11 +1,11 @@
 //! `starl list`: what there is to run, and to run it with.
 
 use crate::args::ListArguments;
-use crate::examples::EXAMPLES;
 use crate::failure::Failure;
-use crate::programs::{PLANNERS, PROGRAMS};
 use crate::{console, json};
 use serde::Serialize;
+use starl_catalog::examples::EXAMPLES;
+use starl_catalog::programs::{PLANNERS, PROGRAMS};
 use starl_core::{Command, Point};
 use starl_motion::models;
 use std::fmt::{self, Write};

@@ -7,15 +7,12 @@
 mod args;
 mod bench;
 mod console;
-mod examples;
 mod failure;
 mod json;
 mod list;
 mod output;
-mod parameters;
 mod paths;
 mod plot;
-mod programs;
 mod progress;
 mod recording;
 mod replay;

@@ -3,7 +3,7 @@
 use crate::plot::{PlotData, RobotPath};
 use crate::report::{Ending, Report};
 use starl_core::{Event, Point, Record};
-use starl_sim::Scenario;
+use starl_sim::{Outcome, Scenario};
 
 /// The robots' paths so far.
 pub struct Paths(PlotData);
@@ -59,10 +59,10 @@ impl Paths {
     /// The world with the whole paths and what came of the run.
     pub fn finish(mut self, report: &Report) -> PlotData {
         let outcome = match report.outcome {
-            Ending::Reached => "goal reached",
-            Ending::Violated => "goal reached, a property violated",
-            Ending::TimedOut => "goal not reached in time",
-            Ending::Failed => "failed",
+            Ending::Over(Outcome::Reached) => "goal reached",
+            Ending::Over(Outcome::Violated) => "goal reached, a property violated",
+            Ending::Over(Outcome::TimedOut) => "goal not reached in time",
+            Ending::Over(Outcome::Failed) => "failed",
             Ending::Interrupted => "interrupted",
         };
         self.0.subtitle = format!(

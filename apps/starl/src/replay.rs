@@ -8,10 +8,10 @@ use crate::console::{self, grouped};
 use crate::failure::Failure;
 use crate::output::reason;
 use crate::report::Ending;
-use crate::{recording, run, target, threads};
+use crate::{recording, run, threads};
 use starl_core::Record;
 use starl_sim::Run;
-use starl_sim::read::{self, Resolved};
+use starl_sim::read::Resolved;
 use starl_trace::{Comparison, Difference, Header, Reader, Summary, TraceError};
 use std::fs::File;
 use std::io::BufReader;
@@ -69,9 +69,7 @@ fn inputs(path: &Path, header: &Header) -> Result<Resolved, Failure> {
         )
     };
     let inputs = recording::inputs(header).map_err(because)?;
-    let resolved = read::again(&inputs).map_err(|problems| because(problems.to_string()))?;
-    target::check_programs(&resolved).map_err(|failure| because(failure.0))?;
-    Ok(resolved)
+    starl_catalog::read(&inputs.request, &inputs).map_err(|problems| because(problems.to_string()))
 }
 
 /// Runs again up to the recorded end.

@@ -1,6 +1,6 @@
 //! What there is to say of a run that has ended, for people and for programs alike.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use starl_core::RobotId;
 use starl_sim::properties::Violation;
 use starl_sim::{Outcome, Run, Scenario};
@@ -28,17 +28,10 @@ pub struct Report {
 }
 
 /// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// The goal was reached and no property violated.
-    Reached,
-    /// The goal was reached, but a property was violated.
-    Violated,
-    /// The time was up before the goal was reached.
-    TimedOut,
-    /// A program failed, or no robot is left.
-    Failed,
+    /// It came to its end.
+    Over(Outcome),
     /// Someone stopped it.
     Interrupted,
 }
@@ -103,24 +96,24 @@ pub struct Circumstances {
 impl Ending {
     /// How a run ended, or how far it was when it was interrupted.
     pub fn of(run: &Run, interrupted: bool) -> Ending {
-        match run.outcome() {
-            _ if interrupted && !run.is_over() => Ending::Interrupted,
-            Outcome::Reached => Ending::Reached,
-            Outcome::Violated => Ending::Violated,
-            Outcome::TimedOut => Ending::TimedOut,
-            Outcome::Failed => Ending::Failed,
+        match interrupted && !run.is_over() {
+            true => Ending::Interrupted,
+            false => Ending::Over(run.outcome()),
         }
     }
 
     /// The word for it in JSON and in traces.
     pub fn word(self) -> &'static str {
         match self {
-            Ending::Reached => "reached",
-            Ending::Violated => "violated",
-            Ending::TimedOut => "timed_out",
-            Ending::Failed => "failed",
+            Ending::Over(outcome) => outcome.word(),
             Ending::Interrupted => "interrupted",
         }
+    }
+}
+
+impl Serialize for Ending {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.word())
     }
 }
 
@@ -174,7 +167,7 @@ impl Report {
 
     /// Whether the goal was reached and no property was violated.
     pub fn is_success(&self) -> bool {
-        self.outcome == Ending::Reached
+        self.outcome == Ending::Over(Outcome::Reached)
     }
 }
 

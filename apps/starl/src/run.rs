@@ -6,11 +6,9 @@ use crate::output::Output;
 use crate::paths::Paths;
 use crate::progress::Progress;
 use crate::report::{Circumstances, Report};
-use crate::{console, json, plot, programs, recording, summary, target, threads};
-use starl_core::Program;
+use crate::{console, json, plot, recording, summary, target, threads};
 use starl_sim::Run;
 use starl_sim::read::Resolved;
-use starl_sim::scenario::Group;
 use starl_trace::{Outcome, ViewOptions, WriteError, Writer};
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -59,10 +57,7 @@ pub fn run(arguments: &RunArguments) -> Result<bool, Failure> {
 
 /// A run of what was read, at its start.
 pub fn start(resolved: &Resolved) -> Result<Run, Failure> {
-    let programs = |group: &Group| -> Result<Box<dyn Program>, String> {
-        programs::make(group).map_err(|complaint| complaint.message)
-    };
-    Run::new(resolved.scenario.clone(), &programs).map_err(|error| {
+    starl_catalog::run(resolved.scenario.clone()).map_err(|error| {
         let field = format!("robots.{}.program", error.group);
         resolved.problem(&field, &error.message, None).into()
     })

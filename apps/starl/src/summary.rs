@@ -2,6 +2,7 @@
 
 use crate::console::{grouped, rounded};
 use crate::report::{Breach, Ending, Property, Report, Robot};
+use starl_sim::Outcome;
 use std::fmt::{self, Write};
 
 /// Larger fleets are summed up by model instead of robot by robot.
@@ -78,11 +79,15 @@ fn ending(report: &Report) -> String {
         progress.finished, progress.robots
     );
     match report.outcome {
-        Ending::Reached => format!("goal reached after {at}"),
-        Ending::Violated => format!("goal reached after {at}, but a property was violated"),
-        Ending::TimedOut => format!("goal not reached within {at}; {done}"),
-        Ending::Failed if progress.up == 0 => format!("failed after {at}: no robot is left"),
-        Ending::Failed => {
+        Ending::Over(Outcome::Reached) => format!("goal reached after {at}"),
+        Ending::Over(Outcome::Violated) => {
+            format!("goal reached after {at}, but a property was violated")
+        }
+        Ending::Over(Outcome::TimedOut) => format!("goal not reached within {at}; {done}"),
+        Ending::Over(Outcome::Failed) if progress.up == 0 => {
+            format!("failed after {at}: no robot is left")
+        }
+        Ending::Over(Outcome::Failed) => {
             format!(
                 "failed after {at}: {} robots cannot go on; {done}",
                 progress.failed

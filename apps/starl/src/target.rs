@@ -1,11 +1,10 @@
 //! Finds what `starl run TARGET` means, and reads it with all that the command line changes.
 
 use crate::args::RunArguments;
-use crate::examples::{self, EXAMPLES, Example};
 use crate::failure::Failure;
 use crate::output::reason;
-use crate::programs;
-use starl_sim::read::{self, Loader, Override, Request, Resolved, Source};
+use starl_catalog::examples::{self, EXAMPLES};
+use starl_sim::read::{Loader, Override, Request, Resolved, Source};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -22,29 +21,7 @@ pub fn read(arguments: &RunArguments) -> Result<Resolved, Failure> {
         faults,
         ..Request::new(source)
     };
-    let resolved = read::scenario(&request, &*loader)?;
-    check_programs(&resolved)?;
-    Ok(resolved)
-}
-
-/// Whether every group's program can be made from its parameters.
-pub fn check_programs(resolved: &Resolved) -> Result<(), Failure> {
-    for (index, group) in resolved.scenario.fleet.groups.iter().enumerate() {
-        if let Err(complaint) = programs::make(group) {
-            let field = complaint.field;
-            // A group without a program or parameters of its own has those of the whole scenario.
-            let own = resolved.problem(&format!("robots.{index}.{field}"), "", None);
-            let table = resolved.problem(&format!("robots.{index}"), "", None);
-            let field = match own.place == table.place {
-                true => field,
-                false => format!("robots.{index}.{field}"),
-            };
-            return Err(resolved
-                .problem(&field, &complaint.message, Some(&complaint.help))
-                .into());
-        }
-    }
-    Ok(())
+    Ok(starl_catalog::read(&request, &*loader)?)
 }
 
 /// The changes that the command line makes, in the order of their power: the options with names of
@@ -65,10 +42,7 @@ fn overrides(arguments: &RunArguments) -> Result<Vec<Override>, Failure> {
 
 fn find(target: &str) -> Result<(Source, Box<dyn Loader>), Failure> {
     if let Some(example) = examples::find(target) {
-        return Ok((
-            Source::new(example.path, example.text),
-            Box::new(Embedded(example)),
-        ));
+        return Ok((example.source(), Box::new(*example)));
     }
     let path = Path::new(target);
     if !path.exists() {
@@ -99,18 +73,6 @@ fn text(path: &Path) -> Result<String, Failure> {
             "{name}:{line}: is not text in UTF-8; save it as that"
         ))
     })
-}
-
-/// Brings the files of an example.
-struct Embedded(&'static Example);
-
-impl Loader for Embedded {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
-        match self.0.files.iter().find(|file| file.0 == path) {
-            Some(file) => Ok(file.1.to_vec()),
-            None => Err("the example has no such file".to_string()),
-        }
-    }
 }
 
 /// Brings files from the scenario's folder.

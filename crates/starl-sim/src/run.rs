@@ -28,6 +28,18 @@ pub enum Outcome {
     Failed,
 }
 
+impl Outcome {
+    /// The word for it in reports and traces.
+    pub fn word(self) -> &'static str {
+        match self {
+            Outcome::Reached => "reached",
+            Outcome::Violated => "violated",
+            Outcome::TimedOut => "timed_out",
+            Outcome::Failed => "failed",
+        }
+    }
+}
+
 /// What the checkers say of one property.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {

@@ -3,13 +3,11 @@
 use super::workload::Workload;
 use crate::console::{grouped, rounded};
 use crate::failure::Failure;
-use crate::{programs, target, threads};
+use crate::threads;
 use cpu_time::ProcessTime;
 use serde::Serialize;
-use starl_core::{Program, Time};
-use starl_sim::Simulation;
+use starl_core::Time;
 use starl_sim::read::{self, Request, Source};
-use starl_sim::scenario::Group;
 use std::fmt::Write;
 use std::fs;
 use std::time::Instant;
@@ -47,13 +45,9 @@ pub fn measure(workload: &Workload, threads: usize) -> Result<Figures, Failure> 
         format!("the scenario of `{}`", workload.name),
         &workload.scenario,
     );
-    let resolved = read::scenario(&Request::new(source), &NoFiles)?;
-    target::check_programs(&resolved)?;
-    let programs = |group: &Group| -> Result<Box<dyn Program>, String> {
-        programs::make(group).map_err(|complaint| complaint.message)
-    };
+    let resolved = starl_catalog::read(&Request::new(source), &NoFiles)?;
     let mut simulation =
-        Simulation::new(resolved.scenario, &programs).map_err(|error| Failure(error.message))?;
+        starl_catalog::simulation(resolved.scenario).map_err(|error| Failure(error.message))?;
     simulation.set_parallel(threads > 1);
     let setup_seconds = begun.elapsed().as_secs_f64();
     let (begun, cpu) = (Instant::now(), ProcessTime::now());

@@ -3,9 +3,7 @@
 //! A workload is an ordinary scenario with an ordinary program, read by the same reader and run by
 //! the same engine as any other; nothing here has a path of its own.
 
-pub mod diffusion;
 mod measure;
-pub mod radio;
 mod workload;
 
 use crate::args::{BenchArguments, Workload};

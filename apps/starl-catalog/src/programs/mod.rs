@@ -2,8 +2,12 @@
 //!
 //! To add a program, add a line to [`PROGRAMS`].
 
-use crate::bench::{diffusion::Diffusion, radio::Radio};
+mod diffusion;
+mod radio;
+
 use crate::parameters::{Complaint, Parameters};
+use diffusion::Diffusion;
+use radio::Radio;
 use starl_core::Program;
 use starl_core::motion::Planner;
 use starl_primitives::{reach_avoid, reliable};
@@ -47,6 +51,9 @@ pub const PLANNERS: [(&str, Planner); 4] = [
 ];
 
 /// Makes the program of a group of robots.
+///
+/// # Errors
+/// Where there is no such program, or it does not take the parameters as they are.
 pub fn make(group: &Group) -> Result<Box<dyn Program>, Complaint> {
     let Some(entry) = PROGRAMS.iter().find(|entry| entry.name == group.program) else {
         let names: Vec<&str> = PROGRAMS.iter().map(|entry| entry.name).collect();

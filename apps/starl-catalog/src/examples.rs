@@ -1,8 +1,11 @@
-//! The examples that are part of the command, so that `starl run race` works in any folder.
+//! The examples, with all their files, so that `starl run race` works in any folder and in a browser.
 //!
 //! To add an example, write its folder under `examples/` and a line in [`EXAMPLES`].
 
+use starl_sim::read::{Loader, Source};
+
 /// An example: a scenario and the files that it names.
+#[derive(Clone, Copy, Debug)]
 pub struct Example {
     /// What it is called on the command line.
     pub name: &'static str,
@@ -41,4 +44,20 @@ pub const EXAMPLES: [Example; 1] = [Example {
 /// The example of this name.
 pub fn find(name: &str) -> Option<&'static Example> {
     EXAMPLES.iter().find(|example| example.name == name)
+}
+
+impl Example {
+    /// Its scenario. The example itself loads the files that the scenario names.
+    pub fn source(&self) -> Source {
+        Source::new(self.path, self.text)
+    }
+}
+
+impl Loader for Example {
+    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+        match self.files.iter().find(|file| file.0 == path) {
+            Some(file) => Ok(file.1.to_vec()),
+            None => Err("the example has no such file".to_string()),
+        }
+    }
 }

@@ -1,0 +1,13 @@
+//! What the front ends ship with: the examples, the programs that scenarios can name, and how a
+//! scenario that names them is read and started.
+//!
+//! The command and the WebAssembly module link this, so that a name means the same to both. Nothing
+//! here touches a clock or a file: an example brings the files that its scenario names.
+
+pub mod examples;
+mod parameters;
+pub mod programs;
+mod start;
+
+pub use parameters::Complaint;
+pub use start::{read, run, simulation};
