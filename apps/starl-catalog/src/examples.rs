@@ -22,7 +22,7 @@ pub struct Example {
 /// All examples.
 pub const EXAMPLES: [Example; 1] = [Example {
     name: "race",
-    summary: "robots on the ground and in the air race through way-points among obstacles",
+    summary: "ground robots and quadcopters race through way-points",
     path: "examples/race/race.toml",
     text: include_str!("../../../examples/race/race.toml"),
     files: &[

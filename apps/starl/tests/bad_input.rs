@@ -87,14 +87,18 @@ fn a_bad_scenario_is_refused_with_line_and_field() {
 fn impossible_worlds_are_refused() {
     let folder = folder("bad_world");
     let obstacle = |shape: &str| format!("{SMALL}\n[[world.obstacle]]\n{shape}\n");
-    let cases: [(&str, &[&str]); 4] = [
+    let cases: [(&str, &[&str]); 5] = [
         (
-            "circle = { center = [5, 5], radius = -1 }",
-            &["bad.toml:23", "radius"],
+            "circle = { center = [5, 5], radius = \"-1m\" }",
+            &["bad.toml:23", "radius", "above zero"],
         ),
         (
-            "circle = { center = [0, 0], radius = 1 }",
-            &["bad.toml:14", "obstacle"],
+            "circle = { center = [5, 5], radius = 1 }",
+            &["bad.toml:23", "radius", "unit"],
+        ),
+        (
+            "circle = { center = [0, 0], radius = \"0.5m\" }",
+            &["bad.toml:14", "robots.0.start.0.position", "obstacle"],
         ),
         (
             "circle = { center = [2, 2], radius = \"0.3m\" }",
@@ -116,7 +120,7 @@ fn bad_options_are_refused() {
     file(
         &folder,
         "faults.toml",
-        "[[fault]]\nat = \"2s\"\ncrush = [\"holonomic0\"]\n",
+        "[[fault]]\nat = \"2s\"\nkind = \"crush\"\nrobots = [\"holonomic0\"]\n",
     );
     let cases: [(&[&str], &[&str]); 18] = [
         (&["--set", "network.loss"], &["--set network.loss", "value"]),

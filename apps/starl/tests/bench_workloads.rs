@@ -4,11 +4,11 @@ mod support;
 use serde_json::Value;
 use support::*;
 
-fn figures(arguments: &[&str]) -> Value {
+fn figures(test: &str, arguments: &[&str]) -> Value {
     let mut all = vec!["bench"];
     all.extend_from_slice(arguments);
     all.push("--json");
-    json(&starl(&folder("bench"), &all))
+    json(&starl(&folder(test), &all))
 }
 
 #[test]
@@ -24,7 +24,7 @@ fn threads_change_speed_only() {
                 "--threads",
                 threads,
             ];
-            figures(&arguments)["digest"].clone()
+            figures("bench_threads", &arguments)["digest"].clone()
         };
         assert_eq!(digest("1"), digest("2"), "{workload}");
     }
@@ -32,7 +32,10 @@ fn threads_change_speed_only() {
 
 #[test]
 fn the_swarm_is_taken_through_every_tick() {
-    let figures = figures(&["swarm", "--robots", "100", "--seconds", "3"]);
+    let figures = figures(
+        "bench_ticks",
+        &["swarm", "--robots", "100", "--seconds", "3"],
+    );
     assert_eq!(figures["robot_ticks"], 3000);
     assert_eq!(figures["sim_seconds"], 3.0);
     for name in [
@@ -51,7 +54,7 @@ fn the_swarm_is_taken_through_every_tick() {
 #[test]
 fn each_radio_hears_some_eight_neighbours() {
     let heard = |arguments: &[&str]| {
-        let figures = figures(arguments);
+        let figures = figures("bench_neighbours", arguments);
         // What is sent in the last tick would arrive after the end.
         let receptions = figures["robot_ticks"].as_f64().unwrap_or(0.0) - 500.0;
         figures["messages_delivered"].as_f64().unwrap_or(0.0) / receptions

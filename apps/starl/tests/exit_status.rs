@@ -28,7 +28,7 @@ fn a_run_whose_time_is_up_does_not() {
     let output = starl(&folder, &["run", "small.toml", "--duration", "1s"]);
     assert_eq!(status(&output), 1);
     assert!(
-        stdout(&output).contains("goal not reached within 1.00 s"),
+        stdout(&output).contains("goal not reached within 1.0 s; 0 of 2 robots"),
         "{}",
         stdout(&output)
     );

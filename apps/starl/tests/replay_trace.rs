@@ -40,7 +40,7 @@ fn so_is_that_of_an_example_with_another_fleet_and_faults() {
     file(
         &folder,
         "faults.toml",
-        "[[fault]]\nat = \"2s\"\ncrash = [\"iRobot1\"]\n",
+        "[[fault]]\nat = \"2s\"\nkind = \"crash\"\nrobots = [\"iRobot1\"]\n",
     );
     let arguments = [
         "run",

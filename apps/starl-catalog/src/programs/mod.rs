@@ -27,7 +27,7 @@ pub struct Entry {
 pub const PROGRAMS: [Entry; 3] = [
     Entry {
         name: "race",
-        summary: "race through the way-points; the first at each sends all on to the next",
+        summary: "run through the way-points; who is first sends all on",
         make: race,
     },
     Entry {
