@@ -7,7 +7,9 @@
 //! The search gives up when the tree has a given number of nodes.
 //!
 //! Where we differ: the target is not tried again from a node that it has been tried from, since the
-//! outcome would be the same.
+//! outcome would be the same; and it is tried from the new node, too, if that is not the one nearest
+//! to it. The nearest may be one from which a robot with a turning circle, or one that has to come
+//! from a given side, never gets there.
 
 use super::space::Space;
 use super::tree::Tree;
@@ -51,19 +53,25 @@ pub fn rrt<const D: usize, S: Steering<D>>(
         threshold: options.threshold,
     };
     let mut futile = 0;
+    let mut newest = 0;
     loop {
-        if let Some(path) = search.try_target(target) {
+        if let Some(reached) = search.try_target(target, newest) {
+            let mut path: Vec<Vector<D>> = search.tree.to_root(reached).collect();
+            path.reverse();
             return Some(path);
-        }
-        while search.try_place(&space.sample(random)).is_none() {
-            futile += 1;
-            if futile >= options.most_nodes {
-                return None;
-            }
         }
         if search.tree.len() >= options.most_nodes as usize {
             return None;
         }
+        newest = loop {
+            if let Some(added) = search.try_place(&space.sample(random)) {
+                break added;
+            }
+            futile += 1;
+            if futile >= options.most_nodes {
+                return None;
+            }
+        };
     }
 }
 
@@ -87,42 +95,51 @@ impl<const D: usize, S: Steering<D>> Search<'_, D, S> {
         let at = *self.tree.point(from);
         let mut place = *place;
         while distance(&at, &place) >= self.threshold {
-            if let Some(state) = self.steering.go(&at, &self.states[from as usize], &place) {
-                return Some(self.add(&place, from, state));
+            if let Some(added) = self.go(from, &place) {
+                return Some(added);
             }
             place = between(&at, &place, 0.5);
         }
         None
     }
 
-    fn add(&mut self, place: &Vector<D>, from: u32, state: S::State) -> u32 {
+    /// Goes all the way to a place; the new node there.
+    fn go(&mut self, from: u32, place: &Vector<D>) -> Option<u32> {
+        let state = &self.states[from as usize];
+        let state = self.steering.go(self.tree.point(from), state, place)?;
         self.states.push(state);
         self.tried_target.push(false);
-        self.tree.add(*place, from)
+        Some(self.tree.add(*place, from))
     }
 
-    /// Goes towards the target for as long as that leads to new nodes; the path if it is reached.
-    fn try_target(&mut self, target: &Vector<D>) -> Option<Vec<Vector<D>>> {
+    /// Goes towards the target for as long as that leads to new nodes, then from the newest node;
+    /// the target's node if it is reached.
+    fn try_target(&mut self, target: &Vector<D>, newest: u32) -> Option<u32> {
         loop {
             let from = self.tree.nearest(target);
-            if core::mem::replace(&mut self.tried_target[from as usize], true) {
-                return None;
+            if self.has_tried(from) {
+                break;
             }
-            let at = *self.tree.point(from);
             // From nearer than the threshold only the target itself is worth trying.
-            let added = match distance(&at, target) < self.threshold {
-                true => {
-                    let state = self.steering.go(&at, &self.states[from as usize], target)?;
-                    self.add(target, from, state)
-                }
-                false => self.try_from(from, target)?,
+            let added = match distance(self.tree.point(from), target) < self.threshold {
+                true => self.go(from, target),
+                false => self.try_from(from, target),
             };
-            if self.tree.point(added) == target {
-                let mut path: Vec<Vector<D>> = self.tree.to_root(added).collect();
-                path.reverse();
-                return Some(path);
+            match added {
+                Some(added) if self.tree.point(added) == target => return Some(added),
+                Some(_) => {}
+                None => break,
             }
         }
+        match self.has_tried(newest) {
+            true => None,
+            false => self.go(newest, target),
+        }
+    }
+
+    /// Whether the target has been tried from this node; from now on it has.
+    fn has_tried(&mut self, node: u32) -> bool {
+        core::mem::replace(&mut self.tried_target[node as usize], true)
     }
 }
 
