@@ -210,7 +210,7 @@ impl Obstacle {
     }
 
     /// Planar distance to the boundary of the base, metres: negative inside.
-    pub(super) fn planar_distance(&self, p: Point) -> f64 {
+    pub fn planar_distance(&self, p: Point) -> f64 {
         match &self.shape {
             Shape::Polygon { base, .. } => base.signed_distance(p),
             Shape::Circle { center, radius, .. } => center.planar_distance(p) - radius,

@@ -90,7 +90,7 @@ impl<const D: usize> FreeSpace<D> {
         let ray = Ray::new(a, b);
         let mut free = true;
         self.tree.cast(&ray, 1.0, |number, enter, leave, limit| {
-            match self.grown.clip(number, &ray, (enter, leave)) {
+            match self.grown.met(number, &ray, (enter, leave)) {
                 Some(_) => {
                     free = false;
                     -1.0
@@ -101,7 +101,8 @@ impl<const D: usize> FreeSpace<D> {
         free
     }
 
-    /// Calls `visit` with every obstacle the segment meets and the part of it inside, as fractions.
+    /// Calls `visit` with every obstacle the segment meets, dents left out, and the part of it inside,
+    /// as fractions.
     pub fn for_each_met(&self, a: &Vector<D>, b: &Vector<D>, mut visit: impl FnMut(u32, f64, f64)) {
         let ray = Ray::new(a, b);
         self.tree.cast(&ray, 1.0, |number, enter, leave, limit| {
@@ -143,12 +144,13 @@ impl<const D: usize> Space<D> for FreeSpace<D> {
         };
         let mut met = None;
         self.tree.cast(&ray, inside, |number, enter, leave, limit| {
-            match self.grown.clip(number, &ray, (enter, leave)) {
-                Some((enter, _)) => {
+            match self.grown.met(number, &ray, (enter, leave)) {
+                // In its box it may be come to after something else that has been found.
+                Some(enter) if enter <= limit => {
                     met = Some((number, enter));
                     if enter > 0.0 { enter } else { -1.0 }
                 }
-                None => limit,
+                _ => limit,
             }
         });
         match met {

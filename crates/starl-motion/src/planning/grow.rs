@@ -47,8 +47,14 @@ impl Mover {
         }
     }
 
-    /// Adds what the body's base must keep out of because of an obstacle.
-    fn push_obstacle<const D: usize>(&self, obstacle: &Obstacle, list: &mut GrownList<D>) {
+    /// Adds what the body's base must keep out of because of an obstacle, dented where one of the
+    /// ends is in the margin.
+    fn push_obstacle<const D: usize>(
+        &self,
+        obstacle: &Obstacle,
+        ends: &[Point],
+        list: &mut GrownList<D>,
+    ) {
         let Some(span) = self.blocked_heights(obstacle.height()) else {
             return;
         };
@@ -70,34 +76,70 @@ impl Mover {
                 list.push_round(corners.into_iter(), reach, span);
             }
         }
+        for &end in ends {
+            let room = self.room_beside(obstacle, end);
+            if 0.0 < room && room < self.margin {
+                let (reach, less) = (2.0 * (self.margin - room), self.margin - 0.5 * room);
+                list.dent_last(Mover::to_space(end), reach, less);
+            }
+        }
     }
 
-    /// The least gap in metres between the body at a place and what is there; see
-    /// [`Obstacle::body_gap`].
-    pub fn gap(body: Body, at: Point, obstacles: &[Obstacle], robots: &[Neighbour]) -> f64 {
-        let gap = |obstacle: &Obstacle| obstacle.body_gap(at, body.radius, body.height);
-        let robots = robots.iter().map(|robot| gap(&as_obstacle(robot)));
-        let all = obstacles.iter().map(gap).chain(robots);
-        all.fold(
-            f64::INFINITY,
-            |least, gap| if gap < least { gap } else { least },
-        )
+    /// The greatest margin, metres, with which the body at a place would just touch the grown
+    /// obstacle; not above zero where the body itself does, infinite where nothing could make it.
+    fn room_beside(&self, obstacle: &Obstacle, at: Point) -> f64 {
+        let planar = obstacle.planar_distance(at) - self.body.radius;
+        let Some(span) = obstacle.height() else {
+            return planar;
+        };
+        match self.body.workspace {
+            Workspace::Ground if self.blocked_heights(Some(span)).is_none() => f64::INFINITY,
+            Workspace::Ground => planar,
+            Workspace::Air { .. } => {
+                let above = at.z - span.high;
+                let below = span.low - (at.z + self.body.height);
+                planar.max(above).max(below)
+            }
+        }
     }
 
-    /// What the robot's base centre must keep out of.
+    /// The least [`Mover::room_beside`] anything.
+    pub fn room(&self, at: Point, obstacles: &[Obstacle], robots: &[Neighbour]) -> f64 {
+        let mut least = f64::INFINITY;
+        self.for_each(obstacles, robots, |obstacle| {
+            let room = self.room_beside(obstacle, at);
+            least = if room < least { room } else { least };
+        });
+        least
+    }
+
+    /// What the robot's base centre must keep out of on a path between these ends.
     pub fn grow<const D: usize>(
         &self,
         obstacles: &[Obstacle],
         robots: &[Neighbour],
+        ends: &[Point],
     ) -> GrownList<D> {
         let mut list = GrownList::new();
+        self.for_each(obstacles, robots, |obstacle| {
+            self.push_obstacle(obstacle, ends, &mut list);
+        });
+        list
+    }
+
+    /// All that is in the way and usable.
+    fn for_each(
+        &self,
+        obstacles: &[Obstacle],
+        robots: &[Neighbour],
+        mut visit: impl FnMut(&Obstacle),
+    ) {
         for obstacle in obstacles.iter().filter(|obstacle| obstacle.is_valid()) {
-            self.push_obstacle(obstacle, &mut list);
+            visit(obstacle);
         }
         for robot in robots.iter().map(as_obstacle).filter(Obstacle::is_valid) {
-            self.push_obstacle(&robot, &mut list);
+            visit(&robot);
         }
-        list
     }
 
     /// The space in which the robot's base centre can move from `start` to `target`.

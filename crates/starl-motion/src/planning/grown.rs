@@ -4,7 +4,9 @@
 //! the robot's base centre must not be at are therefore the base moved outwards by the robot's
 //! radius, with round corners, times a longer interval (the Minkowski sum; Lozano-Perez 1983,
 //! "Spatial planning: a configuration space approach"). Exact, nothing is sampled or approximated.
+//! Near the ends of a path an obstacle may be grown by less; see `dent.rs`.
 
+use super::dent::{self, Dent};
 use super::outline::{Corner, clip_outline};
 use super::ray::Ray;
 use super::vector::Vector;
@@ -24,6 +26,8 @@ pub struct Grown<const D: usize> {
     count: u32,
     /// Everything this near to the polygon of the corners belongs to the outline, metres.
     radius: f64,
+    /// Its dents are the ones from the first number up to the second of its list.
+    dents: (u32, u32),
 }
 
 /// Grown obstacles and their corners.
@@ -31,6 +35,7 @@ pub struct Grown<const D: usize> {
 pub struct GrownList<const D: usize> {
     list: Vec<Grown<D>>,
     corners: Vec<Corner>,
+    dents: Vec<Dent<D>>,
 }
 
 impl<const D: usize> GrownList<D> {
@@ -39,6 +44,7 @@ impl<const D: usize> GrownList<D> {
         GrownList {
             list: Vec::new(),
             corners: Vec::new(),
+            dents: Vec::new(),
         }
     }
 
@@ -55,6 +61,7 @@ impl<const D: usize> GrownList<D> {
             first: 0,
             count: 0,
             radius: 0.0,
+            dents: (0, 0),
         });
     }
 
@@ -94,14 +101,40 @@ impl<const D: usize> GrownList<D> {
             first: first as u32,
             count,
             radius,
+            dents: (0, 0),
         });
     }
 
-    /// The part of the segment that is in the obstacle, as fractions of its length; `inside` is the
-    /// part in the obstacle's box.
+    /// Dents the obstacle added last, which has corners: within `radius` metres of `center` it is
+    /// as if it had been grown by `less` metres less, in all directions.
+    pub fn dent_last(&mut self, center: Vector<D>, radius: f64, less: f64) {
+        let Some(last) = self.list.last_mut() else {
+            return;
+        };
+        let mut inner = *last;
+        inner.radius -= less;
+        inner.low = inner.low.map(|low| low + less);
+        inner.high = inner.high.map(|high| high - less);
+        if last.dents.1 == 0 {
+            last.dents.0 = self.dents.len() as u32;
+        }
+        self.dents.push(Dent {
+            center,
+            radius,
+            inner,
+        });
+        last.dents.1 = self.dents.len() as u32;
+    }
+
+    /// The part of the segment that is in the obstacle, dents left out, as fractions of its length;
+    /// `inside` is the part in the obstacle's box.
     #[inline]
     pub fn clip(&self, number: u32, ray: &Ray<D>, inside: (f64, f64)) -> Option<(f64, f64)> {
-        let grown = &self.list[number as usize];
+        self.clip_grown(&self.list[number as usize], ray, inside)
+    }
+
+    #[inline]
+    fn clip_grown(&self, grown: &Grown<D>, ray: &Ray<D>, inside: (f64, f64)) -> Option<(f64, f64)> {
         if grown.count == 0 {
             return Some(inside);
         }
@@ -112,12 +145,29 @@ impl<const D: usize> GrownList<D> {
         (enter <= leave).then_some((enter, leave))
     }
 
+    /// Where the segment is first in the obstacle, its dents taken into account, as a fraction of its
+    /// length; `inside` as in [`GrownList::clip`].
+    #[inline]
+    pub fn met(&self, number: u32, ray: &Ray<D>, inside: (f64, f64)) -> Option<f64> {
+        let part = self.clip(number, ray, inside)?;
+        match self.list[number as usize].dents {
+            (_, 0) => Some(part.0),
+            (from, to) => {
+                let dents = &self.dents[from as usize..to as usize];
+                dent::first_met(dents, ray, part, |inner| {
+                    let inside = ray.clip(&inner.low, &inner.high, 1.0)?;
+                    self.clip_grown(inner, ray, inside)
+                })
+            }
+        }
+    }
+
     /// Whether the segment keeps clear of all of them; looks at every one.
     pub fn is_clear(&self, a: &Vector<D>, b: &Vector<D>) -> bool {
         let ray = Ray::new(a, b);
         (0u32..).zip(&self.list).all(|(number, grown)| {
             let inside = ray.clip(&grown.low, &grown.high, 1.0);
-            inside.is_none_or(|inside| self.clip(number, &ray, inside).is_none())
+            inside.is_none_or(|inside| self.met(number, &ray, inside).is_none())
         })
     }
 

@@ -24,6 +24,7 @@
 
 pub mod box_tree;
 pub mod cost_tree;
+mod dent;
 mod driving;
 pub mod ellipsoid;
 pub mod escape;
@@ -49,8 +50,8 @@ use task::Task;
 /// What a host may change about planning.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// How far paths stay away from things beyond the body's own radius, as a part of that radius.
-    /// Where the target or its vicinity leaves less room than that, half of it.
+    /// How far paths stay away from things beyond the body's own radius, as a part of that radius; see
+    /// [`plan`] for where it is less.
     pub margin_radii: f64,
     /// How far a robot that is too near to something may go to get clear of it, in radii.
     pub escape_radii: f64,
@@ -65,14 +66,18 @@ impl Default for Options {
     }
 }
 
-/// Way-points from the estimated pose to the target of the request, the last of them exactly the
-/// target; none if the planner gave up.
+/// Way-points from the estimated pose to where the request is fulfilled; none if the planner gave up.
 ///
+/// - The last way-point is the target if the body can be there. If not, it is the place nearest to it
+///   where the body has the margin, or half of the room that the request's vicinity leaves; there is
+///   no path if that is none.
 /// - The body keeps out of the unsafe set all along the way, `margin_radii` further off than it must.
-/// - If the target is not free, the free point nearest to it takes its place, unless that is more
-///   than the request's vicinity away.
-/// - If the start is too near to something, the first way-point is the nearest free place that can be
-///   reached by moving away from it. A robot whose centre is inside an obstacle gets no path.
+///   Where start or end are within that margin of something, half of the gap that is there takes its
+///   place, twice as far about that end as the margin lacks. Where there is no way with such a margin,
+///   a half, a quarter and an eighth of it are tried, each with half of the nodes that are left.
+/// - If the body touches something at the start, the first way-point is the nearest place with the
+///   margin that can be reached by moving away from it. A robot whose centre is inside an obstacle
+///   gets no path.
 /// - A robot in the air that is below its lowest height of travel is taken to have risen there.
 pub fn plan(
     model: &dyn Model,

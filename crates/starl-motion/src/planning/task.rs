@@ -17,6 +17,10 @@ const SHORTEST_STEP: f64 = 0.01;
 /// Rounds of shortening; most paths are taut sooner.
 const ROUNDS: u32 = 8;
 
+/// How many margins are tried, each half of the one before. Every search but the last may use half of
+/// the nodes that are left.
+const MARGINS: u32 = 4;
+
 /// A request and all that bears on it.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
@@ -35,27 +39,63 @@ pub struct Task<'a> {
 impl Task<'_> {
     /// The way-points, or none; in two coordinates on the floor, three in the air.
     pub fn solve<const D: usize>(&self) -> Option<Path> {
-        let mover = self.mover();
-        let grown = mover.grow::<D>(&self.request.unsafe_set, self.robots);
-        let (from, target) = (Mover::to_space(self.from), Mover::to_space(self.target));
+        let mut margin = self.options.margin_radii * self.model.body().radius;
+        let mut left = self.request.most_nodes;
+        for turn in 1..=MARGINS {
+            let nodes = if turn < MARGINS { left / 2 } else { left };
+            left -= nodes;
+            if let Some(path) = self.solve_with::<D>(margin, nodes) {
+                return Some(path);
+            }
+            margin *= 0.5;
+        }
+        None
+    }
+
+    /// A path with this margin, metres, found with so many nodes.
+    fn solve_with<const D: usize>(&self, margin: f64, nodes: u32) -> Option<Path> {
+        let body = self.model.body();
+        let end = self.end::<D>(margin)?;
+        let mover = Mover { body, margin };
+        let grown = mover.grow::<D>(&self.request.unsafe_set, self.robots, &[self.from, end]);
+        let (from, target) = (Mover::to_space(self.from), Mover::to_space(end));
         let drives = self.planner() == Planner::Rrt;
         if !drives && grown.is_clear(&from, &target) {
-            return Some(alloc::vec![self.target]);
+            return Some(alloc::vec![end]);
         }
-        let space = mover.space::<D>(self.from, self.target, grown);
-        let target = escape::nearest_free(&space, &target, self.request.vicinity)?;
-        let within = self.options.escape_radii * mover.body.radius;
+        let space = mover.space::<D>(self.from, end, grown);
         let root = match space.is_free(&from) {
             true => from,
-            false => escape::escape(&space, &from, within)?,
+            false => escape::escape(&space, &from, self.options.escape_radii * body.radius)?,
         };
         let found = match drives {
-            true => self.drive(&space, &root, &target)?,
-            false => self.search(&space, &root, &target)?,
+            true => self.drive(&space, &root, &target, nodes)?,
+            false => self.search(&space, &root, &target, nodes)?,
         };
         // The root is the first way-point only where it is not where the robot is.
         let path = found.iter().skip(usize::from(root == from));
         Some(path.map(Mover::to_world).collect())
+    }
+
+    /// Where the path ends: at the target if the body can be there, otherwise at the nearest place
+    /// where it has the margin or half of the room that the vicinity leaves beyond contact.
+    fn end<const D: usize>(&self, margin: f64) -> Option<Point> {
+        let (body, request) = (self.model.body(), self.request);
+        let room = Mover { body, margin }.room(self.target, &request.unsafe_set, self.robots);
+        if room > 0.0 {
+            return Some(self.target);
+        }
+        let left = 0.5 * (room + request.vicinity);
+        if left.is_nan() || left <= 0.0 {
+            return None;
+        }
+        let margin = if left < margin { left } else { margin };
+        let mover = Mover { body, margin };
+        let grown = mover.grow::<D>(&request.unsafe_set, self.robots, &[]);
+        let space = mover.space::<D>(self.from, self.target, grown);
+        let target = Mover::to_space(self.target);
+        let end = escape::nearest_free(&space, &target, request.vicinity)?;
+        Some(Mover::to_world(&end))
     }
 
     /// The planner asked for, or the one that suits the model.
@@ -77,9 +117,10 @@ impl Task<'_> {
         space: &FreeSpace<D>,
         root: &Vector<D>,
         target: &Vector<D>,
+        nodes: u32,
     ) -> Option<Vec<Vector<D>>> {
         let mut random = self.random();
-        let mut path = self.connect(space, root, target, &mut random)?;
+        let mut path = self.connect(space, root, target, nodes, &mut random)?;
         shorten::shorten(space, &mut path, ROUNDS);
         if self.planner() == Planner::RrtStar {
             let options = rrt_star::Options {
@@ -98,10 +139,11 @@ impl Task<'_> {
         space: &FreeSpace<D>,
         root: &Vector<D>,
         target: &Vector<D>,
+        nodes: u32,
         random: &mut Random,
     ) -> Option<Vec<Vector<D>>> {
         let options = rrt_connect::Options {
-            most_nodes: self.request.most_nodes,
+            most_nodes: nodes,
             longest_step: f64::INFINITY,
             shortest_step: self.shortest_step(),
         };
@@ -118,10 +160,11 @@ impl Task<'_> {
         space: &FreeSpace<D>,
         root: &Vector<D>,
         target: &Vector<D>,
+        nodes: u32,
     ) -> Option<Vec<Vector<D>>> {
         let mut random = self.random();
         // Where a point finds no way a body finds none, and the point is much sooner done.
-        self.connect(space, root, target, &mut random)?;
+        self.connect(space, root, target, nodes, &mut random)?;
         let driving = Driving {
             model: self.model,
             space,
@@ -140,26 +183,12 @@ impl Task<'_> {
         }
         let state = self.model.at_rest(pose);
         let options = rrt::Options {
-            most_nodes: self.request.most_nodes,
+            most_nodes: nodes,
             threshold: driving::SHORTEST_DRIVE,
         };
         let start = (root, state);
         let mut path = rrt::rrt(space, &driving, start, target, &options, &mut random)?;
         driving.leave_out(&state, &mut path);
         Some(path)
-    }
-
-    /// The body with its margin: the one asked for, or half of the room that the target leaves. A
-    /// target that is not free leaves as much as its vicinity reaches beyond the nearest free point.
-    fn mover(&self) -> Mover {
-        let body = self.model.body();
-        let gap = Mover::gap(body, self.target, &self.request.unsafe_set, self.robots);
-        let room = if gap > 0.0 {
-            gap
-        } else {
-            gap + self.request.vicinity
-        };
-        let margin = (0.5 * room).clamp(0.0, self.options.margin_radii * body.radius);
-        Mover { body, margin }
     }
 }
