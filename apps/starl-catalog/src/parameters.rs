@@ -144,7 +144,7 @@ impl<'a> Parameters<'a> {
             return default;
         };
         read(value).unwrap_or_else(|| {
-            let message = format!("{} is not {expected}", describe(value));
+            let message = format!("{} does not fit", describe(value));
             let help = format!("give {expected}");
             self.complaint
                 .get_or_insert(complaint(name, &message, help));

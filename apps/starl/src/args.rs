@@ -3,6 +3,17 @@
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
+const MOST_THREADS: u32 = 1_024;
+const MOST_ROBOTS: u32 = 10_000_000;
+
+/// Reads a whole number in a range, and says the range where it is something else.
+fn whole(low: u32, high: u32) -> impl Fn(&str) -> Result<u32, String> + Clone + Send + Sync {
+    move |text| match text.parse() {
+        Ok(number) if (low..=high).contains(&number) => Ok(number),
+        _ => Err(format!("give a whole number from {low} to {high}")),
+    }
+}
+
 /// Distributed robot applications: run, replay and measure them.
 #[derive(Parser, Debug)]
 #[command(name = "starl", version, arg_required_else_help = true)]
@@ -47,8 +58,8 @@ pub struct RunArguments {
     pub faults: Option<PathBuf>,
     /// Threads to step robots on; the result is the same for any number [default: all cores for
     /// more than 2,000 robots, else 1]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
+    #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
+    pub threads: Option<u32>,
     /// Write everything that happens to this MCAP file
     #[arg(long, value_name = "PATH")]
     pub trace: Option<PathBuf>,
@@ -69,8 +80,8 @@ pub struct ReplayArguments {
     /// A file that `starl run --trace` wrote
     pub trace: PathBuf,
     /// Threads to step robots on [default: as for `starl run`]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
+    #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
+    pub threads: Option<u32>,
 }
 
 /// Arguments of `starl list`.
@@ -102,13 +113,13 @@ pub enum Workload {
 #[derive(Args, Debug)]
 pub struct LoadArguments {
     /// Simulated seconds
-    #[arg(long, value_name = "S", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "S", default_value_t = 10, value_parser = whole(1, 1_000_000))]
     pub seconds: u32,
     /// Threads to step robots on
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: u16,
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole(1, MOST_THREADS))]
+    pub threads: u32,
     /// Decides every random draw
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole(0, u32::MAX))]
     pub seed: u32,
     /// Print one JSON object
     #[arg(long)]
@@ -119,7 +130,7 @@ pub struct LoadArguments {
 #[derive(Args, Debug)]
 pub struct SwarmArguments {
     /// How many robots
-    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = whole(1, MOST_ROBOTS))]
     pub robots: u32,
     /// What all workloads have in common.
     #[command(flatten)]
@@ -130,7 +141,7 @@ pub struct SwarmArguments {
 #[derive(Args, Debug)]
 pub struct RadioArguments {
     /// How many robots
-    #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = whole(1, MOST_ROBOTS))]
     pub robots: u32,
     /// Bodies block the radio
     #[arg(long)]

@@ -1,15 +1,24 @@
 //! Writes to the terminal, or to wherever the output goes. A reader that has gone away (`| head`) is
-//! no error.
+//! no error; a disk that is full is.
 
-use std::io::{self, Write};
+use crate::failure::Failure;
+use crate::output::reason;
+use std::io::{self, ErrorKind, Write};
 
 /// Writes text to standard output.
-pub fn print(text: &str) {
+pub fn print(text: &str) -> Result<(), Failure> {
     let mut output = io::stdout().lock();
-    // Nothing can be told to a reader who is gone.
-    let _ = output
+    let written = output
         .write_all(text.as_bytes())
         .and_then(|()| output.flush());
+    match written {
+        // Nothing can be told to a reader who is gone.
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure(format!(
+            "standard output: cannot be written: {}",
+            reason(&error)
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// Writes a message to the error stream.

@@ -112,12 +112,12 @@ pub fn list(arguments: &ListArguments) -> Result<bool, Failure> {
         planners: PLANNERS.iter().map(|planner| planner.0).collect(),
     };
     if arguments.json {
-        json::print(&listing);
+        json::print(&listing)?;
     } else {
         let mut text = String::new();
         // Writing to a string does not fail.
         let _ = write(&mut text, &listing);
-        console::print(&text);
+        console::print(&text)?;
     }
     Ok(true)
 }

@@ -11,6 +11,7 @@ mod failure;
 mod json;
 mod list;
 mod output;
+mod outputs;
 mod paths;
 mod plot;
 mod progress;

@@ -12,7 +12,10 @@ use std::path::{Path, PathBuf};
 /// A file in the making. It is thrown away unless [`Output::commit`] is called.
 #[derive(Debug)]
 pub struct Output {
+    /// As it was given.
     path: PathBuf,
+    /// Where it leads if it is a link, so that the link stays.
+    target: PathBuf,
     /// None where there is nothing to rename, such as a pipe or a device.
     temporary: Option<PathBuf>,
 }
@@ -26,6 +29,7 @@ impl Output {
                 format!("cannot be written: {}; choose another path", reason(error)),
             )
         };
+        let target = identity(path);
         let special = match fs::metadata(path) {
             Ok(found) if found.is_dir() => {
                 return Err(Failure::file(path, "is a folder; name a file in it"));
@@ -44,21 +48,23 @@ impl Output {
             return Ok((
                 Output {
                     path: path.to_path_buf(),
+                    target,
                     temporary: None,
                 },
                 file,
             ));
         }
-        let Some(name) = path.file_name() else {
+        let Some(name) = target.file_name() else {
             return Err(Failure::file(path, "is not the name of a file; name one"));
         };
         let mut name = name.to_os_string();
         name.push(format!(".partial-{}", std::process::id()));
-        let temporary = path.with_file_name(name);
+        let temporary = target.with_file_name(name);
         let file = File::create(&temporary).map_err(|error| cannot(&error))?;
         Ok((
             Output {
                 path: path.to_path_buf(),
+                target,
                 temporary: Some(temporary),
             },
             file,
@@ -75,7 +81,7 @@ impl Output {
         let Some(temporary) = self.temporary.take() else {
             return Ok(());
         };
-        fs::rename(&temporary, &self.path).map_err(|error| {
+        fs::rename(&temporary, &self.target).map_err(|error| {
             let _ = fs::remove_file(&temporary);
             Failure::file(&self.path, format!("cannot be written: {}", reason(&error)))
         })
@@ -97,6 +103,22 @@ impl Drop for Output {
         if let Some(temporary) = &self.temporary {
             let _ = fs::remove_file(temporary);
         }
+    }
+}
+
+/// The file that a path means, however it is written: two paths that mean the same file give the same.
+pub fn identity(path: &Path) -> PathBuf {
+    if let Ok(found) = fs::canonicalize(path) {
+        return found;
+    }
+    // It is still to be made, in a folder that may be there.
+    let folder = match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    match (fs::canonicalize(folder), path.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        _ => path.to_path_buf(),
     }
 }
 

@@ -16,7 +16,7 @@ impl Progress {
             }
             false => ProgressBar::hidden(),
         };
-        let template = "{bar:40} {msg} of at most {prefix} simulated, {elapsed} passed";
+        let template = "{bar:30} {msg} of at most {prefix} simulated, {elapsed} passed";
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }

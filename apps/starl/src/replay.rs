@@ -34,11 +34,14 @@ pub fn replay(arguments: &ReplayArguments) -> Result<bool, Failure> {
         Ok(text) => (true, text),
         Err(text) => (false, text + &other_version(&header)),
     };
-    console::print(&format!("{}: {text}\n", path.display()));
+    console::print(&format!("{}: {text}\n", path.display()))?;
     Ok(same)
 }
 
 fn open(path: &Path) -> Result<Reader<BufReader<File>>, Failure> {
+    if path.is_dir() {
+        return Err(Failure::file(path, "is a folder; name the trace in it"));
+    }
     let file = File::open(path)
         .map_err(|error| Failure::file(path, format!("cannot be read: {}", reason(&error))))?;
     Reader::new(BufReader::new(file)).map_err(|error| unreadable(path, &error))

@@ -4,7 +4,7 @@ use crate::args::RunArguments;
 use crate::failure::Failure;
 use crate::output::reason;
 use starl_catalog::examples::{self, EXAMPLES};
-use starl_sim::read::{Loader, Override, Request, Resolved, Source};
+use starl_sim::read::{Loader, Override, Request, Resolved, Source, suggest};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -22,6 +22,18 @@ pub fn read(arguments: &RunArguments) -> Result<Resolved, Failure> {
         ..Request::new(source)
     };
     Ok(starl_catalog::read(&request, &*loader)?)
+}
+
+/// The files that the scenario was read from; none of an example's, which are part of the command.
+pub fn files(arguments: &RunArguments, resolved: &Resolved) -> Vec<PathBuf> {
+    let mut files: Vec<PathBuf> = arguments.faults.iter().cloned().collect();
+    if examples::find(&arguments.target).is_none() {
+        let scenario = PathBuf::from(&arguments.target);
+        let named = resolved.inputs.files.keys();
+        files.extend(named.map(|path| scenario.with_file_name(path)));
+        files.push(scenario);
+    }
+    files
 }
 
 /// The changes that the command line makes, in the order of their power: the options with names of
@@ -47,9 +59,9 @@ fn find(target: &str) -> Result<(Source, Box<dyn Loader>), Failure> {
     let path = Path::new(target);
     if !path.exists() {
         let names: Vec<&str> = EXAMPLES.iter().map(|example| example.name).collect();
+        let help = suggest::help(target, &names, "the examples are").unwrap_or_default();
         return Err(Failure(format!(
-            "{target}: there is no example or scenario file called this; the examples are: {}",
-            names.join(", ")
+            "{target}: there is no example or scenario file called this; {help}"
         )));
     }
     if path.is_dir() {

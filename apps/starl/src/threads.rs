@@ -7,9 +7,9 @@ use crate::failure::Failure;
 const SMALL_FLEET: usize = 2_000;
 
 /// How many threads to use.
-pub fn count(asked: Option<u16>, robots: usize) -> usize {
+pub fn count(asked: Option<u32>, robots: usize) -> usize {
     match asked {
-        Some(threads) => usize::from(threads),
+        Some(threads) => threads as usize,
         None if robots <= SMALL_FLEET => 1,
         None => std::thread::available_parallelism().map_or(1, |cores| cores.get()),
     }

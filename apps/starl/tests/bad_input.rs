@@ -122,7 +122,7 @@ fn bad_options_are_refused() {
         "faults.toml",
         "[[fault]]\nat = \"2s\"\nkind = \"crush\"\nrobots = [\"holonomic0\"]\n",
     );
-    let cases: [(&[&str], &[&str]); 18] = [
+    let cases: [(&[&str], &[&str]); 20] = [
         (&["--set", "network.loss"], &["--set network.loss", "value"]),
         (
             &["--set", "network.lost=0.1"],
@@ -157,7 +157,15 @@ fn bad_options_are_refused() {
             &["none/a.mcap", "cannot be written"],
         ),
         (&["--trace", "."], &["."]),
-        (&["--threads", "0"], &["--threads", "0"]),
+        (&["--threads", "0"], &["--threads", "'0'", "from 1 to 1024"]),
+        (
+            &["--threads", "two"],
+            &["--threads", "'two'", "from 1 to 1024"],
+        ),
+        (
+            &["--set", "parameters.planner=rtr"],
+            &["--set parameters.planner", "give one of auto, rrt"],
+        ),
         (&["--speed", "2"], &["--speed"]),
     ];
     for (options, expected) in cases {
@@ -182,8 +190,12 @@ fn what_is_no_scenario_or_trace_is_refused() {
     std::fs::write(folder.join("bytes"), [0x80, 0xff, 0x00]).expect("the folder can be written to");
     refused(
         &folder,
-        &["run", "rice"],
-        &["rice", "no example or scenario file", "race"],
+        &["run", "rcae"],
+        &[
+            "rcae",
+            "no example or scenario file",
+            "did you mean `race`?",
+        ],
     );
     refused(&folder, &["run", "."], &["folder"]);
     refused(&folder, &["run", "empty"], &["empty:1", "robots"]);
@@ -192,7 +204,7 @@ fn what_is_no_scenario_or_trace_is_refused() {
     refused(&folder, &["replay", "none"], &["none", "no such file"]);
     refused(&folder, &["replay", "empty"], &["empty"]);
     refused(&folder, &["replay", "words"], &["words", "not a trace"]);
-    refused(&folder, &["replay", "."], &["."]);
+    refused(&folder, &["replay", "."], &[".: is a folder"]);
 }
 
 #[test]

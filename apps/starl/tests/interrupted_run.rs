@@ -1,4 +1,5 @@
-//! Ctrl-C ends a run as if its time were up: with a summary, and with a trace that is whole.
+//! Ctrl-C, or a request to end, ends a run as if its time were up: with a summary, and with a trace
+//! that is whole.
 
 #![cfg(unix)]
 
@@ -8,7 +9,16 @@ use support::*;
 
 #[test]
 fn an_interrupted_run_can_be_replayed() {
-    let folder = folder("interrupted");
+    interrupt("interrupted", "-INT");
+}
+
+#[test]
+fn so_can_one_that_was_asked_to_end() {
+    interrupt("terminated", "-TERM");
+}
+
+fn interrupt(test: &str, signal: &str) {
+    let folder = folder(test);
     // It would take days.
     let endless = SMALL.replacen("\"30s\"", "\"1000000s\"\ngoal = \"duration\"", 1);
     file(&folder, "endless.toml", &endless);
@@ -36,7 +46,7 @@ fn an_interrupted_run_can_be_replayed() {
         std::thread::yield_now();
     }
     let interrupted = Command::new("kill")
-        .args(["-INT", &run.id().to_string()])
+        .args([signal, &run.id().to_string()])
         .status();
     assert!(interrupted.is_ok_and(|status| status.success()));
     let output = run.wait_with_output().expect("it ends");

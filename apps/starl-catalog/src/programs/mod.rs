@@ -12,6 +12,7 @@ use starl_core::Program;
 use starl_core::motion::Planner;
 use starl_primitives::{reach_avoid, reliable};
 use starl_race::Race;
+use starl_sim::read::suggest;
 use starl_sim::scenario::Group;
 
 /// A program with its name.
@@ -60,7 +61,7 @@ pub fn make(group: &Group) -> Result<Box<dyn Program>, Complaint> {
         return Err(Complaint {
             field: "program".to_string(),
             message: format!("there is no program {:?}", group.program),
-            help: format!("there are: {}", names.join(", ")),
+            help: suggest::help(&group.program, &names, "there are").unwrap_or_default(),
         });
     };
     let mut parameters = Parameters::new(&group.parameters);

@@ -16,11 +16,11 @@ pub fn bench(arguments: &BenchArguments) -> Result<bool, Failure> {
         Workload::Swarm(swarm) => (&swarm.load, workload::swarm(swarm)),
         Workload::Radio(radio) => (&radio.load, workload::radio(radio)),
     };
-    let figures = measure::measure(&workload, usize::from(load.threads))?;
+    let figures = measure::measure(&workload, load.threads as usize)?;
     if load.json {
-        json::print(&figures);
+        json::print(&figures)?;
     } else {
-        console::print(&measure::text(&figures));
+        console::print(&measure::text(&figures))?;
     }
     Ok(true)
 }

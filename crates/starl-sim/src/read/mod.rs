@@ -27,7 +27,7 @@ pub mod schema;
 mod section;
 mod settings;
 mod start;
-mod suggest;
+pub mod suggest;
 mod tree;
 mod unit;
 mod value;

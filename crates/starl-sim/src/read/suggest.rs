@@ -2,7 +2,7 @@
 
 /// The candidate nearest to `word` by restricted edit distance (insert, delete, replace, swap two
 /// neighbours; Damerau 1964), if it is near enough to be a slip.
-pub(super) fn nearest<'a>(
+pub fn nearest<'a>(
     word: &str,
     candidates: impl Iterator<Item = &'a str>,
 ) -> Option<&'a str> {
@@ -16,7 +16,7 @@ pub(super) fn nearest<'a>(
 }
 
 /// `did you mean "loss"?`, or else what there is to choose from.
-pub(super) fn help(word: &str, candidates: &[&str], kind: &str) -> Option<String> {
+pub fn help(word: &str, candidates: &[&str], kind: &str) -> Option<String> {
     if let Some(candidate) = nearest(word, candidates.iter().copied()) {
         return Some(format!("did you mean `{candidate}`?"));
     }
