@@ -50,6 +50,7 @@ examples: $(STARL)
 	tools/examples.sh $(STARL)
 
 docs:
+	python3 tools/check_docs.py
 	RUSTDOCFLAGS="--deny warnings" cargo doc --workspace --no-deps
 
 deny:

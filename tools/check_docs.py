@@ -1,0 +1,45 @@
+"""Checks that every relative link of the project's Markdown files leads to a file, and to a heading of it.
+
+    python3 tools/check_docs.py
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def text_of(path):
+    """The page without its code, in which brackets are no links."""
+    text = path.read_text(encoding="utf-8")
+    return re.sub(r"^```.*?^```$|`[^`\n]+`", lambda m: re.sub(r"[\[\]()#]", " ", m[0]), text, flags=re.M | re.S)
+
+
+def anchors_of(path):
+    """The anchors of a page's headings, as GitHub makes them."""
+    titles = re.findall(r"^#+ +(.+?) *$", text_of(path), re.M)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+def problems_of(page):
+    for number, line in enumerate(text_of(page).splitlines(), 1):
+        for link in re.findall(r"\]\(([^)\s]+)\)", line):
+            if re.match(r"[a-z]+:", link):
+                continue
+            name, _, anchor = link.partition("#")
+            target = (page.parent / name).resolve() if name else page
+            where = f"{page.relative_to(ROOT)}:{number}"
+            if not target.exists():
+                yield f"{where}: {link}: there is no such file"
+            elif anchor and target.suffix == ".md" and anchor not in anchors_of(target):
+                yield f"{where}: {link}: there is no such heading"
+
+
+tracked = ["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"]
+names = subprocess.run(tracked, cwd=ROOT, check=True, capture_output=True, text=True).stdout.splitlines()
+pages = [ROOT / name for name in names if (ROOT / name).exists()]
+problems = [problem for page in pages for problem in problems_of(page)]
+print("\n".join(problems) or f"{len(pages)} pages: all links lead somewhere")
+sys.exit(bool(problems))
