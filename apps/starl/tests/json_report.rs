@@ -89,3 +89,36 @@ fn every_key_is_documented() {
         );
     }
 }
+
+#[test]
+fn so_is_every_key_of_the_other_commands() {
+    let folder = folder("json_other_keys");
+    for (heading, arguments) in [
+        ("## `starl list`", &["list", "--json"][..]),
+        (
+            "## `starl bench`",
+            &[
+                "bench",
+                "radio",
+                "--robots",
+                "9",
+                "--seconds",
+                "1",
+                "--json",
+            ],
+        ),
+    ] {
+        let (_, section) = REFERENCE.split_once(heading).expect("it has a section");
+        let section = section.split("\n## ").next().unwrap_or_default();
+        let mut found = BTreeSet::new();
+        paths(&json(&starl(&folder, arguments)), "", &mut found);
+        assert!(!found.is_empty());
+        for path in found {
+            let name = path.rsplit('.').next().unwrap_or_default();
+            assert!(
+                section.contains(&format!("`{name}`")),
+                "{path} is not in the section {heading}"
+            );
+        }
+    }
+}

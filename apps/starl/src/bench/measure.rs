@@ -7,6 +7,7 @@ use crate::threads;
 use cpu_time::ProcessTime;
 use serde::Serialize;
 use starl_core::Time;
+use starl_sim::Simulation;
 use starl_sim::read::{self, Request, Source};
 use std::fmt::Write;
 use std::fs;
@@ -30,24 +31,24 @@ pub struct Figures {
     pub speed_factor: f64,
     pub messages_delivered: u64,
     pub messages_delivered_per_cpu_second: f64,
-    /// Growth of the process's peak memory; none where the system does not tell it.
+    /// Growth of the process's memory, at its peak, from after a rehearsal with few robots; none where the system does not tell it.
     pub bytes_per_robot: Option<f64>,
     pub peak_memory_bytes: Option<u64>,
     pub collisions: u64,
     pub digest: String,
 }
 
+/// Ticks of a rehearsal.
+const REHEARSED_TICKS: u32 = 10;
+
 /// Runs a workload to its end.
 pub fn measure(workload: &Workload, threads: usize) -> Result<Figures, Failure> {
+    let mut rehearsal = start(workload.name, &workload.rehearsal)?;
+    (0..REHEARSED_TICKS).for_each(|_| rehearsal.step());
+    drop(rehearsal);
     let before = memory("VmRSS");
     let begun = Instant::now();
-    let source = Source::new(
-        format!("the scenario of `{}`", workload.name),
-        &workload.scenario,
-    );
-    let resolved = starl_catalog::read(&Request::new(source), &NoFiles)?;
-    let mut simulation =
-        starl_catalog::simulation(resolved.scenario).map_err(|error| Failure(error.message))?;
+    let mut simulation = start(workload.name, &workload.scenario)?;
     simulation.set_parallel(threads > 1);
     let setup_seconds = begun.elapsed().as_secs_f64();
     let (begun, cpu) = (Instant::now(), ProcessTime::now());
@@ -87,6 +88,12 @@ pub fn measure(workload: &Workload, threads: usize) -> Result<Figures, Failure> 
         collisions: tally.collisions,
         digest: simulation.digest().to_string(),
     })
+}
+
+fn start(name: &str, scenario: &str) -> Result<Simulation, Failure> {
+    let source = Source::new(format!("the scenario of `{name}`"), scenario);
+    let resolved = starl_catalog::read(&Request::new(source), &NoFiles)?;
+    starl_catalog::simulation(resolved.scenario).map_err(|error| Failure(error.message))
 }
 
 /// The figures for people.

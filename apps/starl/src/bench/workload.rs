@@ -9,22 +9,26 @@ pub struct Workload {
     pub name: &'static str,
     /// The scenario file.
     pub scenario: String,
+    /// The same with few robots, to go before: it loads what a run needs whatever its size.
+    pub rehearsal: String,
 }
+
+/// Robots of a rehearsal, enough for every kind of work to be done.
+const FEW: u32 = 64;
 
 /// Floor for each robot, square metres.
 const FLOOR: f64 = 1.6;
 
-/// Robots with 24 rays each that turn away from each other and from the walls.
+/// Robots that turn away from each other and from the walls.
 pub fn swarm(arguments: &SwarmArguments) -> Workload {
-    let sensors = "sensors = { proximity = { rays = 24, range = \"100mm\" } }";
-    let scenario = scenario("diffusion", arguments.robots, &arguments.load, sensors, "");
     Workload {
         name: "swarm",
-        scenario,
+        scenario: scenario("diffusion", arguments.robots, &arguments.load, ""),
+        rehearsal: scenario("diffusion", FEW, &arguments.load, ""),
     }
 }
 
-/// Robots that broadcast to all within 2.26 m, some eight others, at every tick.
+/// The same robots, driving in circles, broadcast to all within 2.26 m, some eight others, at every tick.
 pub fn radio(arguments: &RadioArguments) -> Workload {
     let RadioArguments {
         robots,
@@ -32,26 +36,20 @@ pub fn radio(arguments: &RadioArguments) -> Workload {
         load,
     } = arguments;
     let network = format!("range = \"2.26m\"\nline_of_sight = {occluded}\n");
-    let scenario = scenario("radio", *robots, load, "", &network);
     Workload {
         name: if *occluded {
             "radio, occluded"
         } else {
             "radio"
         },
-        scenario,
+        scenario: scenario("radio", *robots, load, &network),
+        rehearsal: scenario("radio", FEW, load, &network),
     }
 }
 
-/// Nothing is random but where the robots start, and messages arrive at the next tick, as in the
+/// Robots with 24 range rays each. Nothing is random but where the robots start, and messages arrive at the next tick, as in the
 /// systems that this is compared with.
-fn scenario(
-    program: &str,
-    robots: u32,
-    load: &LoadArguments,
-    group: &str,
-    network: &str,
-) -> String {
+fn scenario(program: &str, robots: u32, load: &LoadArguments, network: &str) -> String {
     let side = (f64::from(robots) * FLOOR).sqrt();
     let LoadArguments { seconds, seed, .. } = load;
     format!(
@@ -69,7 +67,7 @@ model = "differential"
 count = {robots}
 spacing = "0m"
 control_period = "100ms"
-{group}
+sensors = {{ proximity = {{ rays = 24, range = "100mm" }} }}
 
 [physics]
 step = "100ms"
