@@ -2,9 +2,9 @@
 
 mod planning_support;
 
-use planning_support::{Case, hall, model};
+use planning_support::{Case, hall, least_gap, model, place, random_world};
 use starl_core::motion::Estimate;
-use starl_core::{Duration, Point, Pose, Time};
+use starl_core::{Duration, Obstacle, Point, Pose, Random, Time, math};
 use starl_motion::tracking::{Goal, Tracking};
 use starl_motion::{Disturbance, Model};
 
@@ -16,6 +16,7 @@ fn follow(model: &dyn Model, case: &Case, path: &[Point]) -> (f64, Point) {
     let period = Duration::from_millis(20);
     let mut at = Time::ZERO;
     let mut least = f64::INFINITY;
+    let turn_radius = model.limits().turn_radius;
     for (index, &target) in path.iter().enumerate() {
         let free = |from: Point, to: Point| {
             let mut obstacles = case.request.unsafe_set.iter();
@@ -38,8 +39,16 @@ fn follow(model: &dyn Model, case: &Case, path: &[Point]) -> (f64, Point) {
                 };
                 command = model.track(&mut tracking, &estimate, &Goal::stop_at(target));
             }
+            let before = state.pose;
             state = model.predict(&state, &command, &Disturbance::default(), period);
             at += period;
+            // It never turns more tightly than it can.
+            let turned = math::wrap_angle(state.pose.yaw - before.yaw).abs();
+            let driven = before.position.distance(state.pose.position);
+            assert!(
+                turned * turn_radius <= 1.001 * driven + 1e-4,
+                "{turned} {driven}"
+            );
             for obstacle in case.request.unsafe_set.iter() {
                 least = least.min(obstacle.body_gap(state.pose.position, body.radius, body.height));
             }
@@ -77,6 +86,37 @@ fn the_car_follows_its_path_clear_of_everything() {
         }
     }
     assert!(found >= 115, "{found} of 120");
+}
+
+#[test]
+fn in_random_worlds_too() {
+    let model = model("car");
+    let body = model.body();
+    let (mut found, mut searched) = (0, 0);
+    for seed in 0..200 {
+        let mut random = Random::keyed(seed, &[9]);
+        // Those worlds are cramped for a car: the room, and one thing in three.
+        let all = random_world(&mut random).into_iter().enumerate();
+        let some = all.filter(|(index, _)| *index < 4 || index % 3 == 0);
+        let obstacles: Vec<Obstacle> = some.map(|(_, obstacle)| obstacle).collect();
+        let (from, to) = (place(&mut random), place(&mut random));
+        let free = |at: Point| least_gap(body, &[at, at], &obstacles) > 0.15;
+        if !free(from) || !free(to) {
+            continue;
+        }
+        let mut case = Case::new(from, to, obstacles.clone());
+        case.yaw = random.between(-3.0, 3.0);
+        (case.request.seed, case.request.most_nodes) = (seed, 2_000);
+        let Some(path) = case.plan(&*model) else {
+            continue;
+        };
+        found += 1;
+        searched += u32::from(path.len() > 1);
+        let (gap, end) = follow(&*model, &case, &path);
+        assert!(gap >= 0.0, "seed {seed}: {gap} {path:?}");
+        assert!(end.distance(to) <= 0.1, "seed {seed}: {end} {path:?}");
+    }
+    assert!(found >= 60 && searched >= 30, "{found} {searched}");
 }
 
 #[test]

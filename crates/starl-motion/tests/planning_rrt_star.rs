@@ -46,6 +46,28 @@ fn alone_it_comes_nearer_to_the_shortest_path_with_every_thousand_nodes() {
 }
 
 #[test]
+fn with_every_further_node_the_path_is_as_short_or_shorter() {
+    let (start, target) = ([0.0, 50.0], [100.0, 50.0]);
+    for seed in 0..20 {
+        let (mut before, mut first) = (f64::INFINITY, f64::INFINITY);
+        for most_nodes in (20..=400).step_by(20) {
+            let options = Options {
+                most_nodes,
+                long_enough: 0.0,
+                shortest_step: 1e-3,
+            };
+            let mut random = Random::keyed(seed, &[]);
+            let path = rrt_star(&space(), &start, &target, &[], &options, &mut random);
+            let now = path.map_or(f64::INFINITY, |path| vector::length(&path));
+            assert!(now <= before, "seed {seed}, {most_nodes} nodes");
+            first = if first.is_finite() { first } else { now };
+            before = now;
+        }
+        assert!(before < first, "seed {seed}: {before} {first}");
+    }
+}
+
+#[test]
 fn a_known_path_is_where_it_starts_from() {
     let (start, target) = ([0.0, 50.0], [100.0, 50.0]);
     let known = [start, [20.0, 5.0], [80.0, 5.0], target];

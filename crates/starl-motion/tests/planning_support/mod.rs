@@ -5,7 +5,7 @@
 
 use starl_core::geometry::{ConvexPolygon, HeightSpan, Obstacle};
 use starl_core::motion::{Body, Estimate, Path, PlanRequest, Planner};
-use starl_core::{Point, Pose};
+use starl_core::{Point, Pose, Random};
 use starl_motion::{Model, models, planning};
 use std::sync::Arc;
 
@@ -104,6 +104,56 @@ pub fn hall() -> Vec<Obstacle> {
         Obstacle::cuboid(Point::planar(5.0, 4.4), Point::planar(5.6, 5.0))
             .with_height(HeightSpan::new(0.0, 0.4)),
     );
+    all
+}
+
+/// The side of random worlds, metres.
+const SIDE: f64 = 5.0;
+
+/// A random place in a random world.
+pub fn place(random: &mut Random) -> Point {
+    Point::planar(
+        random.between(0.3, SIDE - 0.3),
+        random.between(0.3, SIDE - 0.3),
+    )
+}
+
+/// A closed room with walls, discs, triangles and boxes strewn about, and two walls across it, each
+/// with a gap that is wide enough or not.
+pub fn random_world(random: &mut Random) -> Vec<Obstacle> {
+    let mut all = room(0.0, SIDE);
+    for upright in [true, false] {
+        let (at, gap) = (random.between(1.0, 4.0), random.between(0.0, 4.0));
+        let width = random.between(0.1, 1.0);
+        let across = |a: f64, b: f64| {
+            if upright {
+                wall((at, a), (at, b))
+            } else {
+                wall((a, at), (b, at))
+            }
+        };
+        all.push(across(0.0, gap + 0.01));
+        all.push(across(gap + width, SIDE));
+    }
+    while all.len() < 20 {
+        let at = place(random);
+        let near = |random: &mut Random| {
+            at + Point::planar(random.between(-0.9, 0.9), random.between(-0.9, 0.9))
+        };
+        let corners = match random.below(4) {
+            0 => {
+                all.push(Obstacle::circle(at, random.between(0.05, 0.4)));
+                continue;
+            }
+            1 => vec![at, near(random)],
+            2 => vec![at, near(random), near(random)],
+            _ => {
+                all.push(Obstacle::cuboid(at, near(random).at_height(1.0)));
+                continue;
+            }
+        };
+        all.extend(ConvexPolygon::new(&corners).map(Obstacle::polygon));
+    }
     all
 }
 
