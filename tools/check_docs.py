@@ -1,4 +1,5 @@
-"""Checks that every relative link of the project's Markdown files leads to a file, and to a heading of it.
+"""Checks that every relative link of the project's Markdown files leads to a file, and to a heading of it,
+and that the paths which the maps of the code name exist.
 
     python3 tools/check_docs.py
 """
@@ -8,6 +9,7 @@ import re
 import subprocess
 import sys
 
+MAPS = ["ARCHITECTURE.md", "CONTRIBUTING.md"]
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
@@ -37,9 +39,17 @@ def problems_of(page):
                 yield f"{where}: {link}: there is no such heading"
 
 
+def missing_paths_of(page):
+    for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
+        for path in re.findall(r"`((?:crates|apps|examples|docs|fuzz|tools)/[\w./-]*)`", line):
+            if "NAME" not in path and not (ROOT / path).exists():
+                yield f"{page.name}:{number}: {path}: there is no such file or folder"
+
+
 tracked = ["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"]
 names = subprocess.run(tracked, cwd=ROOT, check=True, capture_output=True, text=True).stdout.splitlines()
 pages = [ROOT / name for name in names if (ROOT / name).exists()]
 problems = [problem for page in pages for problem in problems_of(page)]
+problems += [problem for name in MAPS for problem in missing_paths_of(ROOT / name)]
 print("\n".join(problems) or f"{len(pages)} pages: all links lead somewhere")
 sys.exit(bool(problems))
