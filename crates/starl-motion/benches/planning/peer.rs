@@ -1,27 +1,17 @@
-//! Planners on three worlds of boxes, beside the figures of OMPL 1.5 on the same worlds.
+//! A point on three worlds of boxes, beside the figures of OMPL 1.5 on the same worlds.
 //!
-//! A point moves in a square or cube of side 100 from corner to corner. Each planner runs with many
-//! seeds. A run includes building the space from the list of boxes and, where it says so, shortening
-//! the path. It is repeated three times and the quickest counts, because on a busy machine that comes
-//! nearest to the processor time that the peer's figures are; medians are over the seeds.
-//!
-//! `cargo bench -p starl-motion --bench planning -- [--quick]`
+//! It moves in a square or cube of side 100 from corner to corner. A run includes building the space
+//! from the list of boxes and, where it says so, shortening the path.
 
-#![allow(clippy::disallowed_methods)] // A benchmark reads the clock.
-
-use starl_core::geometry::ConvexPolygon;
-use starl_core::motion::{Estimate, Obstacles, PlanRequest, Planner};
-use starl_core::{Obstacle, Point, Pose, Random};
-use starl_motion::models;
+use super::{median, quickest};
+use starl_core::Random;
 use starl_motion::planning::free_space::FreeSpace;
 use starl_motion::planning::grown::GrownList;
-use starl_motion::planning::plan;
 use starl_motion::planning::rrt::{self, Straight, rrt};
 use starl_motion::planning::rrt_connect::{self, rrt_connect};
 use starl_motion::planning::rrt_star::{self, rrt_star};
 use starl_motion::planning::shorten::shorten;
 use starl_motion::planning::vector::{Vector, length};
-use std::time::Instant;
 
 /// Nodes at which a planner gives up.
 const MOST_NODES: u32 = 100_000;
@@ -125,24 +115,12 @@ impl<const D: usize> World<D> {
 
 type Found<const D: usize> = Option<Vec<Vector<D>>>;
 
-fn median(numbers: &mut [f64]) -> f64 {
-    numbers.sort_by(f64::total_cmp);
-    numbers.get(numbers.len() / 2).copied().unwrap_or(f64::NAN)
-}
-
 /// Prints a row: planner, solved, median and worst milliseconds, median length, the peer's.
 fn row<const D: usize>(name: &str, seeds: u64, peer: &str, plan: impl Fn(&mut Random) -> Found<D>) {
     let (mut times, mut lengths) = (Vec::new(), Vec::new());
     for seed in 0..seeds {
-        let mut quickest = f64::INFINITY;
-        let mut found = None;
-        for _ in 0..3 {
-            let mut random = Random::keyed(seed, &[]);
-            let started = Instant::now();
-            found = plan(&mut random);
-            quickest = quickest.min(started.elapsed().as_secs_f64() * 1e3);
-        }
-        times.push(quickest);
+        let (seconds, found) = quickest(|| plan(&mut Random::keyed(seed, &[])));
+        times.push(seconds * 1e3);
         lengths.extend(found.map(|path| length(&path)));
     }
     let solved = format!("{}/{seeds}", lengths.len());
@@ -186,93 +164,23 @@ fn table<const D: usize>(name: &str, text: &str, seeds: u64, peer: [&str; 4]) {
     });
 }
 
-/// The legs of the Race example, as the simulator asks for them: median microseconds a call.
-fn race(seeds: u64) {
-    let low = Point::planar(0.3, 1.0);
-    let block = ConvexPolygon::rectangle(low, Point::planar(1.5, 1.2)).expect("a rectangle");
-    let obstacles: Obstacles = [Obstacle::polygon(block)].into();
-    let way_points = [
-        (0.594, 0.508),
-        (0.093, 1.430),
-        (2.517, 2.734),
-        (0.800, 1.650),
-    ];
-    println!("\nRace: microseconds a call of `plan`, median and worst, and way-points");
-    println!(
-        "{:<12} {:<14} {:>8} {:>8} {:>8} {:>8}",
-        "robot", "planner", "leg", "median", "worst", "points"
-    );
-    for (robot, planner) in [
-        ("create", Planner::Auto),
-        ("drone", Planner::Auto),
-        ("car", Planner::Auto),
-        ("create", Planner::Rrt),
-        ("create", Planner::RrtStar),
-    ] {
-        let model = models::by_name(robot).expect("a model");
-        for from in 0..way_points.len() {
-            let [a, b] =
-                [from, (from + 1) % 4].map(|at| Point::planar(way_points[at].0, way_points[at].1));
-            let start = Estimate {
-                pose: Pose::level(a, 0.0),
-                ..Estimate::default()
-            };
-            let (mut times, mut points) = (Vec::new(), Vec::new());
-            for seed in 0..if planner == Planner::RrtStar {
-                seeds / 50
-            } else {
-                seeds
-            } {
-                let request = PlanRequest {
-                    ticket: 0,
-                    target: model.body().reachable(b),
-                    vicinity: 0.075,
-                    unsafe_set: obstacles.clone(),
-                    around_robots: false,
-                    planner,
-                    most_nodes: 1_000,
-                    seed,
-                };
-                let mut quickest = f64::INFINITY;
-                for _ in 0..3 {
-                    let started = Instant::now();
-                    let path = plan(&*model, &start, &request, &[]);
-                    quickest = quickest.min(started.elapsed().as_secs_f64() * 1e6);
-                    points.push(path.map_or(f64::NAN, |path| path.len() as f64));
-                }
-                times.push(quickest);
-            }
-            let worst = times.iter().copied().fold(0.0, f64::max);
-            println!(
-                "{robot:<12} {:<14} {:>8} {:>8.1} {worst:>8.1} {:>8}",
-                format!("{planner:?}"),
-                ["A to B", "B to C", "C to D", "D to A"][from],
-                median(&mut times),
-                median(&mut points),
-            );
-        }
-    }
-}
-
-fn main() {
-    let quick = std::env::args().any(|argument| argument == "--quick");
-    let seeds = if quick { 51 } else { 501 };
-    race(seeds);
-    let text = include_str!("worlds/scen_2d_boxes.txt");
+/// All three worlds.
+pub fn tables(seeds: u64) {
+    let text = include_str!("../worlds/scen_2d_boxes.txt");
     table::<2>(
         "2d_boxes",
         text,
         seeds,
         ["18.0", "4.9, 169", "322", "1000, 139.8"],
     );
-    let text = include_str!("worlds/scen_2d_narrow.txt");
+    let text = include_str!("../worlds/scen_2d_narrow.txt");
     table::<2>(
         "2d_narrow",
         text,
         seeds,
         ["1.46", "1.30, 355", "19.0", "1000, 251.4"],
     );
-    let text = include_str!("worlds/scen_3d_boxes.txt");
+    let text = include_str!("../worlds/scen_3d_boxes.txt");
     table::<3>(
         "3d_boxes",
         text,
