@@ -60,6 +60,19 @@ pub struct Limits {
     pub stopping_distance: f64,
 }
 
+impl Limits {
+    /// Seconds for which the speed carries on when the robot brakes: stopping distance over cruise
+    /// speed. As the distance grows at least as fast as the speed, this does for lower speeds too.
+    /// Nothing for a robot that changes its speed at once.
+    pub fn braking_time(&self) -> f64 {
+        if self.acceleration == f64::INFINITY || self.cruise_speed <= 0.0 {
+            0.0
+        } else {
+            self.stopping_distance / self.cruise_speed
+        }
+    }
+}
+
 /// A kind of robot with its parameters: immutable, shared by all robots of the kind.
 ///
 /// A host advances a robot in two halves: [`Model::predict`] says where it would be after a step;
@@ -96,6 +109,12 @@ pub trait Model: Debug + Send + Sync {
     /// driven until the next estimate (the thesis's RobotMotion). `tracking` is what the tracker
     /// remembers from one estimate to the next.
     fn track(&self, tracking: &mut Tracking, estimate: &Estimate, goal: &Goal) -> Command;
+
+    /// The way that the robot still makes if tracking halts it from now on: displacement in the floor
+    /// plane, metres. By default its velocity carries on for [`Limits::braking_time`].
+    fn braking_way(&self, estimate: &Estimate) -> Point {
+        estimate.twist.linear.at_height(0.0) * self.limits().braking_time()
+    }
 
     /// Goes over to the predicted state; if an impact is given, the body stays where it was and
     /// loses its speed into the obstacle.

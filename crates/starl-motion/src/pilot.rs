@@ -90,10 +90,15 @@ impl Pilot {
         random: &mut Random,
     ) -> Command {
         let goal = match self.wish {
-            Wish::Halt => return Command::Stop,
-            Wish::Drive(command) if model.accepts(&command) => return command,
-            Wish::Drive(_) => return Command::Stop,
             Wish::Track(goal) => goal,
+            Wish::Drive(command) if model.accepts(&command) => {
+                self.tracking.interrupt();
+                return command;
+            }
+            Wish::Drive(_) | Wish::Halt => {
+                self.tracking.interrupt();
+                return Command::Stop;
+            }
         };
         let body = model.body();
         let goal = Goal {
@@ -106,10 +111,7 @@ impl Pilot {
         let goal = match &mut self.avoidance {
             None => goal,
             Some(avoidance) => {
-                let limits = model.limits();
-                avoidance.guide(
-                    &body, &limits, estimate, &goal, neighbours, obstacles, random,
-                )
+                avoidance.guide(model, estimate, &goal, neighbours, obstacles, random)
             }
         };
         model.track(&mut self.tracking, estimate, &goal)

@@ -28,6 +28,24 @@ pub(super) struct Cell {
     borders: SmallVec<[Border; 12]>,
 }
 
+/// The borders that may ask the robot to stand still at most, not to move away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Floor {
+    None,
+    Obstacles,
+    All,
+}
+
+impl Floor {
+    fn speed(self, border: &Border) -> f64 {
+        let obstacle = border.from_target == f64::INFINITY;
+        match self == Floor::All || self == Floor::Obstacles && obstacle {
+            true => larger(border.speed, 0.0),
+            false => border.speed,
+        }
+    }
+}
+
 /// Borders closer to parallel than this are taken as parallel (sine of the angle).
 const PARALLEL: f64 = 1e-9;
 
@@ -47,11 +65,12 @@ impl Cell {
         self.borders.is_empty()
     }
 
-    /// The velocity nearest to `wish` that all borders allow. Where the robot is too near to its
-    /// neighbours to satisfy all of them, the one that moves away from those as far as the others
-    /// allow.
+    /// The velocity nearest to `wish` that all borders allow. Where the robot is too near to satisfy
+    /// all of them it need not move away from obstacles; where that is not enough either, it moves away
+    /// from whatever is too near as far as the others allow.
     pub fn velocity(&self, wish: Point) -> Point {
-        if let Some(found) = self.solve(wish, f64::NEG_INFINITY) {
+        let found = self.solve(wish, Floor::None);
+        if let Some(found) = found.or_else(|| self.solve(wish, Floor::Obstacles)) {
             return found;
         }
         let away = self
@@ -62,17 +81,16 @@ impl Cell {
                 sum + border.normal * border.speed
             });
         // Where no border asks for moving away, standing still is always allowed.
-        self.solve(away, 0.0).unwrap_or(Point::ZERO)
+        self.solve(away, Floor::All).unwrap_or(Point::ZERO)
     }
 
-    /// The velocity nearest to `wish` behind every border, none of which asks for less than
-    /// `least_speed`.
-    fn solve(&self, wish: Point, least_speed: f64) -> Option<Point> {
+    /// The velocity nearest to `wish` behind every border.
+    fn solve(&self, wish: Point, floor: Floor) -> Option<Point> {
         let mut best = wish.at_height(0.0);
         for (index, border) in self.borders.iter().enumerate() {
-            let speed = larger(border.speed, least_speed);
+            let speed = floor.speed(border);
             if best.dot(border.normal) > speed {
-                best = self.nearest_on_border(index, speed, wish, least_speed)?;
+                best = self.nearest_on_border(index, speed, wish, floor)?;
             }
         }
         Some(best)
@@ -84,14 +102,14 @@ impl Cell {
         index: usize,
         speed: f64,
         wish: Point,
-        least_speed: f64,
+        floor: Floor,
     ) -> Option<Point> {
         let normal = self.borders[index].normal;
         let along = Point::planar(-normal.y, normal.x);
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         for other in &self.borders[..index] {
             let slope = along.dot(other.normal);
-            let left = larger(other.speed, least_speed) - speed * normal.dot(other.normal);
+            let left = floor.speed(other) - speed * normal.dot(other.normal);
             if slope > PARALLEL {
                 high = smaller(high, left / slope);
             } else if slope < -PARALLEL {

@@ -28,9 +28,9 @@ mod yielding;
 
 pub use options::Options;
 
-use crate::Limits;
 use crate::pilot::Neighbour;
 use crate::tracking::Goal;
+use crate::{Limits, Model};
 use courtesy::{Courtesy, Queue};
 use pace::Pace;
 use plane::{larger, smaller};
@@ -49,8 +49,6 @@ pub struct Avoidance {
     last: Option<Time>,
     /// Seconds that may pass between two estimates.
     period: f64,
-    /// The target from whose straight path the robot has strayed.
-    strayed: Option<Point>,
     wheels: Wheels,
     courtesy: Courtesy,
     yielding: Yielding,
@@ -62,7 +60,6 @@ impl Avoidance {
         Avoidance {
             last: None,
             period: options.period,
-            strayed: None,
             wheels: Wheels::default(),
             courtesy: Courtesy::default(),
             yielding: Yielding::default(),
@@ -86,11 +83,9 @@ impl Avoidance {
     ///
     /// A robot that flies and is still on the ground is to stay there while the height of the goal
     /// returned is below its lowest height of travel: someone is above it.
-    #[allow(clippy::too_many_arguments)]
     pub fn guide(
         &mut self,
-        body: &Body,
-        limits: &Limits,
+        model: &dyn Model,
         estimate: &Estimate,
         goal: &Goal,
         neighbours: &[Neighbour],
@@ -99,7 +94,7 @@ impl Avoidance {
     ) -> Goal {
         let elapsed = self.note_time(estimate.at);
         self.wheels.watch(estimate, elapsed);
-        let pace = &Pace::new(limits, self.period);
+        let (body, pace) = (&model.body(), &Pace::new(&model.limits(), self.period));
         let goal = &Goal {
             target: goal.target.at_height(self.height(
                 body,
@@ -116,20 +111,18 @@ impl Avoidance {
             .filter(|neighbour| !self.is_clear_in_height(body, pace, estimate, neighbour))
             .copied()
             .collect();
-        if neighbours.is_empty() && self.yielding.on_course(goal.target) {
-            self.yielding.unhindered();
-            return *goal;
-        }
         let around = Surroundings {
             body,
             pace,
             estimate,
             neighbours: &neighbours,
+            obstacles,
             target: goal.target,
             margin: self.options.margin,
             period: self.period,
+            braking_way: model.braking_way(estimate),
         };
-        self.guide_among(&around, goal, obstacles, elapsed, random)
+        self.guide_among(&around, goal, elapsed, random)
     }
 
     /// [`Avoidance::guide`] among neighbours at the same height.
@@ -137,7 +130,6 @@ impl Avoidance {
         &mut self,
         around: &Surroundings,
         goal: &Goal,
-        obstacles: &[Obstacle],
         elapsed: f64,
         random: &mut Random,
     ) -> Goal {
@@ -145,28 +137,25 @@ impl Avoidance {
             body,
             pace,
             estimate,
+            neighbours,
             ..
         } = *around;
+        let cell = around.cell();
+        if neighbours.is_empty() && cell.is_empty() && self.yielding.on_course(goal.target) {
+            self.yielding.unhindered();
+            return *goal;
+        }
         let position = estimate.pose.position;
         let destination = self.destination(around, random);
         let on_course = destination == goal.target;
         let way = (destination - position).at_height(0.0);
         let wish = pace.wish(way, goal.speed_limit);
         let gap = 2.0 * self.options.margin;
-        let passes = passing::in_the_way(body, gap, way, wish, position, around.neighbours);
-
-        let mut cell = around.cell();
-        if cell.is_empty() && on_course && passes.is_none() {
+        let passes = passing::in_the_way(body, gap, way, wish, position, neighbours);
+        if on_course && passes.is_none() && cell.is_empty() {
             self.yielding.unhindered();
         }
         let mut velocity = cell.velocity(wish);
-        if velocity != wish || !on_course || passes.is_some() {
-            self.strayed = Some(goal.target);
-        }
-        if self.strayed == Some(goal.target) {
-            around.add_obstacles(&mut cell, obstacles);
-            velocity = cell.velocity(wish);
-        }
         if let Some(neighbour) = passes {
             velocity = passing::velocity(&cell, &neighbour, wish, velocity);
         }
@@ -178,7 +167,9 @@ impl Avoidance {
             estimate,
             target: goal.target,
             cell: &cell,
-            hindered: on_course && (velocity != wish || limit < 0.5 * wish.planar_length()),
+            hindered: on_course
+                && !neighbours.is_empty()
+                && (velocity != wish || limit < 0.5 * wish.planar_length()),
         };
         self.yielding
             .observe(&self.options, &scene, elapsed, random);

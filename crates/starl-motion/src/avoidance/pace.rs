@@ -1,6 +1,6 @@
 //! How a robot stops, and how far ahead it has to think.
 
-use super::plane::{larger, smaller};
+use super::plane::smaller;
 use crate::Limits;
 use starl_core::Point;
 use starl_core::motion::Estimate;
@@ -21,9 +21,7 @@ pub(super) struct Pace {
     pub turn_radius: f64,
     /// Metres per second.
     pub cruise_speed: f64,
-    /// Seconds for which its speed carries on when it brakes: stopping distance over cruise speed.
-    /// As the distance grows at least as fast as the speed, this does for lower speeds too. Nothing
-    /// for a robot that changes its speed at once.
+    /// See [`Limits::braking_time`], seconds.
     pub braking_time: f64,
     /// Seconds in which it may use up the room left beyond its stopping point, or more.
     pub horizon: f64,
@@ -35,12 +33,7 @@ impl Pace {
     /// Of a robot with these limits that is located every `period` seconds.
     pub fn new(limits: &Limits, period: f64) -> Pace {
         let cruise_speed = limits.cruise_speed;
-        let at_once = limits.acceleration == f64::INFINITY || cruise_speed <= 0.0;
-        let braking_time = if at_once {
-            0.0
-        } else {
-            limits.stopping_distance / cruise_speed
-        };
+        let braking_time = limits.braking_time();
         let horizon = PERIODS_AHEAD * period + PART_OF_BRAKING * braking_time;
         Pace {
             turn_radius: limits.turn_radius,
@@ -59,12 +52,6 @@ impl Pace {
         }
         let slowing = distance / (self.braking_time + self.horizon);
         way * (smaller(smaller(self.cruise_speed, speed_limit), slowing) / distance)
-    }
-
-    /// How fast it may go along a normal when an obstacle's border is `room` metres ahead.
-    pub fn speed_towards(&self, normal: Point, room: f64, estimate: &Estimate) -> f64 {
-        let coast = larger(estimate.twist.linear.dot(normal), 0.0) * self.braking_time;
-        larger(room - coast, 0.0) / self.horizon
     }
 
     /// Whether the robot drives or turns, rather than standing still.

@@ -2,6 +2,9 @@
 
 use starl_core::{Point, math};
 
+/// How closely the least value on a segment is found: each step leaves three quarters of it.
+const NARROWINGS: u32 = 6;
+
 /// The displacement in the plane turned to the left by an angle in radians.
 pub(super) fn turned(vector: Point, angle: f64) -> Point {
     let (sine, cosine) = math::sincos(angle);
@@ -62,4 +65,35 @@ fn on_segment(p: Point, start: Point, way: Point) -> Point {
     } else {
         start + way * (along / squared)
     }
+}
+
+/// Where a function that is convex is least on the segment from `start` to `start + way`, nearly, and
+/// what it is there.
+pub(super) fn least_on_segment(
+    start: Point,
+    way: Point,
+    value: impl Fn(Point) -> f64,
+) -> (f64, Point) {
+    let at = |part: f64| {
+        let point = start + way * part;
+        (value(point), point)
+    };
+    let least = |a: (f64, Point), b: (f64, Point)| if b.0 < a.0 { b } else { a };
+    if way == Point::ZERO {
+        return at(0.0);
+    }
+    let (mut low, mut high) = (0.0, 1.0);
+    let mut best = least(at(low), at(high));
+    for _ in 0..NARROWINGS {
+        let middle = 0.5 * (low + high);
+        let quarter = 0.25 * (high - low);
+        let (left, right) = (at(middle - quarter), at(middle + quarter));
+        best = least(best, least(left, right));
+        if left.0 < right.0 {
+            high = middle + quarter;
+        } else {
+            low = middle - quarter;
+        }
+    }
+    best
 }

@@ -7,13 +7,18 @@
 
 use super::cell::{Border, Cell};
 use super::pace::Pace;
-use super::plane::{between_segments, larger};
+use super::plane::{between_segments, least_on_segment};
 use crate::pilot::Neighbour;
 use starl_core::motion::{Body, Estimate};
 use starl_core::{Obstacle, Point};
 
-/// Room kept to obstacles by a robot that is off its planned path, metres.
+/// Room kept to obstacles, metres: paths are planned farther away, but inertia, or room made for
+/// neighbours, takes robots off them.
 const OBSTACLE_MARGIN: f64 = 0.02;
+
+/// Towards obstacles robots are taken to coast so many times farther than they do, and a period besides:
+/// overshooting is worse there, as nobody on the other side makes room. Measured with the AR.Drone.
+const OBSTACLE_COAST: f64 = 1.25;
 
 /// A robot among others.
 pub(super) struct Surroundings<'a> {
@@ -22,21 +27,31 @@ pub(super) struct Surroundings<'a> {
     pub estimate: &'a Estimate,
     /// Robots at the same height.
     pub neighbours: &'a [Neighbour],
+    pub obstacles: &'a [Obstacle],
     /// Where the robot wants to go in the end.
     pub target: Point,
     /// See [`super::Options::margin`].
     pub margin: f64,
+    /// See [`crate::Model::braking_way`].
+    pub braking_way: Point,
     /// How old what is known of neighbours may be, seconds.
     pub period: f64,
 }
 
 impl Surroundings<'_> {
-    /// The cell among the neighbours, without borders that do not matter at cruise speed.
+    /// The cell, without borders that do not matter at cruise speed.
     pub fn cell(&self) -> Cell {
         let mut cell = Cell::default();
         let own_way = self.estimate.twist.linear.at_height(0.0) * self.pace.braking_time;
         for neighbour in self.neighbours {
             if let Some(border) = self.border(neighbour, own_way) {
+                cell.push(border);
+            }
+        }
+        let unnoticed = self.estimate.twist.linear.at_height(0.0) * self.period;
+        let own_way = self.braking_way * OBSTACLE_COAST + unnoticed;
+        for obstacle in self.obstacles {
+            if let Some(border) = self.obstacle_border(obstacle, own_way) {
                 cell.push(border);
             }
         }
@@ -70,33 +85,35 @@ impl Surroundings<'_> {
         })
     }
 
-    /// Adds the borders of nearby obstacles, which nobody shares: they keep a robot that is off its
-    /// planned path from sliding into a wall. A target nearer to an obstacle than the usual margin
-    /// stays within reach.
-    pub fn add_obstacles(&self, cell: &mut Cell, obstacles: &[Obstacle]) {
+    /// The border towards an obstacle, which nobody shares; none if it does not matter at cruise speed.
+    /// A target nearer to the obstacle than the usual margin stays within reach.
+    fn obstacle_border(&self, obstacle: &Obstacle, own_way: Point) -> Option<Border> {
         let Body { radius, height, .. } = *self.body;
         let position = self.estimate.pose.position;
-        for obstacle in obstacles {
-            let beside = obstacle
-                .height()
-                .is_none_or(|span| span.low < position.z + height && position.z < span.high);
-            let gap = obstacle.body_gap(position, radius, height);
-            // A body that is half inside an obstacle is not the business of avoidance.
-            let far = gap >= self.pace.room_needed + OBSTACLE_MARGIN;
-            if !beside || far || obstacle.contains(position) {
-                continue;
-            }
-            let at_target = obstacle.body_gap(self.target.at_height(position.z), radius, height);
-            let margin = at_target.clamp(0.0, OBSTACLE_MARGIN);
-            let towards = (obstacle.nearest_point(position) - position).at_height(0.0);
-            if let Some(normal) = towards.normalized() {
-                let room = larger(gap - margin, 0.0);
-                cell.push(Border {
-                    normal,
-                    speed: self.pace.speed_towards(normal, room, self.estimate),
-                    from_target: f64::INFINITY,
-                });
-            }
+        let beside = obstacle
+            .height()
+            .is_none_or(|span| span.low < position.z + height && position.z < span.high);
+        // A body that is half inside an obstacle is not the business of avoidance.
+        if !beside || obstacle.contains(position) {
+            return None;
         }
+        let (least_gap, at) = least_on_segment(position, own_way, |point| {
+            obstacle.body_gap(point, radius, height)
+        });
+        let at_target = obstacle.body_gap(self.target.at_height(position.z), radius, height);
+        let room = least_gap - at_target.clamp(0.0, OBSTACLE_MARGIN);
+        let speed = room / self.pace.horizon;
+        if speed >= self.pace.cruise_speed {
+            return None;
+        }
+        // Where the stopping segment ends inside the obstacle, the side it comes from counts.
+        let towards = |from: Point| (obstacle.nearest_point(from) - from).at_height(0.0);
+        let normal = towards(at).normalized();
+        let normal = normal.or_else(|| towards(position).normalized())?;
+        Some(Border {
+            normal,
+            speed,
+            from_target: f64::INFINITY,
+        })
     }
 }

@@ -1,13 +1,14 @@
 //! Tracking for a quadcopter: take off, then fly by tilting, in cascaded loops.
 //!
 //! Position to velocity is proportional and limited to the speed of travel; velocity to acceleration
-//! is proportional and integral; acceleration to tilt is geometry. The integral holds against wind; it
-//! adds up no more than a bounded error, so that a long acceleration does not wind it up. Vertically
-//! the drone's own speed loop does the rest. The thesis names such a controller (section 4.3) but
-//! gives none.
+//! is proportional; acceleration to tilt is geometry. What pushes the drone besides its own tilt and
+//! drag in still air, such as wind, is estimated by a disturbance observer (Luenberger 1971, "An
+//! introduction to observers") and held against. Unlike the integral of a PID loop it does not wind up
+//! while the drone speeds up and brakes, which would make it overshoot. Vertically the drone's own
+//! speed loop does the rest. The thesis names such a controller (section 4.3) but gives none.
 
 use super::{Goal, Tracking};
-use starl_core::math::sincos;
+use starl_core::math::{exp, sincos, tan};
 use starl_core::motion::Estimate;
 use starl_core::{Command, Point, Pose};
 
@@ -24,6 +25,8 @@ pub(crate) struct Gains {
     pub drag: f64,
     /// Greatest tilt, radians.
     pub tilt: f64,
+    /// Seconds for which an acceleration goes on when the opposite tilt is asked for.
+    pub tilt_lag: f64,
     /// Metres per second squared.
     pub gravity: f64,
 }
@@ -35,10 +38,8 @@ const FLYING: u32 = 1;
 const POSITION_GAIN: f64 = 0.75;
 /// Acceleration per error of velocity, 1/s.
 const VELOCITY_GAIN: f64 = 1.8;
-/// Growth of acceleration per error of velocity, 1/s squared.
-const INTEGRAL_GAIN: f64 = 0.7;
-/// The integral takes no more of the error than this, metres per second.
-const INTEGRAL_ERROR: f64 = 0.3;
+/// Both poles of the observer, 1/s.
+const OBSERVER_RATE: f64 = 1.5;
 /// Climb per height left, 1/s.
 const HEIGHT_GAIN: f64 = 1.2;
 
@@ -50,6 +51,24 @@ impl Gains {
         let speed = self.cruise_speed;
         let brake = self.tilt * self.gravity + 0.5 * self.drag * speed;
         (0.52 * speed).max(0.35 * speed + speed * speed / (2.0 * brake))
+    }
+
+    /// See [`crate::Model::braking_way`]. What the present tilt still adds to the velocity counts.
+    pub fn braking_way(&self, estimate: &Estimate) -> Point {
+        let velocity = estimate.twist.linear.at_height(0.0);
+        let gain = self.own_acceleration(estimate) * self.tilt_lag;
+        (velocity + gain) * (self.stopping_distance() / self.cruise_speed)
+    }
+
+    /// By tilt and by drag in still air.
+    fn own_acceleration(&self, estimate: &Estimate) -> Point {
+        let Pose {
+            yaw, pitch, roll, ..
+        } = estimate.pose;
+        let (sin, cos) = sincos(yaw);
+        let (ahead, aside) = (tan(pitch) * self.gravity, tan(roll) * self.gravity);
+        let tilting = Point::planar(cos * ahead + sin * aside, sin * ahead - cos * aside);
+        tilting - estimate.twist.linear.at_height(0.0) * self.drag
     }
 
     /// One step of tracking.
@@ -72,14 +91,10 @@ impl Gains {
         }
         tracking.phase = FLYING;
 
+        self.observe(tracking, estimate, period);
         let desired = self.desired_velocity(position, goal);
         let error = (desired - estimate.twist.linear).at_height(0.0);
-        tracking.integral = shortened(
-            tracking.integral + shortened(error, INTEGRAL_ERROR) * (INTEGRAL_GAIN * period),
-            0.5 * self.tilt * self.gravity,
-        );
-        let acceleration = error * VELOCITY_GAIN + desired * self.drag + tracking.integral;
-
+        let acceleration = error * VELOCITY_GAIN + desired * self.drag - tracking.push;
         let (sin, cos) = sincos(yaw);
         let tilt = shortened(acceleration / self.gravity, self.tilt);
         let height = goal.target.z.max(self.lowest) - position.z;
@@ -89,6 +104,19 @@ impl Gains {
             roll: sin * tilt.x - cos * tilt.y,
             gaz: (HEIGHT_GAIN * height).clamp(-self.climb_speed, self.climb_speed),
         }
+    }
+
+    /// Corrects the push, and the velocity expected of the drone, by the velocity that it has come to.
+    fn observe(&self, tracking: &mut Tracking, estimate: &Estimate, period: f64) {
+        let velocity = estimate.twist.linear.at_height(0.0);
+        let expected = tracking.expected_velocity.unwrap_or(velocity);
+        let keep = exp(-OBSERVER_RATE * period);
+        let surprise = velocity - expected;
+        let push = tracking.push + surprise * ((1.0 - keep) * (1.0 - keep) / period);
+        tracking.push = shortened(push, 0.5 * self.tilt * self.gravity);
+        let acceleration = self.own_acceleration(estimate) + tracking.push;
+        let corrected = expected + surprise * (1.0 - keep * keep);
+        tracking.expected_velocity = Some(corrected + acceleration * period);
     }
 
     fn desired_velocity(&self, position: Point, goal: &Goal) -> Point {

@@ -61,14 +61,21 @@ pub struct Tracking {
     phase: u32,
     /// Set while the robot stands at its goal.
     rest: Option<Rest>,
-    /// Accumulated error that holds against a steady push such as wind, metre seconds.
-    integral: Point,
+    /// The steady push, such as wind, that the robot is taken to be under, metres per second squared.
+    push: Point,
+    /// The velocity that the next estimate is expected to show, metres per second.
+    expected_velocity: Option<Point>,
 }
 
 /// The time between estimates that a tracker reckons with before it has seen two, seconds.
 const FIRST_PERIOD: f64 = 0.1;
 
 impl Tracking {
+    /// For a while the robot was not driven by its tracker.
+    pub(crate) fn interrupt(&mut self) {
+        self.expected_velocity = None;
+    }
+
     /// Seconds since the estimate before this one, within reason; to be called once per estimate.
     fn period(&mut self, estimate: &Estimate) -> f64 {
         let previous = self.previous.replace(estimate.at);

@@ -108,6 +108,8 @@ impl Ardrone {
             climb_speed: p.vertical_speed,
             drag,
             tilt,
+            // Attitude follows with critical damping.
+            tilt_lag: 2.0 / p.attitude_frequency,
             gravity: GRAVITY,
         };
         Ok(Ardrone {
@@ -171,6 +173,10 @@ impl Model for Ardrone {
             turn_radius: 0.0,
             stopping_distance: self.gains.stopping_distance(),
         }
+    }
+
+    fn braking_way(&self, estimate: &Estimate) -> Point {
+        self.gains.braking_way(estimate)
     }
 
     fn accepts(&self, command: &Command) -> bool {
