@@ -1,0 +1,79 @@
+//! Race reaches its goal and violates no property, whatever the seed: calm and over a bad network, with
+//! its own fleet and with one of twelve.
+
+use rayon::prelude::*;
+use starl_catalog::examples;
+use starl_sim::Outcome;
+use starl_sim::read::{Override, Request};
+
+const SEEDS: u64 = 1_000;
+const BAD_NETWORK: [&str; 2] = ["network.loss=0.2", "network.delay=100ms"];
+const TWELVE: Option<&str> = Some("create=6,drone=6");
+
+/// What went wrong with a race, ready to be repeated; none if nothing did.
+fn race(seed: u64, fleet: Option<&str>, sets: &[&str]) -> Option<String> {
+    let example = examples::find("race").expect("it is an example");
+    let seed_set = format!("seed={seed}");
+    let sets = sets.iter().copied().chain([seed_set.as_str()]);
+    let request = Request {
+        overrides: sets
+            .clone()
+            .map(|set| Override::set(set).unwrap())
+            .collect(),
+        robots: fleet.map(String::from),
+        ..Request::new(example.source())
+    };
+    let resolved = starl_catalog::read(&request, example).unwrap();
+    let mut run = starl_catalog::run(resolved.scenario).unwrap();
+    while !run.is_over() {
+        run.step();
+    }
+    (run.outcome() != Outcome::Reached).then(|| {
+        let mut command = String::from("starl run race");
+        fleet
+            .iter()
+            .for_each(|fleet| command += &format!(" --robots {fleet}"));
+        sets.for_each(|set| command += &format!(" --set {set}"));
+        format!(
+            "{command}: {:?} {:?}",
+            run.outcome(),
+            run.violations().first()
+        )
+    })
+}
+
+fn all_reach_their_goal(fleet: Option<&str>, sets: &[&str]) {
+    let race = |seed| race(seed, fleet, sets);
+    let failures: Vec<String> = (0..SEEDS).into_par_iter().filter_map(race).collect();
+    let first = failures
+        .iter()
+        .take(5)
+        .cloned()
+        .collect::<Vec<_>>()
+        .join("\n");
+    assert!(
+        failures.is_empty(),
+        "{} of {SEEDS} fail:\n{first}",
+        failures.len()
+    );
+}
+
+#[test]
+fn four_in_calm() {
+    all_reach_their_goal(None, &[]);
+}
+
+#[test]
+fn four_over_a_bad_network() {
+    all_reach_their_goal(None, &BAD_NETWORK);
+}
+
+#[test]
+fn twelve_in_calm() {
+    all_reach_their_goal(TWELVE, &[]);
+}
+
+#[test]
+fn twelve_over_a_bad_network() {
+    all_reach_their_goal(TWELVE, &BAD_NETWORK);
+}
