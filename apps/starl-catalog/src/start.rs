@@ -36,7 +36,7 @@ pub fn read(request: &Request, loader: &dyn Loader) -> Result<Resolved, Problems
 /// A scenario at its start, under watch.
 ///
 /// # Errors
-/// Where it was not [`read`] here: a group whose program cannot be made.
+/// Where it was not [`read()`] here: a group whose program cannot be made.
 pub fn run(scenario: Scenario) -> Result<Run, StartError> {
     Run::new(scenario, &make)
 }

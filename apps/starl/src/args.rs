@@ -53,7 +53,7 @@ pub struct RunArguments {
     /// Set a field of the scenario, e.g. network.loss=0.2; may be repeated
     #[arg(long, value_name = "FIELD=VALUE")]
     pub set: Vec<String>,
-    /// A file of faults ([[fault]] and [fault_rates]) to add to the scenario's
+    /// A file of faults (`[[fault]]` and `[fault_rates]`) to add to the scenario's
     #[arg(long, value_name = "FILE")]
     pub faults: Option<PathBuf>,
     /// Threads to step robots on; the result is the same for any number [default: all cores for

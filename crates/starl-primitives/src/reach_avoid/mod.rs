@@ -1,8 +1,9 @@
 //! ReachAvoid: go to a target, keep out of an unsafe set (thesis, section 3.2).
 //!
 //! It asks the host's planner for a path from where the robot has come to rest and feeds its points to
-//! the way-point tracker one by one. It plans again when the robot is pushed off the path or to where the straight way on is not free, when it comes no further, and when an obstacle
-//! that it had not known is in the way. Properties, under the thesis's assumptions (the actuators do
+//! the way-point tracker one by one. It plans again when the robot is pushed off the path or to where
+//! the straight way on is not free, when it comes no further, and when an obstacle that it had not
+//! known is in the way. Properties, under the thesis's assumptions (the actuators do
 //! not fail, positions are accurate to half the vicinity, a path of some width exists):
 //! - safety: the robot's position stays outside the unsafe set; where it does not, it has failed;
 //! - goal: when it is done the robot has been within the vicinity of the target;
@@ -91,8 +92,9 @@ impl ReachAvoid {
     }
 
     /// Goes to the target and keeps out of the unsafe set (the thesis's doReachAvoid); a command still
-    /// under way is dropped. The target is put where the robot can be: [`Body::reachable`]. If it is
-    /// not finite the command is given up at once; if the robot is in the unsafe set it has failed.
+    /// under way is dropped. The target is put where the robot can be
+    /// ([`starl_core::motion::Body::reachable`]). If it is not finite the command is given up at once;
+    /// if the robot is in the unsafe set it has failed.
     pub fn reach_avoid(&mut self, robot: &mut Robot<'_>, target: Point, unsafe_set: Obstacles) {
         let was_active = self.clear();
         if was_active {
