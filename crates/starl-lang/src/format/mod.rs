@@ -1,0 +1,1 @@
+//! Laying a program out in the one canonical way.

@@ -1,0 +1,21 @@
+//! The StarL language.
+//!
+//! A program is read by [`syntax`] into a tree that holds every character of the source, and a
+//! problem anywhere is a [`diagnostic`]; reading never fails. [`format`] lays a program out anew. The
+//! [`machine`] runs what a program was compiled to; it alone is always there and needs no standard
+//! library, so that a microcontroller can run programs which were compiled elsewhere. Everything else
+//! comes with the feature `compiler`, which is on by default.
+
+#![no_std]
+
+extern crate alloc;
+#[cfg(feature = "compiler")]
+extern crate std;
+
+#[cfg(feature = "compiler")]
+pub mod diagnostic;
+#[cfg(feature = "compiler")]
+pub mod format;
+pub mod machine;
+#[cfg(feature = "compiler")]
+pub mod syntax;

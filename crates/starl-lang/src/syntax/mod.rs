@@ -1,0 +1,1 @@
+//! From text to a tree that holds every character of it.
