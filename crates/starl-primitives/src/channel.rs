@@ -85,6 +85,7 @@ impl Channel {
         for notice in notices {
             match notice {
                 Notice::Arrived(arrival) => arrivals.push(arrival),
+                Notice::Repeated { message, to } => self.report_repeated(robot, message, &to),
                 Notice::Acknowledged(message) => self.report_acknowledged(robot, message),
                 Notice::Failed { message, unreached } => {
                     self.report_failed(robot, message, &unreached);
@@ -96,6 +97,21 @@ impl Channel {
             }
         }
         arrivals
+    }
+
+    fn report_repeated(&self, robot: &mut Robot<'_>, message: MessageId, to: &[RobotId]) {
+        for &peer in to {
+            robot.emit_primitive(
+                self.primitive,
+                self.port,
+                "retransmit",
+                [
+                    ("number", message.number.into()),
+                    ("incarnation", message.incarnation.into()),
+                    ("to", peer.into()),
+                ],
+            );
+        }
     }
 
     fn report_acknowledged(&self, robot: &mut Robot<'_>, message: MessageId) {

@@ -97,7 +97,7 @@ fn a_sender_that_gives_up_admits_it() {
     assert!(
         verdict[0]
             .text
-            .ends_with("before its sender gave up after 2s")
+            .ends_with("before its sender gave up after 2.000 s")
     );
 }
 

@@ -35,6 +35,13 @@ pub struct Arrival {
 pub enum Notice {
     /// A message reached this robot.
     Arrived(Arrival),
+    /// A message of this robot was sent again to each of these receivers.
+    Repeated {
+        /// Which message.
+        message: MessageId,
+        /// Its receivers that have not acknowledged it.
+        to: Vec<RobotId>,
+    },
     /// All receivers have acknowledged a message of this robot.
     Acknowledged(MessageId),
     /// These receivers did not acknowledge a message of this robot within the retries. They may have

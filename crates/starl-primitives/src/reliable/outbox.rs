@@ -3,7 +3,7 @@
 //! Invariant: every message here has a receiver pending and a timer armed under its ticket. Tickets
 //! rise, so within a stream their order is that of the numbers.
 
-use super::MessageId;
+use super::{MessageId, Notice};
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use starl_core::{Payload, RobotId};
@@ -22,6 +22,16 @@ pub(super) struct Outgoing {
     pub sent_behind: bool,
     /// How far it is.
     pub stage: Stage,
+}
+
+impl Outgoing {
+    /// What the owner learns when it is sent again.
+    pub fn repeated(&self) -> Notice {
+        Notice::Repeated {
+            message: self.message,
+            to: self.pending.clone(),
+        }
+    }
 }
 
 /// How far a message is.

@@ -135,6 +135,7 @@ impl Reliable {
         match outgoing.stage {
             Stage::Trying if attempt < self.options.retries => {
                 outgoing.attempt += 1;
+                notices.push(outgoing.repeated());
                 self.transmit(robot, ticket);
             }
             Stage::Trying | Stage::Waiting if outgoing.sent_behind && is_behind => {
@@ -144,6 +145,7 @@ impl Reliable {
             Stage::Trying | Stage::Waiting if outgoing.sent_behind => {
                 outgoing.stage = Stage::LastTry;
                 outgoing.attempt += 1;
+                notices.push(outgoing.repeated());
                 self.transmit(robot, ticket);
             }
             _ => {

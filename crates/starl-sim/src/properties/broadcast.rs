@@ -90,8 +90,8 @@ impl Broadcast {
             self.outstanding.remove(&key);
         }
         let how = format!(
-            "before its sender gave up after {}",
-            report.at.since(lost.sent)
+            "before its sender gave up after {:.3} s",
+            report.at.since(lost.sent).seconds()
         );
         self.judge(report.at, &key, &lost, &how, found);
     }

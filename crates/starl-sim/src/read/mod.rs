@@ -6,6 +6,7 @@
 //! kept, so that [`again`] reads the same scenario without it.
 
 mod change;
+mod curve;
 mod fault;
 mod fleet;
 mod grid;

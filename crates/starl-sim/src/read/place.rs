@@ -1,13 +1,14 @@
 //! Where every robot starts: as the scenario or a world file says, or else at random.
 //!
-//! Given starts are checked, and taken before any is drawn.
+//! Given starts are checked, and taken before any is drawn. Drawn ones are dealt out within their group
+//! along a curve through the floor, so that robots with neighbouring numbers stand near each other.
 
-use super::Placed;
 use super::fleet::Draft;
 use super::names::Names;
 use super::placing::Placing;
 use super::report::Report;
 use super::world::Contents;
+use super::{Placed, curve};
 use crate::scenario::Bounds;
 use starl_core::{Point, Pose, RobotId};
 
@@ -37,15 +38,20 @@ pub(super) fn starts(
     }
     let mut all = Vec::new();
     for (draft, given) in drafts.iter().zip(given) {
-        let mut poses = Vec::with_capacity(given.len());
-        for (index, start) in given.into_iter().enumerate() {
-            let robot = robot(drafts, draft, index);
-            poses.push(match start {
-                Some(start) => start.value,
-                None => placing.draw(draft, names, robot, seed)?,
-            });
+        let mut drawn = Vec::new();
+        for (index, start) in given.iter().enumerate() {
+            if start.is_none() {
+                let robot = robot(drafts, draft, index);
+                drawn.push(placing.draw(draft, names, robot, seed)?);
+            }
         }
-        all.push(poses);
+        if let Some(area) = placing.area(draft) {
+            drawn.sort_by_key(|pose| curve::position(&area, pose.position));
+        }
+        let mut drawn = drawn.into_iter();
+        let pose =
+            |start: Option<Placed<Pose>>| start.map(|start| start.value).or_else(|| drawn.next());
+        all.push(given.into_iter().filter_map(pose).collect());
     }
     Some(all)
 }

@@ -137,6 +137,11 @@ impl<'a> Placing<'a> {
         self.insert(body, robot);
     }
 
+    /// Where robots of a group are placed.
+    pub fn area(&self, draft: &Draft) -> Option<Bounds> {
+        draft.area.as_ref().map(|area| area.value).or(self.fallback)
+    }
+
     /// A free place for a robot without a start; reports it if there is none.
     pub fn draw(
         &mut self,
@@ -149,7 +154,7 @@ impl<'a> Placing<'a> {
             Some(area) => (area.origin, area.field.clone()),
             None => (draft.origin, draft.path.clone()),
         };
-        let Some(area) = draft.area.as_ref().map(|area| area.value).or(self.fallback) else {
+        let Some(area) = self.area(draft) else {
             let name = names.name(robot);
             let help = "give it a start, or set `world.start_area`";
             self.complain(

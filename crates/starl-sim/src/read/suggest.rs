@@ -2,10 +2,7 @@
 
 /// The candidate nearest to `word` by restricted edit distance (insert, delete, replace, swap two
 /// neighbours; Damerau 1964), if it is near enough to be a slip.
-pub fn nearest<'a>(
-    word: &str,
-    candidates: impl Iterator<Item = &'a str>,
-) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let word = simplified(word);
     let most = 1 + word.len() / 4;
     candidates
