@@ -36,13 +36,15 @@ struct Page {
 #[derive(Clone, Debug, Default)]
 pub struct Calendar {
     pages: VecDeque<Page>,
+    /// An emptied page, whose memory is used again.
+    spare: Page,
 }
 
 impl Calendar {
     /// Notes a transmission that arrives somewhere `steps` steps after the present one.
     pub fn add_transmission(&mut self, steps: usize, transmission: Transmission) -> u32 {
-        if self.pages.len() <= steps {
-            self.pages.resize_with(steps + 1, Page::default);
+        while self.pages.len() <= steps {
+            self.pages.push_back(std::mem::take(&mut self.spare));
         }
         let page = &mut self.pages[steps];
         page.transmissions.push(transmission);
@@ -58,12 +60,9 @@ impl Calendar {
     pub fn turn(&mut self, robots: usize, inboxes: &mut Inboxes) {
         let mut page = self.pages.pop_front().unwrap_or_default();
         inboxes.fill(robots, &mut page);
-        // The emptied page keeps its memory for a step to come.
         page.transmissions.clear();
         page.deliveries.clear();
-        if self.pages.len() < 2 {
-            self.pages.push_back(page);
-        }
+        self.spare = page;
     }
 }
 
