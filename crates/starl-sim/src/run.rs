@@ -1,10 +1,10 @@
 //! A run from start to end: the simulation, the checkers that watch it, and what comes of it.
 
-use crate::engine::{Simulation, StartError};
+use crate::engine::{Programs, Simulation, StartError};
 use crate::properties::{self, Checker, Setting, Violation};
 use crate::scenario::{Bounds, Goal, Group, Scenario};
 use starl_core::event::Event;
-use starl_core::{Program, Record, Time};
+use starl_core::{Record, Time};
 
 /// A scenario under way and under watch.
 #[derive(Clone)]
@@ -53,10 +53,7 @@ pub struct Verdict {
 
 impl Run {
     /// Sets up a run: see [`Simulation::new`].
-    pub fn new(
-        scenario: Scenario,
-        programs: &dyn Fn(&Group) -> Result<Box<dyn Program>, String>,
-    ) -> Result<Run, StartError> {
+    pub fn new(scenario: Scenario, programs: &Programs<'_>) -> Result<Run, StartError> {
         let setting = Setting::of(&scenario);
         let checkers = properties::checkers(&scenario, &setting);
         let mut simulation = Simulation::new(scenario, programs)?;

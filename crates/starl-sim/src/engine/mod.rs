@@ -16,7 +16,7 @@ mod simulation;
 mod timers;
 
 pub use record::Tally;
-pub use simulation::{Progress, Simulation, StartError};
+pub use simulation::{Programs, Progress, Simulation, StartError};
 
 use starl_core::Random;
 

@@ -39,6 +39,9 @@ pub struct Simulation {
     parallel: bool,
 }
 
+/// Makes the program of a group's robots, or says why it cannot.
+pub type Programs<'a> = dyn Fn(&Group) -> Result<Box<dyn Program>, String> + 'a;
+
 /// Why a run cannot start.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StartError {
@@ -62,10 +65,7 @@ pub struct Progress {
 impl Simulation {
     /// Sets up a run. `programs` makes a fresh program for a group of robots, or says what is wrong
     /// with its name or parameters.
-    pub fn new(
-        scenario: Scenario,
-        programs: &dyn Fn(&Group) -> Result<Box<dyn Program>, String>,
-    ) -> Result<Simulation, StartError> {
+    pub fn new(scenario: Scenario, programs: &Programs<'_>) -> Result<Simulation, StartError> {
         let kinds = kinds(&scenario, programs)?;
         let fleet: Arc<[RobotId]> = (0..scenario.fleet.len() as u32).map(RobotId).collect();
         let mut shared = Shared {
@@ -427,10 +427,7 @@ impl Simulation {
     }
 }
 
-fn kinds(
-    scenario: &Scenario,
-    programs: &dyn Fn(&Group) -> Result<Box<dyn Program>, String>,
-) -> Result<Vec<Kind>, StartError> {
+fn kinds(scenario: &Scenario, programs: &Programs<'_>) -> Result<Vec<Kind>, StartError> {
     let kind = |(index, group): (usize, &Group)| {
         let program = programs(group).map_err(|message| StartError {
             group: index,
