@@ -92,11 +92,11 @@ impl Pilot {
         let goal = match self.wish {
             Wish::Track(goal) => goal,
             Wish::Drive(command) if model.accepts(&command) => {
-                self.tracking.interrupt();
+                self.interrupt();
                 return command;
             }
             Wish::Drive(_) | Wish::Halt => {
-                self.tracking.interrupt();
+                self.interrupt();
                 return Command::Stop;
             }
         };
@@ -115,5 +115,13 @@ impl Pilot {
             }
         };
         model.track(&mut self.tracking, estimate, &goal)
+    }
+
+    /// For a while tracking and avoidance do not drive the robot.
+    fn interrupt(&mut self) {
+        self.tracking.interrupt();
+        if let Some(avoidance) = &mut self.avoidance {
+            avoidance.interrupt();
+        }
     }
 }

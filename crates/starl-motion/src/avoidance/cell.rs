@@ -126,12 +126,13 @@ impl Cell {
     }
 
     /// How fast the robot may go in a direction of length one, metres per second; not negative,
-    /// infinite if nothing is that way.
-    pub fn speed(&self, direction: Point) -> f64 {
+    /// infinite if nothing is that way. Borders that it meets at an angle whose sine is `grazing` or
+    /// less do not count.
+    pub fn speed(&self, direction: Point, grazing: f64) -> f64 {
         let mut least = f64::INFINITY;
         for border in &self.borders {
             let slope = direction.dot(border.normal);
-            if slope > PARALLEL {
+            if slope > larger(grazing, PARALLEL) {
                 least = smaller(least, border.speed / slope);
             }
         }

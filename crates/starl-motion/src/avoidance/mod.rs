@@ -17,13 +17,14 @@
 
 mod cell;
 mod courtesy;
+mod drive;
 mod height;
 mod options;
 mod pace;
 mod passing;
 mod plane;
 mod surroundings;
-mod wheels;
+
 mod yielding;
 
 pub use options::Options;
@@ -32,14 +33,17 @@ use crate::pilot::Neighbour;
 use crate::tracking::Goal;
 use crate::{Limits, Model};
 use courtesy::{Courtesy, Queue};
+use drive::Drive;
 use pace::Pace;
 use plane::{larger, smaller};
 use smallvec::SmallVec;
 use starl_core::motion::{Body, Estimate};
 use starl_core::{Obstacle, Point, Random, Time};
 use surroundings::Surroundings;
-use wheels::Wheels;
 use yielding::{Scene, Yielding};
+
+/// Part of the longest time between two estimates that is still reckoned with at the next one.
+const FORGETTING: f64 = 0.98;
 
 /// The avoidance of one robot.
 #[derive(Clone, Debug)]
@@ -47,9 +51,8 @@ pub struct Avoidance {
     options: Options,
     /// When the last estimate was taken.
     last: Option<Time>,
-    /// Seconds that may pass between two estimates.
+    /// Seconds that may pass between two estimates; longer for a while after a longer gap.
     period: f64,
-    wheels: Wheels,
     courtesy: Courtesy,
     yielding: Yielding,
 }
@@ -60,7 +63,6 @@ impl Avoidance {
         Avoidance {
             last: None,
             period: options.period,
-            wheels: Wheels::default(),
             courtesy: Courtesy::default(),
             yielding: Yielding::default(),
             options,
@@ -93,7 +95,6 @@ impl Avoidance {
         random: &mut Random,
     ) -> Goal {
         let elapsed = self.note_time(estimate.at);
-        self.wheels.watch(estimate, elapsed);
         let (body, pace) = (&model.body(), &Pace::new(&model.limits(), self.period));
         let goal = &Goal {
             target: goal.target.at_height(self.height(
@@ -114,6 +115,7 @@ impl Avoidance {
         let around = Surroundings {
             body,
             pace,
+            drive: Drive::of(model),
             estimate,
             neighbours: &neighbours,
             obstacles,
@@ -136,6 +138,7 @@ impl Avoidance {
         let Surroundings {
             body,
             pace,
+            drive,
             estimate,
             neighbours,
             ..
@@ -159,11 +162,12 @@ impl Avoidance {
         if let Some(neighbour) = passes {
             velocity = passing::velocity(&cell, &neighbour, wish, velocity);
         }
-        let ahead = velocity.normalized().unwrap_or(Point::ZERO);
-        let limit = self.wheels.speed_limit(body, pace, estimate, &cell, ahead);
+        let straight = velocity == wish && on_course;
+        let limit = drive.speed_limit(body, pace, estimate, &cell, velocity, !straight);
         let scene = Scene {
             body,
             pace,
+            drive,
             estimate,
             target: goal.target,
             cell: &cell,
@@ -174,14 +178,15 @@ impl Avoidance {
         self.yielding
             .observe(&self.options, &scene, elapsed, random);
 
-        if velocity == wish && on_course {
+        if straight {
             return Goal {
                 speed_limit: smaller(goal.speed_limit, limit),
                 ..*goal
             };
         }
         let speed = smaller(velocity.planar_length(), limit);
-        let step = self.wheels.step(body, estimate, ahead, speed);
+        let ahead = velocity.normalized().unwrap_or(Point::ZERO);
+        let step = drive.step(pace, estimate, ahead, speed);
         Goal {
             target: (position + ahead * step).at_height(goal.target.z),
             next: None,
@@ -212,11 +217,17 @@ impl Avoidance {
             .unwrap_or(target)
     }
 
+    /// For a while the robot was not guided: the time until the next estimate says nothing.
+    pub(crate) fn interrupt(&mut self) {
+        self.last = None;
+    }
+
     /// Seconds since the last estimate.
     fn note_time(&mut self, now: Time) -> f64 {
         let elapsed = self.last.map_or(0.0, |last| now.since(last).seconds());
         self.last = Some(now);
-        self.period = larger(self.options.period, elapsed);
+        let longest = larger(elapsed, FORGETTING * self.period);
+        self.period = larger(self.options.period, longest);
         elapsed
     }
 }

@@ -11,7 +11,8 @@ pub struct Options {
     /// 0.03. Two bodies stay apart as long as the error of each estimated gap is below twice this.
     pub margin: f64,
     /// Longest time between two position estimates, seconds; default 0.05. Where estimates come
-    /// less often than this, the time between the last two counts.
+    /// less often than this, the longest time between two of them counts, and is forgotten slowly.
+    /// Longer gaps than any before come as a surprise: where they may be, name them here.
     pub period: f64,
     /// Radius of the largest robot that may be met, metres; default 0.5. It only sets how far away
     /// neighbours are asked for.

@@ -6,6 +6,7 @@
 //! the gap between the bodies that is split, so robots of unequal size get equal room.
 
 use super::cell::{Border, Cell};
+use super::drive::Drive;
 use super::pace::Pace;
 use super::plane::{between_segments, least_on_segment};
 use crate::pilot::Neighbour;
@@ -16,6 +17,9 @@ use starl_core::{Obstacle, Point};
 /// neighbours, takes robots off them.
 const OBSTACLE_MARGIN: f64 = 0.02;
 
+/// A target that is nearer to an obstacle than that leaves so much room to get there, metres.
+const PLAY: f64 = 0.003;
+
 /// Towards obstacles robots are taken to coast so many times farther than they do, and a period besides:
 /// overshooting is worse there, as nobody on the other side makes room. Measured with the AR.Drone.
 const OBSTACLE_COAST: f64 = 1.25;
@@ -24,6 +28,7 @@ const OBSTACLE_COAST: f64 = 1.25;
 pub(super) struct Surroundings<'a> {
     pub body: &'a Body,
     pub pace: &'a Pace,
+    pub drive: Drive,
     pub estimate: &'a Estimate,
     /// Robots at the same height.
     pub neighbours: &'a [Neighbour],
@@ -101,7 +106,7 @@ impl Surroundings<'_> {
             obstacle.body_gap(point, radius, height)
         });
         let at_target = obstacle.body_gap(self.target.at_height(position.z), radius, height);
-        let room = least_gap - at_target.clamp(0.0, OBSTACLE_MARGIN);
+        let room = least_gap - (at_target - PLAY).clamp(0.0, OBSTACLE_MARGIN);
         let speed = room / self.pace.horizon;
         if speed >= self.pace.cruise_speed {
             return None;

@@ -10,6 +10,7 @@
 
 use super::Options;
 use super::cell::Cell;
+use super::drive::{Drive, heading};
 use super::pace::Pace;
 use super::plane::{larger, smaller, turned};
 use starl_core::motion::{Body, Estimate};
@@ -38,6 +39,7 @@ const MOST_LEVELS: u32 = 4;
 pub(super) struct Scene<'a> {
     pub body: &'a Body,
     pub pace: &'a Pace,
+    pub drive: Drive,
     pub estimate: &'a Estimate,
     pub target: Point,
     pub cell: &'a Cell,
@@ -156,13 +158,29 @@ impl Yielding {
         }
     }
 
-    /// A place off the course, and how long to stay there: to the right, or anywhere backwards.
+    /// A place off the course, and how long to stay there.
     fn draw(&self, options: &Options, scene: &Scene, random: &mut Random) -> Detour {
-        let position = scene.estimate.pose.position;
         let now = scene.estimate.at;
-        let towards = (scene.target - position).at_height(0.0);
-        let towards = towards.normalized().unwrap_or(Point::planar(1.0, 0.0));
+        let way = match scene.drive {
+            Drive::Car => self.way_along_axis(scene, random),
+            Drive::AnyWay | Drive::OnTheSpot => self.way_aside(scene, random),
+        };
         let growth = f64::from(1u32 << self.level);
+        let time =
+            smaller(options.patience * growth, options.longest_yield) * random.between(0.5, 1.5);
+        let takes = way.planar_length() / larger(scene.pace.cruise_speed, 0.01);
+        Detour {
+            place: scene.estimate.pose.position + way,
+            deadline: now + Duration::from_seconds_f64(SLOWLY * takes + TURNING),
+            stay: Duration::from_seconds_f64(time),
+            until: None,
+        }
+    }
+
+    /// To the right of the way to the target, or anywhere backwards.
+    fn way_aside(&self, scene: &Scene, random: &mut Random) -> Point {
+        let towards = (scene.target - scene.estimate.pose.position).at_height(0.0);
+        let towards = towards.normalized().unwrap_or(Point::planar(1.0, 0.0));
         let angle = if random.chance(0.5) {
             -random.between(0.3 * math::PI, 0.6 * math::PI)
         } else {
@@ -171,14 +189,21 @@ impl Yielding {
         let distance = random.between(1.0, 2.0)
             * (scene.body.radius + 0.1)
             * (1.0 + 0.5 * f64::from(self.level));
-        let time =
-            smaller(options.patience * growth, options.longest_yield) * random.between(0.5, 1.5);
-        let way = distance / larger(scene.pace.cruise_speed, 0.01);
-        Detour {
-            place: position + turned(towards, angle) * distance,
-            deadline: now + Duration::from_seconds_f64(SLOWLY * way + TURNING),
-            stay: Duration::from_seconds_f64(time),
-            until: None,
+        turned(towards, angle) * distance
+    }
+
+    /// Straight on or straight back, where there is more room: a car gets nowhere else without
+    /// shunting.
+    fn way_along_axis(&self, scene: &Scene, random: &mut Random) -> Point {
+        let ahead = heading(scene.estimate);
+        let room = |direction| smaller(scene.cell.speed(direction, 0.0), scene.pace.cruise_speed);
+        let (forwards, backwards) = (room(ahead), room(-ahead));
+        let goes_ahead = forwards > backwards || forwards == backwards && random.chance(0.5);
+        let distance = random.between(1.2, 2.4) * scene.pace.turn_radius;
+        if goes_ahead {
+            ahead * distance
+        } else {
+            -ahead * distance
         }
     }
 }
