@@ -5,6 +5,7 @@ mod geometry_cases;
 use core::ops::ControlFlow;
 use geometry_cases::Cases;
 use starl_core::geometry::{Bounds, ConvexPolygon, HeightSpan, Obstacle, ObstacleIndex, Point};
+use starl_core::math;
 
 /// Worlds of many kinds; `reach` of the places worth asking about comes with each.
 fn world(cases: &mut Cases) -> (Vec<Obstacle>, f64) {
@@ -54,7 +55,7 @@ fn every_obstacle_near_is_found_once() {
         let (obstacles, reach) = world(&mut cases);
         let index = ObstacleIndex::new(&obstacles);
         for _ in 0..60 {
-            let way = cases.number(0.0, 1.0).powi(4) * reach;
+            let way = math::pow(cases.number(0.0, 1.0), 4.0) * reach;
             let p = cases.point(reach * 1.5);
             let bounds = Bounds::of_segment(p, p + cases.point(way));
             let bounds = if cases.whole(0, 3) == 0 {
@@ -85,7 +86,7 @@ fn paths_bodies_and_rays_meet_what_they_would_without_an_index() {
         let (obstacles, reach) = world(&mut cases);
         let index = ObstacleIndex::new(&obstacles);
         for _ in 0..60 {
-            let way = cases.number(0.0, 1.0).powi(3) * reach * 2.0;
+            let way = math::pow(cases.number(0.0, 1.0), 3.0) * reach * 2.0;
             let a = cases.point(reach * 1.2);
             let mut b = a + cases.point(way);
             match cases.whole(0, 5) {

@@ -134,7 +134,7 @@ fn lists_that_are_no_convex_polygon_are_refused() {
     assert!(matches!(spike, Err(NotConvex { .. })), "{spike:?}");
     let star: Vec<(f64, f64)> = (0..5)
         .map(|at| f64::from(at * 2) * 1.256_637)
-        .map(|a| (a.cos(), a.sin()))
+        .map(|a| (starl_core::math::cos(a), starl_core::math::sin(a)))
         .collect();
     assert_eq!(polygon(&star), Err(SelfCrossing));
     for error in [

@@ -1,6 +1,8 @@
 //! Each kind of bad input gets the message a person should see: the cases are the Markdown files in
 //! `bad_scenarios/`. With `STARL_WRITE_EXPECTED=1` what is said now is written into them instead.
 
+#![allow(clippy::disallowed_methods)] // the test reads files
+
 mod reading;
 
 use starl_sim::read;

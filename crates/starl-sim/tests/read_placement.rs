@@ -67,7 +67,10 @@ fn a_swarm_is_spread_evenly_and_apart() {
             cos + starl_core::math::cos(pose.yaw),
         )
     });
-    assert!(f64::hypot(sin, cos) < 500.0, "headings point every way");
+    assert!(
+        starl_core::math::hypot(sin, cos) < 500.0,
+        "headings point every way"
+    );
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! `docs/reference/scenario.md` lists exactly the fields that the reader knows, with their kinds and
 //! defaults. With `STARL_WRITE_EXPECTED=1` its tables are written anew instead.
 
+#![allow(clippy::disallowed_methods)] // the test reads files
+
 use starl_sim::read::schema::{Field, Kind, SCENARIO};
 
 /// The tables of fields, each with the path it belongs to; the whole scenario's first.

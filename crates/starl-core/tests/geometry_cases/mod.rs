@@ -2,6 +2,7 @@
 #![allow(dead_code)]
 
 use starl_core::geometry::{ConvexPolygon, HeightSpan, Obstacle, Point};
+use starl_core::math;
 
 /// A small generator (SplitMix64), so that a case is known by its seed.
 pub struct Cases(u64);
@@ -43,8 +44,8 @@ impl Cases {
             .map(|at| {
                 let angle =
                     (at as f64 + self.number(0.0, 0.7)) * std::f64::consts::TAU / count as f64;
-                let (x, y) = (width * angle.cos(), depth * angle.sin());
-                let (sin, cos) = turned.sin_cos();
+                let (x, y) = (width * math::cos(angle), depth * math::sin(angle));
+                let (sin, cos) = math::sincos(turned);
                 Point::planar(center.x + x * cos - y * sin, center.y + x * sin + y * cos)
             })
             .collect()

@@ -17,9 +17,11 @@ pub fn scenario(model: &str, places: &[(f64, f64)]) -> Scenario {
         .iter()
         .map(|&(x, y)| Pose::level(Point::planar(x, y), 0.0))
         .collect();
-    let mut scenario = Scenario::default();
-    scenario.goal = Goal::Duration;
-    scenario.duration = Duration::from_seconds(60);
+    let mut scenario = Scenario {
+        goal: Goal::Duration,
+        duration: Duration::from_seconds(60),
+        ..Scenario::default()
+    };
     scenario.fleet.groups.push(Group {
         name: model.into(),
         numbered: true,
