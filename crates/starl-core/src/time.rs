@@ -24,7 +24,7 @@ impl Time {
 
     /// Seconds since the start of the run.
     pub fn seconds(self) -> f64 {
-        self.0 as f64 * 1e-9
+        self.0 as f64 / 1e9
     }
 
     /// The span from `earlier` to this moment; zero if `earlier` is later.
@@ -55,7 +55,7 @@ impl Duration {
 
     /// The span in seconds.
     pub fn seconds(self) -> f64 {
-        self.0 as f64 * 1e-9
+        self.0 as f64 / 1e9
     }
 
     /// Whether the span is empty.
