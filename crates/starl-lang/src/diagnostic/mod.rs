@@ -1,1 +1,197 @@
 //! What a person is told about a program: a code, a place, a message and perhaps a mend.
+//!
+//! A [`Diagnostic`] is data. [`render`] shows it with the source around it, [`json`] hands it to
+//! programs, and [`Mend::apply`] does what it suggests.
+
+mod code;
+mod json;
+mod mend;
+mod position;
+mod render;
+mod similar;
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+pub use code::Code;
+pub use json::json;
+pub use mend::{Edit, Mend};
+pub use position::{LineIndex, Position};
+pub use render::{Colour, render};
+pub use similar::closest;
+
+/// How much a problem matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// The program does not run.
+    Error,
+    /// The program runs, but perhaps not as it was meant.
+    Warning,
+}
+
+/// A part of a source text, in bytes from its start; the end is excluded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Span {
+    /// Where it starts.
+    pub start: u32,
+    /// Where it ends.
+    pub end: u32,
+}
+
+impl Span {
+    /// From `start` to just before `end`.
+    #[must_use]
+    pub const fn new(start: u32, end: u32) -> Self {
+        Self { start, end }
+    }
+
+    /// The place just before the character at `at`.
+    #[must_use]
+    pub const fn empty(at: u32) -> Self {
+        Self { start: at, end: at }
+    }
+
+    /// The smallest part that holds both.
+    #[must_use]
+    pub fn to(self, other: Self) -> Self {
+        Self {
+            start: self.start.min(other.start),
+            end: self.end.max(other.end),
+        }
+    }
+
+    /// The text that it marks in `source`.
+    #[must_use]
+    pub fn of(self, source: &str) -> &str {
+        source
+            .get(self.start as usize..self.end as usize)
+            .unwrap_or_default()
+    }
+}
+
+impl From<rowan::TextRange> for Span {
+    fn from(range: rowan::TextRange) -> Self {
+        Self {
+            start: range.start().into(),
+            end: range.end().into(),
+        }
+    }
+}
+
+/// A second place that helps to understand a problem.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Label {
+    /// The place.
+    pub span: Span,
+    /// What is to be seen there.
+    pub message: String,
+}
+
+/// One problem of a program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// What kind of problem it is.
+    pub code: Code,
+    /// Where it is.
+    pub span: Span,
+    /// What is wrong, in a sentence without a full stop.
+    pub message: String,
+    /// What should stand there, where that can be said.
+    pub expected: Option<String>,
+    /// What stands there instead.
+    pub found: Option<String>,
+    /// What is said at the place itself; the message is enough if there is nothing.
+    pub note_at_span: Option<String>,
+    /// Other places that matter.
+    pub labels: Vec<Label>,
+    /// More that is worth knowing.
+    pub notes: Vec<String>,
+    /// What would put it right.
+    pub mend: Option<Mend>,
+}
+
+impl Diagnostic {
+    /// A problem at a place.
+    #[must_use]
+    pub fn new(code: Code, span: Span, message: impl Into<String>) -> Self {
+        Self {
+            code,
+            span,
+            message: message.into(),
+            expected: None,
+            found: None,
+            note_at_span: None,
+            labels: Vec::new(),
+            notes: Vec::new(),
+            mend: None,
+        }
+    }
+
+    /// How much it matters.
+    #[must_use]
+    pub fn severity(&self) -> Severity {
+        self.code.severity()
+    }
+
+    /// The same, saying what should stand there.
+    #[must_use]
+    pub fn expected(mut self, what: impl Into<String>) -> Self {
+        self.expected = Some(what.into());
+        self
+    }
+
+    /// The same, saying what stands there.
+    #[must_use]
+    pub fn found(mut self, what: impl Into<String>) -> Self {
+        self.found = Some(what.into());
+        self
+    }
+
+    /// The same, with words at the place itself.
+    #[must_use]
+    pub fn note_at_span(mut self, words: impl Into<String>) -> Self {
+        self.note_at_span = Some(words.into());
+        self
+    }
+
+    /// The same, with another place.
+    #[must_use]
+    pub fn label(mut self, span: Span, message: impl Into<String>) -> Self {
+        self.labels.push(Label {
+            span,
+            message: message.into(),
+        });
+        self
+    }
+
+    /// The same, with more that is worth knowing.
+    #[must_use]
+    pub fn note(mut self, words: impl Into<String>) -> Self {
+        self.notes.push(words.into());
+        self
+    }
+
+    /// The same, with what would put it right.
+    #[must_use]
+    pub fn mend(mut self, mend: Mend) -> Self {
+        self.mend = Some(mend);
+        self
+    }
+
+    /// The same, mended by one replacement at `span`.
+    #[must_use]
+    pub fn replace(self, message: impl Into<String>, span: Span, text: impl Into<String>) -> Self {
+        self.mend(Mend {
+            message: message.into(),
+            edits: Vec::from([Edit::new(span, text)]),
+        })
+    }
+}
+
+/// Whether any of them keeps the program from running.
+#[must_use]
+pub fn has_errors(diagnostics: &[Diagnostic]) -> bool {
+    diagnostics
+        .iter()
+        .any(|diagnostic| diagnostic.severity() == Severity::Error)
+}

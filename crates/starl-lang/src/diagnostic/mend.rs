@@ -1,0 +1,58 @@
+//! A change of the source that would put a problem right.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::Span;
+
+/// One replacement.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Edit {
+    /// What is replaced; nothing, where text is inserted.
+    pub span: Span,
+    /// What is put there.
+    pub text: String,
+}
+
+impl Edit {
+    /// Puts `text` in the place of what `span` marks.
+    #[must_use]
+    pub fn new(span: Span, text: impl Into<String>) -> Self {
+        Self {
+            span,
+            text: text.into(),
+        }
+    }
+}
+
+/// A change that would put a problem right.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mend {
+    /// What to do, as one tells a person.
+    pub message: String,
+    /// The same for a program: replacements by rising place, none overlapping another.
+    pub edits: Vec<Edit>,
+}
+
+impl Mend {
+    /// The source after the change. Edits that do not fit `source` are left out.
+    #[must_use]
+    pub fn apply(&self, source: &str) -> String {
+        let mut changed = String::with_capacity(source.len());
+        let mut done = 0;
+        for edit in &self.edits {
+            let (start, end) = (edit.span.start as usize, edit.span.end as usize);
+            let Some(before) = source.get(done..start) else {
+                continue;
+            };
+            if source.get(start..end).is_none() {
+                continue;
+            }
+            changed.push_str(before);
+            changed.push_str(&edit.text);
+            done = end;
+        }
+        changed.push_str(source.get(done..).unwrap_or_default());
+        changed
+    }
+}

@@ -1,0 +1,297 @@
+//! Declarations and their parts.
+
+use alloc::string::String;
+
+use super::super::{SyntaxKind, SyntaxNode, SyntaxToken};
+use super::node::{after, child, children, nodes, token, tokens, word};
+use super::{Block, Expression, Item, Name, Type, TypeArguments};
+
+nodes! {
+    /// A whole file.
+    SourceFile
+    /// `program Name`
+    ProgramHeader
+    /// `library Name`
+    LibraryHeader
+    /// `import name`
+    Import
+    /// `enum Name {a, b}`
+    EnumDeclaration
+    /// `{a, b}`, the values of an enum
+    VariantList
+    /// `record Name {x: Int}`
+    RecordDeclaration
+    /// `message Name(x: Int)`
+    MessageDeclaration
+    /// The fields of a record or a message
+    FieldList
+    /// `x: Int` in a record or a message
+    Field
+    /// `param name: Type = default`
+    ParameterDeclaration
+    /// `const name = value`
+    ConstantDeclaration
+    /// `name: Type = value`
+    VariableDeclaration
+    /// `allread name[RobotId]: Type` or `allwrite name: Type = value`
+    SharedDeclaration
+    /// `[causal]`
+    Consistency
+    /// `name = Primitive(arguments)`
+    BindingDeclaration
+    /// `function name(a: T) -> V`
+    FunctionDeclaration
+    /// The parameters of a function
+    ParameterList
+    /// `a: T`
+    Parameter
+    /// `init` and statements
+    InitDeclaration
+    /// `name()` with `pre` and `eff`
+    ActionDeclaration
+    /// What is indented under an action's name
+    ActionBody
+    /// `pre condition`
+    PreClause
+    /// `eff` and statements
+    EffClause
+    /// `on Message(from, a)` and statements
+    HandlerDeclaration
+    /// `Message` or `primitive.event`
+    EventPath
+    /// `(from, a)`
+    HandlerParameterList
+    /// `role name` and declarations
+    RoleDeclaration
+    /// What is indented under a role's name
+    RoleBody
+    /// `invariant name: condition` and the like
+    PropertyDeclaration
+}
+
+impl SourceFile {
+    pub(in crate::syntax) fn of(root: SyntaxNode) -> Self {
+        Self(root)
+    }
+
+    /// The declarations, with the header.
+    pub fn items(&self) -> impl Iterator<Item = Item> + use<> {
+        children(&self.0)
+    }
+}
+
+impl EnumDeclaration {
+    /// The names of its values.
+    pub fn variants(&self) -> impl Iterator<Item = Name> + use<> {
+        child::<VariantList>(&self.0)
+            .into_iter()
+            .flat_map(|list| list.variants())
+    }
+}
+
+impl VariantList {
+    /// The names.
+    pub fn variants(&self) -> impl Iterator<Item = Name> + use<> {
+        children(&self.0)
+    }
+}
+
+impl RecordDeclaration {
+    /// Its fields.
+    pub fn fields(&self) -> impl Iterator<Item = Field> + use<> {
+        child::<FieldList>(&self.0)
+            .into_iter()
+            .flat_map(|list| children(&list.0))
+    }
+}
+
+impl MessageDeclaration {
+    /// Its fields.
+    pub fn fields(&self) -> impl Iterator<Item = Field> + use<> {
+        child::<FieldList>(&self.0)
+            .into_iter()
+            .flat_map(|list| children(&list.0))
+    }
+}
+
+macro_rules! typed {
+    ($($name:ident)+) => {$(
+        impl $name {
+            /// Its type, if that is written.
+            #[must_use]
+            pub fn ty(&self) -> Option<Type> {
+                child(&self.0)
+            }
+        }
+    )+};
+}
+
+macro_rules! valued {
+    ($($name:ident)+) => {$(
+        impl $name {
+            /// Its value, if that is written.
+            #[must_use]
+            pub fn value(&self) -> Option<Expression> {
+                child(&self.0)
+            }
+        }
+    )+};
+}
+
+typed! { Field Parameter ParameterDeclaration ConstantDeclaration VariableDeclaration SharedDeclaration }
+valued! {
+    ParameterDeclaration ConstantDeclaration VariableDeclaration SharedDeclaration BindingDeclaration
+    FunctionDeclaration
+}
+
+impl SharedDeclaration {
+    /// Whether each robot writes an element of its own (`allread`), rather than all the same variable.
+    #[must_use]
+    pub fn is_single_writer(&self) -> bool {
+        let first = tokens(&self.0).next();
+        first.is_none_or(|word| !matches!(word.text(), "allwrite" | "sharedmw" | "shared"))
+    }
+
+    /// The word in brackets that names the consistency, if it is named.
+    #[must_use]
+    pub fn consistency(&self) -> Option<SyntaxToken> {
+        token(&child::<Consistency>(&self.0)?.0, SyntaxKind::Identifier)
+    }
+
+    /// What its elements are found by: `RobotId`.
+    #[must_use]
+    pub fn index(&self) -> Option<Type> {
+        child::<TypeArguments>(&self.0)?.types().next()
+    }
+}
+
+impl FunctionDeclaration {
+    /// Its parameters.
+    pub fn parameters(&self) -> impl Iterator<Item = Parameter> + use<> {
+        child::<ParameterList>(&self.0)
+            .into_iter()
+            .flat_map(|list| children(&list.0))
+    }
+
+    /// The type of its result.
+    #[must_use]
+    pub fn result(&self) -> Option<Type> {
+        child(&self.0)
+    }
+
+    /// Its statements, unless it is written with `=` and a value.
+    #[must_use]
+    pub fn body(&self) -> Option<Block> {
+        child(&self.0)
+    }
+}
+
+impl InitDeclaration {
+    /// Its statements.
+    #[must_use]
+    pub fn body(&self) -> Option<Block> {
+        child(&self.0)
+    }
+}
+
+impl ActionDeclaration {
+    /// Its guard, if it has one.
+    #[must_use]
+    pub fn pre(&self) -> Option<PreClause> {
+        child(&child::<ActionBody>(&self.0)?.0)
+    }
+
+    /// Its effect.
+    #[must_use]
+    pub fn eff(&self) -> Option<EffClause> {
+        child(&child::<ActionBody>(&self.0)?.0)
+    }
+}
+
+impl PreClause {
+    /// The condition.
+    #[must_use]
+    pub fn condition(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+}
+
+impl EffClause {
+    /// The statements.
+    #[must_use]
+    pub fn body(&self) -> Option<Block> {
+        child(&self.0)
+    }
+}
+
+impl HandlerDeclaration {
+    /// The message or the primitive's event that it handles.
+    #[must_use]
+    pub fn event(&self) -> Option<EventPath> {
+        child(&self.0)
+    }
+
+    /// The names for the sender and the fields, or for what the event carries.
+    pub fn parameters(&self) -> impl Iterator<Item = Name> + use<> {
+        child::<HandlerParameterList>(&self.0)
+            .into_iter()
+            .flat_map(|list| children(&list.0))
+    }
+
+    /// Its statements.
+    #[must_use]
+    pub fn body(&self) -> Option<Block> {
+        child(&self.0)
+    }
+}
+
+impl EventPath {
+    /// The words: one for a message, two for the event of a primitive.
+    pub fn words(&self) -> impl Iterator<Item = SyntaxToken> + use<> {
+        tokens(&self.0).filter(|token| token.kind() == SyntaxKind::Identifier)
+    }
+}
+
+impl RoleDeclaration {
+    /// What is declared in it.
+    pub fn items(&self) -> impl Iterator<Item = Item> + use<> {
+        child::<RoleBody>(&self.0)
+            .into_iter()
+            .flat_map(|body| children(&body.0))
+    }
+}
+
+impl PropertyDeclaration {
+    /// Whether it must come true some time, rather than be true always.
+    #[must_use]
+    pub fn is_eventual(&self) -> bool {
+        self.word() == "eventually"
+    }
+
+    /// The word that it begins with.
+    #[must_use]
+    pub fn word(&self) -> String {
+        tokens(&self.0)
+            .next()
+            .map(|token| token.text().into())
+            .unwrap_or_default()
+    }
+
+    /// What must be true, or with [`Self::consequence`] what leads to it.
+    #[must_use]
+    pub fn condition(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+
+    /// What must be true after the condition was, if `leads_to` is written.
+    #[must_use]
+    pub fn consequence(&self) -> Option<Expression> {
+        after(&word(&self.0, "leads_to")?)
+    }
+
+    /// How long it may take, if `within` is written.
+    #[must_use]
+    pub fn deadline(&self) -> Option<Expression> {
+        after(&word(&self.0, "within")?)
+    }
+}

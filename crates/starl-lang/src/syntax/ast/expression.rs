@@ -1,0 +1,395 @@
+//! Expressions.
+
+use alloc::string::String;
+
+use super::super::{SyntaxKind, SyntaxToken, literal};
+use super::node::{after, before, child, children, choice, nodes, token, tokens};
+use super::{BinaryOperator, LoopVariables, Name, PrefixOperator};
+
+nodes! {
+    /// A number, a string, `true`, `false` or `none`
+    LiteralExpression
+    /// A name
+    NameExpression
+    /// `(value)`
+    ParenthesizedExpression
+    /// `value.field`
+    FieldExpression
+    /// `function(arguments)`
+    CallExpression
+    /// `(a, name = b)`
+    ArgumentList
+    /// `a` or `name = b`
+    Argument
+    /// `collection[index]`
+    IndexExpression
+    /// `optional!`
+    UnwrapExpression
+    /// `-a` or `not a`
+    PrefixExpression
+    /// `a + b`
+    BinaryExpression
+    /// `some x = optional`
+    SomeExpression
+    /// `if condition then a else b`
+    ConditionalExpression
+    /// `forall r, s: condition` or `exists r: condition`
+    QuantifierExpression
+    /// `[a, b]` or `[f(x) for x in xs if condition]`
+    ListExpression
+    /// A set or a map: `{a, b}`, `{k: v}`, `{}`, `{:}` or a comprehension
+    BraceExpression
+    /// `k: v`
+    MapEntry
+    /// `for x in xs if condition`
+    ComprehensionClause
+}
+
+choice! {
+    /// An expression.
+    Expression {
+        /// A number, a string, `true`, `false` or `none`
+        Literal(LiteralExpression),
+        /// A name
+        Name(NameExpression),
+        /// `(value)`
+        Parenthesized(ParenthesizedExpression),
+        /// `value.field`
+        Field(FieldExpression),
+        /// `function(arguments)`
+        Call(CallExpression),
+        /// `collection[index]`
+        Index(IndexExpression),
+        /// `optional!`
+        Unwrap(UnwrapExpression),
+        /// `-a` or `not a`
+        Prefix(PrefixExpression),
+        /// `a + b`
+        Binary(BinaryExpression),
+        /// `some x = optional`
+        Some(SomeExpression),
+        /// `if condition then a else b`
+        Conditional(ConditionalExpression),
+        /// `forall r: condition`
+        Quantifier(QuantifierExpression),
+        /// `[a, b]`
+        List(ListExpression),
+        /// `{a, b}` or `{k: v}`
+        Brace(BraceExpression),
+    }
+}
+
+/// What a literal is worth.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Literal {
+    /// An Int; 2^63, which is no Int, only where `-` stands before it.
+    Int(u64),
+    /// A Float; a length in metres, an angle in radians.
+    Float(f64),
+    /// A Duration in nanoseconds.
+    Duration(u64),
+    /// A String.
+    String(String),
+    /// `true` or `false`.
+    Bool(bool),
+    /// `none`.
+    None,
+    /// One that is not well written, which is reported.
+    Malformed,
+}
+
+impl LiteralExpression {
+    /// The literal as it is written.
+    #[must_use]
+    pub fn token(&self) -> Option<SyntaxToken> {
+        tokens(&self.0).next()
+    }
+
+    /// What it is worth.
+    #[must_use]
+    pub fn value(&self) -> Literal {
+        let Some(token) = self.token() else {
+            return Literal::Malformed;
+        };
+        let text = token.text();
+        let value = match token.kind() {
+            SyntaxKind::IntegerLiteral => literal::integer(text).map(Literal::Int),
+            SyntaxKind::FloatLiteral | SyntaxKind::LengthLiteral | SyntaxKind::AngleLiteral => {
+                literal::float(text).map(Literal::Float)
+            }
+            SyntaxKind::DurationLiteral => literal::duration(text).map(Literal::Duration),
+            SyntaxKind::StringLiteral => Some(Literal::String(literal::string(text).0)),
+            SyntaxKind::TrueKeyword => Some(Literal::Bool(true)),
+            SyntaxKind::FalseKeyword => Some(Literal::Bool(false)),
+            SyntaxKind::NoneKeyword => Some(Literal::None),
+            _ => None,
+        };
+        value.unwrap_or(Literal::Malformed)
+    }
+}
+
+impl NameExpression {
+    /// The word itself.
+    #[must_use]
+    pub fn token(&self) -> Option<SyntaxToken> {
+        tokens(&self.0).next()
+    }
+
+    /// The word as text.
+    #[must_use]
+    pub fn text(&self) -> String {
+        self.token()
+            .map(|token| token.text().into())
+            .unwrap_or_default()
+    }
+}
+
+impl ParenthesizedExpression {
+    /// What stands in the brackets.
+    #[must_use]
+    pub fn inner(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+}
+
+impl FieldExpression {
+    /// What has the field.
+    #[must_use]
+    pub fn base(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+
+    /// The name of the field.
+    #[must_use]
+    pub fn field(&self) -> Option<SyntaxToken> {
+        tokens(&self.0).find(|token| token.kind() == SyntaxKind::Identifier)
+    }
+}
+
+impl CallExpression {
+    /// What is called.
+    #[must_use]
+    pub fn callee(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+
+    /// What it is called with.
+    pub fn arguments(&self) -> impl Iterator<Item = Argument> + use<> {
+        child::<ArgumentList>(&self.0)
+            .into_iter()
+            .flat_map(|list| children(&list.0))
+    }
+}
+
+impl Argument {
+    /// Its name, if it has one.
+    #[must_use]
+    pub fn name(&self) -> Option<Name> {
+        child(&self.0)
+    }
+
+    /// Its value.
+    #[must_use]
+    pub fn value(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+}
+
+impl IndexExpression {
+    /// The collection.
+    #[must_use]
+    pub fn base(&self) -> Option<Expression> {
+        before(&token(&self.0, SyntaxKind::LeftBracket)?)
+    }
+
+    /// Which element.
+    #[must_use]
+    pub fn index(&self) -> Option<Expression> {
+        after(&token(&self.0, SyntaxKind::LeftBracket)?)
+    }
+}
+
+impl UnwrapExpression {
+    /// The optional.
+    #[must_use]
+    pub fn base(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+}
+
+impl PrefixExpression {
+    /// The operator; `!`, which is reported, is a `not`.
+    #[must_use]
+    pub fn operator(&self) -> Option<PrefixOperator> {
+        let kind = tokens(&self.0).next()?.kind();
+        if kind == SyntaxKind::Bang {
+            Some(PrefixOperator::Not)
+        } else {
+            PrefixOperator::of(kind)
+        }
+    }
+
+    /// What it applies to.
+    #[must_use]
+    pub fn operand(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+}
+
+impl BinaryExpression {
+    /// The operator as a token; of `not in` the `in`.
+    #[must_use]
+    pub fn operator_token(&self) -> Option<SyntaxToken> {
+        tokens(&self.0).find(|token| token.kind() != SyntaxKind::NotKeyword)
+    }
+
+    /// The operator; `=`, which is reported, is an `==`.
+    #[must_use]
+    pub fn operator(&self) -> Option<BinaryOperator> {
+        let kind = self.operator_token()?.kind();
+        if kind == SyntaxKind::Equal {
+            Some(BinaryOperator::Equal)
+        } else {
+            BinaryOperator::of(kind)
+        }
+    }
+
+    /// Whether it is `not in`.
+    #[must_use]
+    pub fn is_negated(&self) -> bool {
+        token(&self.0, SyntaxKind::NotKeyword).is_some()
+    }
+
+    /// The value before the operator.
+    #[must_use]
+    pub fn left(&self) -> Option<Expression> {
+        before(&self.operator_token()?)
+    }
+
+    /// The value after the operator.
+    #[must_use]
+    pub fn right(&self) -> Option<Expression> {
+        after(&self.operator_token()?)
+    }
+}
+
+impl SomeExpression {
+    /// The optional whose value gets the name.
+    #[must_use]
+    pub fn value(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+}
+
+impl ConditionalExpression {
+    /// What decides.
+    #[must_use]
+    pub fn condition(&self) -> Option<Expression> {
+        after(&token(&self.0, SyntaxKind::IfKeyword)?)
+    }
+
+    /// The value if it holds.
+    #[must_use]
+    pub fn then(&self) -> Option<Expression> {
+        after(&token(&self.0, SyntaxKind::ThenKeyword)?)
+    }
+
+    /// The value if it does not.
+    #[must_use]
+    pub fn otherwise(&self) -> Option<Expression> {
+        after(&token(&self.0, SyntaxKind::ElseKeyword)?)
+    }
+}
+
+impl QuantifierExpression {
+    /// Whether it is `forall`, rather than `exists`.
+    #[must_use]
+    pub fn is_universal(&self) -> bool {
+        tokens(&self.0)
+            .next()
+            .is_some_and(|word| word.text() == "forall")
+    }
+
+    /// The names of the robots.
+    pub fn variables(&self) -> impl Iterator<Item = Name> + use<> {
+        children(&self.0)
+    }
+
+    /// What is said of them.
+    #[must_use]
+    pub fn condition(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+}
+
+impl ListExpression {
+    /// The elements; of a comprehension the one that is built.
+    pub fn elements(&self) -> impl Iterator<Item = Expression> + use<> {
+        children(&self.0)
+    }
+
+    /// What it is built from, if it is a comprehension.
+    #[must_use]
+    pub fn comprehension(&self) -> Option<ComprehensionClause> {
+        child(&self.0)
+    }
+}
+
+impl BraceExpression {
+    /// Whether it is a map: it has an entry, or is `{:}`. `{}` is a set.
+    #[must_use]
+    pub fn is_map(&self) -> bool {
+        token(&self.0, SyntaxKind::Colon).is_some() || child::<MapEntry>(&self.0).is_some()
+    }
+
+    /// The elements of a set; of a comprehension the one that is built.
+    pub fn elements(&self) -> impl Iterator<Item = Expression> + use<> {
+        children(&self.0)
+    }
+
+    /// The entries of a map; of a comprehension the one that is built.
+    pub fn entries(&self) -> impl Iterator<Item = MapEntry> + use<> {
+        children(&self.0)
+    }
+
+    /// What it is built from, if it is a comprehension.
+    #[must_use]
+    pub fn comprehension(&self) -> Option<ComprehensionClause> {
+        child(&self.0)
+    }
+}
+
+impl MapEntry {
+    /// The key.
+    #[must_use]
+    pub fn key(&self) -> Option<Expression> {
+        before(&token(&self.0, SyntaxKind::Colon)?)
+    }
+
+    /// The value.
+    #[must_use]
+    pub fn value(&self) -> Option<Expression> {
+        after(&token(&self.0, SyntaxKind::Colon)?)
+    }
+}
+
+impl ComprehensionClause {
+    /// One variable, or two for a map.
+    pub fn variables(&self) -> impl Iterator<Item = Name> + use<> {
+        child::<LoopVariables>(&self.0)
+            .into_iter()
+            .flat_map(|variables| variables.names())
+    }
+
+    /// What it runs over.
+    #[must_use]
+    pub fn collection(&self) -> Option<Expression> {
+        after(&token(&self.0, SyntaxKind::InKeyword)?)
+    }
+
+    /// Which elements are taken, if not all.
+    #[must_use]
+    pub fn condition(&self) -> Option<Expression> {
+        after(&token(&self.0, SyntaxKind::IfKeyword)?)
+    }
+}

@@ -1,0 +1,184 @@
+//! Statements.
+
+use super::super::SyntaxToken;
+use super::node::{after, before, child, children, choice, nodes, tokens};
+use super::{AssignOperator, Expression, Name, Type};
+
+nodes! {
+    /// Statements one after another
+    Block
+    /// `let x = value`
+    LetStatement
+    /// `x = value`, `x += value`
+    AssignStatement
+    /// `if`, with its `elif`s and `else`
+    IfStatement
+    /// `if condition` or `elif condition`, with statements
+    IfBranch
+    /// `else`, with statements
+    ElseBranch
+    /// `for x in xs`, with statements
+    ForStatement
+    /// `x` or `k, v`
+    LoopVariables
+    /// `return value`
+    ReturnStatement
+    /// A call
+    ExpressionStatement
+    /// `atomic`, with statements
+    AtomicStatement
+}
+
+choice! {
+    /// A statement.
+    Statement {
+        /// `let x = value`
+        Let(LetStatement),
+        /// `x = value`
+        Assign(AssignStatement),
+        /// `if condition`
+        If(IfStatement),
+        /// `for x in xs`
+        For(ForStatement),
+        /// `return value`
+        Return(ReturnStatement),
+        /// A call
+        Expression(ExpressionStatement),
+        /// `atomic`
+        Atomic(AtomicStatement),
+    }
+}
+
+impl Block {
+    /// The statements.
+    pub fn statements(&self) -> impl Iterator<Item = Statement> + use<> {
+        children(&self.0)
+    }
+}
+
+impl LetStatement {
+    /// The type of the variable, if that is written.
+    #[must_use]
+    pub fn ty(&self) -> Option<Type> {
+        child(&self.0)
+    }
+
+    /// Its value.
+    #[must_use]
+    pub fn value(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+}
+
+impl AssignStatement {
+    /// The operator as a token.
+    #[must_use]
+    pub fn operator_token(&self) -> Option<SyntaxToken> {
+        tokens(&self.0).find(|token| token.kind().is_assignment())
+    }
+
+    /// Which assignment it is.
+    #[must_use]
+    pub fn operator(&self) -> Option<AssignOperator> {
+        AssignOperator::of(self.operator_token()?.kind())
+    }
+
+    /// What is assigned to.
+    #[must_use]
+    pub fn target(&self) -> Option<Expression> {
+        before(&self.operator_token()?)
+    }
+
+    /// What is assigned.
+    #[must_use]
+    pub fn value(&self) -> Option<Expression> {
+        after(&self.operator_token()?)
+    }
+}
+
+impl IfStatement {
+    /// The `if` and the `elif`s.
+    pub fn branches(&self) -> impl Iterator<Item = IfBranch> + use<> {
+        children(&self.0)
+    }
+
+    /// The `else`, if there is one.
+    #[must_use]
+    pub fn otherwise(&self) -> Option<ElseBranch> {
+        child(&self.0)
+    }
+}
+
+impl IfBranch {
+    /// When it is taken.
+    #[must_use]
+    pub fn condition(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+
+    /// What is done then.
+    #[must_use]
+    pub fn body(&self) -> Option<Block> {
+        child(&self.0)
+    }
+}
+
+impl ElseBranch {
+    /// What is done then.
+    #[must_use]
+    pub fn body(&self) -> Option<Block> {
+        child(&self.0)
+    }
+}
+
+impl ForStatement {
+    /// One variable, or two for a map.
+    pub fn variables(&self) -> impl Iterator<Item = Name> + use<> {
+        child::<LoopVariables>(&self.0)
+            .into_iter()
+            .flat_map(|variables| variables.names())
+    }
+
+    /// What it runs over.
+    #[must_use]
+    pub fn collection(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+
+    /// What is done for each element.
+    #[must_use]
+    pub fn body(&self) -> Option<Block> {
+        child(&self.0)
+    }
+}
+
+impl LoopVariables {
+    /// The names.
+    pub fn names(&self) -> impl Iterator<Item = Name> + use<> {
+        children(&self.0)
+    }
+}
+
+impl ReturnStatement {
+    /// What is returned, if anything.
+    #[must_use]
+    pub fn value(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+}
+
+impl ExpressionStatement {
+    /// The call.
+    #[must_use]
+    pub fn expression(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+}
+
+impl AtomicStatement {
+    /// The statements.
+    #[must_use]
+    pub fn body(&self) -> Option<Block> {
+        child(&self.0)
+    }
+}

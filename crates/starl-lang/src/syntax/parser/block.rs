@@ -1,0 +1,157 @@
+//! Statements one after another: indented under a header, or on its line.
+
+use alloc::format;
+
+use super::slips::{self, Colon};
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*, statement};
+use crate::diagnostic::{Edit, Mend};
+
+/// The indented statements under a header; `owner` is what needs them.
+pub(super) fn indented(parser: &mut Parser<'_>, owner: &str) {
+    slips::header_colon(parser, Colon::Remove);
+    if !opens_block(parser, owner) {
+        return;
+    }
+    parser.start(Block);
+    lines(parser);
+    parser.finish();
+}
+
+/// The statements after `eff`, `init`, `then` or `else`: on its line, indented under it, or both.
+pub(super) fn after_word(parser: &mut Parser<'_>, owner: &str, goes_on: bool) {
+    slips::header_colon(parser, Colon::Remove);
+    if parser.at_line_end() {
+        return indented(parser, owner);
+    }
+    parser.start(Block);
+    on_line(parser);
+    if goes_on && parser.at(Newline) && parser.nth(1) == Indent {
+        lines(parser);
+    }
+    parser.finish();
+}
+
+/// Exactly one statement, on the line.
+pub(super) fn single(parser: &mut Parser<'_>) {
+    parser.start(Block);
+    statement::statement(parser, statement::Place::OnLine);
+    parser.finish();
+}
+
+/// Whether an indented block is next; reports that it is missing if not.
+pub(super) fn opens_block(parser: &mut Parser<'_>, owner: &str) -> bool {
+    if parser.at(Newline) && parser.nth(1) == Indent {
+        return true;
+    }
+    if !parser.at_line_end() {
+        parser.unexpected("an indented block");
+        if parser.at(LeftBrace) {
+            parser.diagnostics.last_mut().into_iter().for_each(|last| {
+                last.notes
+                    .push("a block is made by indentation, without braces".into());
+            });
+        }
+        parser.skip_to_line_end();
+        return parser.at(Newline) && parser.nth(1) == Indent;
+    }
+    missing(parser, owner);
+    false
+}
+
+/// Reports that what is under a header is missing or not indented.
+fn missing(parser: &mut Parser<'_>, owner: &str) {
+    let place = Span::empty(parser.end_of_last());
+    let problem = Diagnostic::new(
+        Code::MissingBlock,
+        place,
+        format!("{owner} needs an indented block"),
+    );
+    let next = parser.nth_span(1);
+    let follows = parser.at(Newline) && !matches!(parser.nth(1), Dedent | EndOfFile);
+    parser.last_error = Some(parser.position);
+    parser.report(if follows {
+        let start = parser.start_of_line(next.start);
+        let problem = problem.label(next, "this line is not indented deeper");
+        let edits = [Edit::new(Span::empty(start), "    ")].into();
+        problem.mend(Mend {
+            message: "indent what belongs to it by 4 more spaces".into(),
+            edits,
+        })
+    } else {
+        problem
+    });
+}
+
+/// The end of a header's line, and indented lines under it.
+fn lines(parser: &mut Parser<'_>) {
+    parser.bump();
+    let entered = parser.deeper(|parser| {
+        parser.bump();
+        statements(parser);
+    });
+    if entered.is_some() {
+        parser.eat(Dedent);
+    }
+}
+
+/// Statements to the end of the block.
+fn statements(parser: &mut Parser<'_>) {
+    loop {
+        match parser.current() {
+            Dedent | EndOfFile => return,
+            Newline | Semicolon => parser.bump(),
+            Indent => unexpected_indentation(parser, statements),
+            _ => {
+                statement::statement(parser, statement::Place::OwnLine);
+                parser.end_line();
+            }
+        }
+    }
+}
+
+/// Statements with semicolons between them, on a line.
+fn on_line(parser: &mut Parser<'_>) {
+    statement::statement(parser, statement::Place::OnLine);
+    while parser.at(Semicolon) {
+        parser.bump();
+        if !parser.at_line_end() {
+            statement::statement(parser, statement::Place::OnLine);
+        }
+    }
+}
+
+/// Lines that are indented although nothing opens a block; `inner` parses them.
+pub(super) fn unexpected_indentation(parser: &mut Parser<'_>, inner: fn(&mut Parser<'_>)) {
+    let first = parser.nth_span(1);
+    let start = parser.start_of_line(first.start);
+    parser.start(Error);
+    // What is wrong with the line above may well be why this one is not understood.
+    let line_above = parser.start_of_line(parser.end_of_last());
+    if parser.last_report.is_some_and(|end| end >= line_above) {
+        parser.skip_block();
+        return parser.finish();
+    }
+    let message = "this line is indented, but nothing above it opens a block";
+    let mut problem = Diagnostic::new(
+        Code::UnexpectedIndentation,
+        Span::new(start, first.start),
+        message,
+    );
+    if joins(parser.nth(1)) {
+        problem = problem.note("a line goes on if it ends in an operator: move this one up");
+    }
+    parser.report(problem);
+    let entered = parser.deeper(|parser| {
+        parser.bump();
+        inner(parser);
+    });
+    if entered.is_some() {
+        parser.eat(Dedent);
+    }
+    parser.finish();
+}
+
+/// Whether it stands between two operands.
+fn joins(kind: SyntaxKind) -> bool {
+    kind.continues_line() && !kind.is_assignment() && !matches!(kind, Minus | NotKeyword)
+}

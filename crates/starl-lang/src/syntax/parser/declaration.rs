@@ -1,0 +1,220 @@
+//! Headers, parameters, constants, variables, bindings, functions, `init` and roles.
+
+use alloc::format;
+
+use super::item::{self, name};
+use super::slips::{self, Colon as HeaderColon};
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*};
+use super::{action, block, expression, record, types};
+
+/// Whether the word that is next begins a declaration rather than naming something: another word follows.
+pub(super) fn contextual(parser: &Parser<'_>) -> bool {
+    let next = parser.nth(1);
+    let bracket = next == LeftBracket && parser.word() == "allread" || parser.word() == "allwrite";
+    let alone = matches!(next, Newline | EndOfFile | Dedent);
+    next == Identifier
+        || next.is_keyword() && !matches!(next, AndKeyword | OrKeyword | InKeyword)
+        || alone
+        || bracket && next == LeftBracket
+}
+
+/// `program Name` or `library Name`.
+pub(super) fn header(parser: &mut Parser<'_>) {
+    parser.bump();
+    name(parser);
+    slips::header_colon(parser, HeaderColon::Remove);
+}
+
+/// `import name`.
+pub(super) fn import(parser: &mut Parser<'_>) {
+    parser.bump();
+    name(parser);
+}
+
+/// `param name: Type = default`.
+pub(super) fn parameter(parser: &mut Parser<'_>) {
+    parser.bump();
+    name(parser);
+    if parser.expect(Colon) {
+        types::any(parser);
+        value(parser);
+    }
+}
+
+/// `const name = value`, or with its type.
+pub(super) fn constant(parser: &mut Parser<'_>) {
+    parser.bump();
+    name(parser);
+    if parser.eat(Colon) {
+        types::any(parser);
+    }
+    if parser.expect(Equal) {
+        expression::expression(parser);
+    }
+}
+
+/// `name: Type`, and a value if it has one.
+pub(super) fn variable(parser: &mut Parser<'_>) {
+    name(parser);
+    parser.expect(Colon);
+    types::any(parser);
+    value(parser);
+}
+
+/// `= value`, if that is next.
+pub(super) fn value(parser: &mut Parser<'_>) {
+    if parser.eat(Equal) {
+        expression::expression(parser);
+    }
+}
+
+/// `let x = 1` where a variable of the state is declared.
+pub(super) fn let_variable(parser: &mut Parser<'_>) {
+    let span = parser.span();
+    let problem = Diagnostic::new(
+        Code::ForeignDeclaration,
+        span,
+        "a variable of the state is declared without `let`, with its type",
+    );
+    let typed = parser.nth(2) == Colon;
+    let until_name = Span::new(span.start, parser.nth_span(1).start);
+    parser.report(if typed {
+        problem.replace("remove `let`", until_name, "")
+    } else {
+        problem.note("such as `x: Int = 0`")
+    });
+    parser.bump();
+    name(parser);
+    if parser.eat(Colon) {
+        types::any(parser);
+    }
+    value(parser);
+}
+
+/// `Int x = 1` or `var x = 1`.
+pub(super) fn foreign_variable(parser: &mut Parser<'_>) {
+    slips::foreign_variable(parser, "");
+    name(parser);
+    if parser.eat(Colon) {
+        types::any(parser);
+    }
+    value(parser);
+}
+
+/// `name = Primitive(arguments)`.
+pub(super) fn binding(parser: &mut Parser<'_>) {
+    let named = parser.span();
+    name(parser);
+    parser.bump();
+    let shape = expression::expression(parser);
+    if !matches!(shape, expression::Shape::Call | expression::Shape::Broken) {
+        let problem = Diagnostic::new(
+            Code::ForeignDeclaration,
+            named,
+            format!("the variable `{}` needs a type", named.of(parser.text)),
+        );
+        let note = "only a primitive is bound without one, as in `motion = ReachAvoid()`";
+        parser.report(problem.expected("`name: Type = value`").note(note));
+    }
+}
+
+/// `function name(a: T) -> V`, with a block or `= value`.
+pub(super) fn function(parser: &mut Parser<'_>) {
+    parser.bump();
+    name(parser);
+    parameters(parser);
+    if parser.at(Colon) && parser.nth(1) == Identifier {
+        let span = parser.span();
+        slips::foreign_operator(
+            parser,
+            span,
+            "the type of the result stands after `->`",
+            ("write `->`", " ->"),
+        );
+        parser.bump();
+        types::any(parser);
+    } else if parser.expect(Arrow) {
+        types::any(parser);
+    }
+    if parser.eat(Equal) {
+        expression::expression(parser);
+    } else {
+        block::indented(parser, "a function");
+    }
+}
+
+fn parameters(parser: &mut Parser<'_>) {
+    let open = parser.span();
+    if !parser.at(LeftParen) {
+        return parser.unexpected("`(` and parameters up to `)`");
+    }
+    parser.start(ParameterList);
+    parser.bump();
+    parser.separated(RightParen, |parser| record::typed_name(parser, Parameter));
+    parser.close(RightParen, open);
+    parser.finish();
+}
+
+/// Whether the `init` that is next is the block, not a name.
+pub(super) fn is_init(parser: &Parser<'_>) -> bool {
+    match parser.nth(1) {
+        Colon => parser.nth(2) == Newline && !matches!(parser.nth(4), PreKeyword | EffKeyword),
+        Newline => !matches!(parser.nth(3), PreKeyword | EffKeyword),
+        next => matches!(next, Identifier | IfKeyword | ForKeyword | LetKeyword),
+    }
+}
+
+/// `init`, with statements on its line or indented.
+pub(super) fn init(parser: &mut Parser<'_>) {
+    parser.bump();
+    block::after_word(parser, "`init`", false);
+}
+
+/// `role name`, with what only its robots do.
+pub(super) fn role(parser: &mut Parser<'_>) {
+    parser.bump();
+    name(parser);
+    slips::header_colon(parser, HeaderColon::Remove);
+    if !block::opens_block(parser, "a role") {
+        return;
+    }
+    parser.start(RoleBody);
+    parser.bump();
+    let entered = parser.deeper(|parser| {
+        parser.bump();
+        item::items(parser, item::Place::Role);
+    });
+    if entered.is_some() {
+        parser.eat(Dedent);
+    }
+    parser.finish();
+}
+
+/// `action name()`, which is written `name()`.
+pub(super) fn foreign_action(parser: &mut Parser<'_>) {
+    let span = Span::new(parser.span().start, parser.nth_span(1).start);
+    let problem = Diagnostic::new(
+        Code::ForeignDeclaration,
+        span,
+        "an action begins with its name",
+    );
+    parser.report(problem.replace("remove this word", span, ""));
+    parser.start(Error);
+    parser.bump();
+    parser.finish();
+    action::action(parser);
+}
+
+/// A declaration that begins with the word of another language, or a misspelt one.
+pub(super) fn foreign_word(parser: &mut Parser<'_>) {
+    let span = parser.span();
+    let Some(meant) = slips::foreign_declaration(parser.word()) else {
+        return;
+    };
+    let message = format!("{} begins no declaration", parser.found());
+    let problem = Diagnostic::new(Code::ForeignDeclaration, span, message);
+    parser.report(problem.replace(format!("did you mean `{meant}`?"), span, meant));
+    if let Some((_, parse)) = item::by_meaning(meant) {
+        parse(parser);
+    }
+}

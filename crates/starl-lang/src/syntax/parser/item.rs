@@ -1,0 +1,289 @@
+//! What a file is made of: the header and declarations, one after another.
+
+use alloc::format;
+
+use rowan::Checkpoint;
+
+use super::declaration::{self as declare, contextual};
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*};
+use super::{action, block, property, record, shared, slips, statement};
+
+/// Where a declaration stands.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    /// In the file itself.
+    File,
+    /// In a role.
+    Role,
+}
+
+/// The whole file.
+pub(super) fn source_file(parser: &mut Parser<'_>) {
+    // Comments before anything else are part of the file too.
+    parser
+        .builder
+        .start_node(rowan::SyntaxKind(SourceFile as u16));
+    missing_header(parser);
+    items(parser, Place::File);
+    while !parser.at(EndOfFile) {
+        parser.bump();
+    }
+    parser.flush_trivia();
+    parser.finish();
+}
+
+fn missing_header(parser: &mut Parser<'_>) {
+    let word = if parser.at(Identifier) {
+        parser.word()
+    } else {
+        ""
+    };
+    if matches!(
+        word,
+        "program" | "library" | "agent" | "automaton" | "module"
+    ) || parser.at(Indent)
+    {
+        return;
+    }
+    let start = parser.span().start;
+    let problem = Diagnostic::new(
+        Code::MissingHeader,
+        Span::empty(start),
+        "a file begins with `program` or `library` and its name",
+    );
+    parser.report(problem.replace(
+        "begin with `program Name`",
+        Span::empty(start),
+        "program Name\n\n",
+    ));
+}
+
+/// Declarations to the end of the file or of the block.
+pub(super) fn items(parser: &mut Parser<'_>, place: Place) {
+    loop {
+        match parser.current() {
+            Dedent | EndOfFile => return,
+            Newline | Semicolon => parser.bump(),
+            Indent if place == Place::File => {
+                block::unexpected_indentation(parser, |parser| indented_items(parser, Place::File));
+            }
+            Indent => {
+                block::unexpected_indentation(parser, |parser| indented_items(parser, Place::Role));
+            }
+            _ => {
+                item(parser, place);
+                parser.end_line();
+            }
+        }
+    }
+}
+
+/// Declarations that are indented for no reason; other lines that are, are left alone.
+fn indented_items(parser: &mut Parser<'_>, place: Place) {
+    if form(parser).is_some() {
+        return items(parser, place);
+    }
+    while !matches!(parser.current(), Dedent | EndOfFile) {
+        if parser.at(Indent) {
+            parser.skip_block();
+        } else {
+            parser.bump();
+        }
+    }
+}
+
+/// What is being declared, and the function that parses it from its first word.
+type Form = (SyntaxKind, fn(&mut Parser<'_>));
+
+fn item(parser: &mut Parser<'_>, place: Place) {
+    let first = parser.position;
+    let start = parser.checkpoint_with_documentation();
+    let at = parser.span();
+    if let Some((kind, parse)) = form(parser) {
+        check_place(parser, kind, place, first, at);
+        parse(parser);
+        parser.start_at(start, kind);
+        parser.finish();
+    } else {
+        other(parser, start);
+    }
+}
+
+/// The form of the declaration that is next, if it is one.
+fn form(parser: &Parser<'_>) -> Option<Form> {
+    let next = parser.nth(1);
+    match parser.current() {
+        OnKeyword if next != Colon && next != Equal => {
+            return Some((HandlerDeclaration, action::handler));
+        }
+        LetKeyword => return Some((VariableDeclaration, declare::let_variable)),
+        // A keyword as the name of a variable or an action; `name` reports it.
+        kind if kind.is_keyword() && next == Colon && parser.nth(2) == Identifier => {
+            return Some((VariableDeclaration, declare::variable));
+        }
+        Identifier => {}
+        _ => return None,
+    }
+    let word = parser.word();
+    if let Some(form) = by_word(parser, word) {
+        return Some(form);
+    }
+    match next {
+        Colon if parser.nth(2) == Newline && parser.nth(3) == Indent => {
+            Some((ActionDeclaration, action::action))
+        }
+        Colon => Some((VariableDeclaration, declare::variable)),
+        Equal => Some((BindingDeclaration, declare::binding)),
+        LeftParen if action::is_header(parser) => Some((ActionDeclaration, action::action)),
+        LeftBracket if shared::is_array(parser) => Some((SharedDeclaration, shared::without_word)),
+        Identifier => by_two_words(parser, word),
+        Newline if parser.nth(2) == Indent && matches!(parser.nth(3), PreKeyword | EffKeyword) => {
+            Some((ActionDeclaration, action::action))
+        }
+        _ => None,
+    }
+}
+
+/// A declaration that begins with a word of its own.
+fn by_word(parser: &Parser<'_>, word: &str) -> Option<Form> {
+    match word {
+        "invariant" | "always" | "eventually" => {
+            property::is_next(parser).then_some((PropertyDeclaration, property::property))
+        }
+        "init" => declare::is_init(parser).then_some((InitDeclaration, declare::init)),
+        _ => by_meaning(word).filter(|_| contextual(parser)),
+    }
+}
+
+/// A declaration as other languages begin it, with two words.
+fn by_two_words(parser: &Parser<'_>, word: &str) -> Option<Form> {
+    if parser.nth(2) == LeftParen && action::is_header_at(parser, 2) && word == "action" {
+        return Some((ActionDeclaration, declare::foreign_action));
+    }
+    let meant = slips::foreign_declaration(word);
+    let variable = slips::is_variable_word(word) && parser.nth(2) != LeftParen;
+    match meant {
+        Some(meant) if !variable => {
+            let (kind, _) = by_meaning(meant)?;
+            Some((kind, declare::foreign_word))
+        }
+        _ if variable => Some((VariableDeclaration, declare::foreign_variable)),
+        _ => None,
+    }
+}
+
+/// The form that begins with the word.
+pub(super) fn by_meaning(word: &str) -> Option<Form> {
+    Some(match word {
+        "program" => (ProgramHeader, declare::header),
+        "library" => (LibraryHeader, declare::header),
+        "import" => (Import, declare::import),
+        "enum" => (EnumDeclaration, record::enumeration),
+        "record" => (RecordDeclaration, record::record),
+        "message" => (MessageDeclaration, record::message),
+        "param" => (ParameterDeclaration, declare::parameter),
+        "const" => (ConstantDeclaration, declare::constant),
+        "function" => (FunctionDeclaration, declare::function),
+        "role" => (RoleDeclaration, declare::role),
+        "allread" => (SharedDeclaration, shared::all_read),
+        "allwrite" => (SharedDeclaration, shared::all_write),
+        "invariant" | "always" | "eventually" => (PropertyDeclaration, property::property),
+        _ => return None,
+    })
+}
+
+/// Reports a declaration that cannot stand where it does.
+fn check_place(parser: &mut Parser<'_>, kind: SyntaxKind, place: Place, first: usize, at: Span) {
+    let in_role = matches!(
+        kind,
+        InitDeclaration
+            | ActionDeclaration
+            | HandlerDeclaration
+            | VariableDeclaration
+            | BindingDeclaration
+    );
+    let word = at.of(parser.text);
+    if place == Place::Role && !in_role {
+        let problem = Diagnostic::new(
+            Code::Misplaced,
+            at,
+            format!("`{word}` cannot stand in a role"),
+        );
+        parser.report(
+            problem.note(
+                "a role holds variables, `init`, actions and handlers; the rest stands outside",
+            ),
+        );
+    } else if matches!(kind, ProgramHeader | LibraryHeader) && first > 0 {
+        let problem = Diagnostic::new(
+            Code::Misplaced,
+            at,
+            format!("`{word}` can only be the first line"),
+        );
+        parser.report(problem.note("a file holds one program or one library"));
+    }
+}
+
+/// Something that is no declaration.
+fn other(parser: &mut Parser<'_>, start: Checkpoint) {
+    match parser.current() {
+        PreKeyword | EffKeyword => {
+            let problem = Diagnostic::new(
+                Code::Misplaced,
+                parser.span(),
+                format!("{} belongs to no action", parser.found()),
+            );
+            parser.report(
+                problem.note("it stands indented under the name of an action, as in `pick()`"),
+            );
+            parser.skip_line_and_block();
+        }
+        _ if is_statement(parser) => {
+            let problem = Diagnostic::new(
+                Code::Misplaced,
+                parser.span(),
+                "a statement cannot stand here",
+            );
+            let note =
+                "statements stand in `init`, in the `eff` of an action, in a handler or a function";
+            parser.report(problem.note(note));
+            statement::statement(parser, statement::Place::OwnLine);
+            parser.start_at(start, Error);
+            parser.finish();
+        }
+        _ => {
+            parser.unexpected("a declaration");
+            parser.skip_line_and_block();
+        }
+    }
+}
+
+fn is_statement(parser: &Parser<'_>) -> bool {
+    match parser.current() {
+        IfKeyword | ForKeyword | ReturnKeyword => true,
+        Identifier => {
+            let next = parser.nth(1);
+            next.is_assignment()
+                || matches!(next, Dot | LeftParen | LeftBracket | PlusPlus | Bang)
+                || (parser.word() == "atomic" && next == Newline)
+                || slips::foreign_statement(parser).is_some()
+        }
+        _ => false,
+    }
+}
+
+/// The name of what is declared.
+pub(super) fn name(parser: &mut Parser<'_>) {
+    if parser.current().is_keyword() {
+        let message = format!("{} is a keyword and cannot be a name", parser.found());
+        let problem = Diagnostic::new(Code::KeywordAsName, parser.span(), message);
+        let other = format!("{}_", parser.word());
+        let span = parser.span();
+        parser.report(problem.replace("choose another name", span, other));
+    } else if !parser.at(Identifier) {
+        return parser.unexpected("a name");
+    }
+    parser.start(Name);
+    parser.bump();
+    parser.finish();
+}

@@ -1,0 +1,205 @@
+//! What operators stand between: literals, names, calls, elements, fields, brackets, and the forms that
+//! begin with a word.
+
+use alloc::format;
+
+use rowan::Checkpoint;
+
+use super::expression::{self, Parsed, Shape, binary, condition, expression_parsed, power};
+use super::item::name;
+use super::{Code, Diagnostic, MAX_DEPTH, Parser, Span, SyntaxKind, SyntaxKind::*, collection};
+use crate::syntax::literal;
+
+/// Whether an operand other than a literal can begin so.
+pub(super) fn starts(kind: SyntaxKind) -> bool {
+    matches!(
+        kind,
+        Identifier | LeftParen | LeftBracket | LeftBrace | SomeKeyword | IfKeyword
+    )
+}
+
+/// An operand with all that follows it directly: fields, arguments, indices, `!`.
+pub(super) fn postfix(parser: &mut Parser<'_>, start: Checkpoint) -> Parsed {
+    let mut parsed = simple(parser);
+    loop {
+        let kind = match parser.current() {
+            Dot => FieldExpression,
+            LeftParen => CallExpression,
+            LeftBracket => IndexExpression,
+            Bang => UnwrapExpression,
+            _ => return parsed,
+        };
+        if parsed.height + parser.depth >= MAX_DEPTH {
+            parser.too_deep();
+            return Parsed::BROKEN;
+        }
+        let mut height = 0;
+        match kind {
+            FieldExpression => {
+                parser.bump();
+                field_name(parser);
+            }
+            CallExpression => height = collection::arguments(parser),
+            IndexExpression => height = index(parser),
+            _ => parser.bump(),
+        }
+        parser.start_at(start, kind);
+        parser.finish();
+        let shape = match (kind, parsed.shape) {
+            (_, Shape::Broken) => Shape::Broken,
+            (CallExpression, _) => Shape::Call,
+            (FieldExpression | IndexExpression, Shape::Target) => Shape::Target,
+            _ => Shape::Other,
+        };
+        parsed = Parsed::new(shape, parsed.height.max(height) + 1);
+    }
+}
+
+/// The name after a dot; a keyword there can only be meant as a name.
+fn field_name(parser: &mut Parser<'_>) {
+    if parser.current().is_keyword() {
+        let message = format!("{} is a keyword and cannot be a name", parser.found());
+        parser.report(Diagnostic::new(Code::KeywordAsName, parser.span(), message));
+        parser.bump();
+    } else {
+        parser.expect(Identifier);
+    }
+}
+
+fn index(parser: &mut Parser<'_>) -> u32 {
+    let open = parser.span();
+    parser.bump();
+    let parsed = expression_parsed(parser);
+    if !parser.at(RightBracket) && !parser.at_line_end() {
+        parser.unexpected(RightBracket.name());
+        parser.skip_element();
+    }
+    parser.close(RightBracket, open);
+    parsed.height
+}
+
+fn simple(parser: &mut Parser<'_>) -> Parsed {
+    match parser.current() {
+        kind if kind.is_literal() => number_or_other_literal(parser),
+        Identifier if is_quantifier(parser) => quantifier(parser),
+        Identifier => {
+            parser.start(NameExpression);
+            parser.bump();
+            parser.finish();
+            Parsed::new(Shape::Target, 1)
+        }
+        LeftParen => parenthesized(parser),
+        LeftBracket => collection::list(parser),
+        LeftBrace => collection::braces(parser),
+        SomeKeyword => some(parser),
+        IfKeyword => conditional(parser),
+        _ => {
+            parser.unexpected("a value");
+            Parsed::BROKEN
+        }
+    }
+}
+
+/// A literal; with a number also the unit that stands apart from it.
+fn number_or_other_literal(parser: &mut Parser<'_>) -> Parsed {
+    let (is_plain, number) = (
+        matches!(parser.current(), IntegerLiteral | FloatLiteral),
+        parser.span(),
+    );
+    parser.start(LiteralExpression);
+    parser.bump();
+    if is_plain && parser.at(Identifier) && literal::unit(parser.word()).is_some() {
+        let unit = parser.span();
+        let problem = Diagnostic::new(
+            Code::UnitApart,
+            number.to(unit),
+            "a number and its unit are one word",
+        );
+        let form = format!("write `{}{}`", number.of(parser.text), unit.of(parser.text));
+        parser.report(problem.replace(form, Span::new(number.end, unit.start), ""));
+        parser.start(Error);
+        parser.bump();
+        parser.finish();
+    }
+    parser.finish();
+    Parsed::new(Shape::Other, 1)
+}
+
+fn parenthesized(parser: &mut Parser<'_>) -> Parsed {
+    let open = parser.span();
+    parser.start(ParenthesizedExpression);
+    parser.bump();
+    let parsed = binary(parser, 0);
+    if !parser.at(RightParen) && !parser.at_line_end() {
+        parser.unexpected(RightParen.name());
+        parser.skip_element();
+        while parser.eat(Comma) {
+            parser.skip_element();
+        }
+    }
+    parser.close(RightParen, open);
+    parser.finish();
+    let shape = if parsed.shape == Shape::Broken {
+        Shape::Broken
+    } else {
+        Shape::Other
+    };
+    Parsed::new(shape, parsed.height + 1)
+}
+
+/// `some x = optional`.
+fn some(parser: &mut Parser<'_>) -> Parsed {
+    parser.start(SomeExpression);
+    parser.bump();
+    name(parser);
+    let parsed = if parser.expect(Equal) {
+        binary(parser, power::COMPARISON)
+    } else {
+        Parsed::BROKEN
+    };
+    parser.finish();
+    Parsed::new(
+        if parsed.shape == Shape::Broken {
+            Shape::Broken
+        } else {
+            Shape::Other
+        },
+        parsed.height + 1,
+    )
+}
+
+/// `if c then a else b`.
+fn conditional(parser: &mut Parser<'_>) -> Parsed {
+    parser.start(ConditionalExpression);
+    parser.bump();
+    let mut height = condition(parser).height;
+    if parser.expect(ThenKeyword) {
+        height = height.max(expression_parsed(parser).height);
+        if parser.expect(ElseKeyword) {
+            height = height.max(expression_parsed(parser).height);
+        }
+    }
+    parser.finish();
+    Parsed::new(Shape::Other, height + 1)
+}
+
+/// Whether `forall` or `exists` is next, with a name after it.
+fn is_quantifier(parser: &Parser<'_>) -> bool {
+    matches!(parser.word(), "forall" | "exists")
+        && parser.nth(1) == Identifier
+        && matches!(parser.nth(2), Comma | Colon)
+}
+
+/// `forall r, s: condition`.
+fn quantifier(parser: &mut Parser<'_>) -> Parsed {
+    parser.start(QuantifierExpression);
+    parser.bump();
+    name(parser);
+    while parser.eat(Comma) {
+        name(parser);
+    }
+    parser.expect(Colon);
+    let parsed = expression::condition(parser);
+    parser.finish();
+    Parsed::new(Shape::Other, parsed.height + 1)
+}

@@ -1,0 +1,173 @@
+//! Going on after something that could not be understood.
+
+use alloc::vec::Vec;
+
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*};
+use crate::diagnostic::Edit;
+
+impl Parser<'_> {
+    /// Puts the rest of what stands on the line into an `Error`, if there is any.
+    pub fn skip_to_line_end(&mut self) {
+        if self.at_line_end() {
+            return;
+        }
+        self.start(Error);
+        while !self.at_line_end() {
+            self.bump();
+        }
+        self.finish();
+    }
+
+    /// The same, with the whole of the block that follows.
+    pub fn skip_line_and_block(&mut self) {
+        self.start(Error);
+        while !self.at_line_end() {
+            self.bump();
+        }
+        if self.at(Newline) && self.nth(1) == Indent {
+            self.bump();
+            self.skip_block();
+        }
+        self.finish();
+    }
+
+    /// Takes everything from the indentation that is next to the end of its block.
+    pub fn skip_block(&mut self) {
+        let mut open = 0_u32;
+        loop {
+            match self.current() {
+                Indent => open += 1,
+                Dedent => open = open.saturating_sub(1),
+                EndOfFile => return,
+                _ => {}
+            }
+            self.bump();
+            if open == 0 {
+                return;
+            }
+        }
+    }
+
+    /// In brackets: puts what is before the next comma or closing bracket into an `Error`.
+    pub fn skip_element(&mut self) {
+        self.start(Error);
+        let mut open = 0_u32;
+        while !self.at_line_end() {
+            match self.current() {
+                Comma if open == 0 => break,
+                kind if kind.closing().is_some() => open += 1,
+                kind if kind.is_closing() && open == 0 => break,
+                kind if kind.is_closing() => open -= 1,
+                _ => {}
+            }
+            self.bump();
+        }
+        self.finish();
+    }
+
+    /// What must follow a statement or a declaration: the end of the line, or of the block.
+    pub fn end_line(&mut self) {
+        let after_block = self.position > 0 && self.lexemes[self.position - 1].kind == Dedent;
+        if !self.at_line_end() && !after_block {
+            self.unexpected(Newline.name());
+            self.skip_to_line_end();
+        }
+        if !after_block && matches!(self.current(), Newline | Semicolon) {
+            self.bump();
+        }
+    }
+
+    /// Takes the closing bracket for the opening one at `open`, or reports that it is missing, unless
+    /// that is known.
+    pub fn close(&mut self, kind: SyntaxKind, open: Span) {
+        if self.at(kind) {
+            self.bump();
+        } else if self.unpaired.binary_search(&open.start).is_err() {
+            self.unexpected(kind.name());
+        }
+    }
+
+    /// Elements with commas between them, to the closing bracket; an end of line ends them too.
+    pub fn separated(&mut self, closing: SyntaxKind, mut element: impl FnMut(&mut Self)) {
+        while !self.at(closing) && !self.at_line_end() {
+            let before = self.position;
+            element(self);
+            if self.eat(Comma) {
+                continue;
+            }
+            if self.at(closing) || self.at_line_end() {
+                return;
+            }
+            if self.current().is_closing() {
+                return;
+            }
+            self.missing_comma(closing);
+            if self.position == before || !self.starts_operand() {
+                self.skip_element();
+                self.eat(Comma);
+            }
+        }
+    }
+
+    fn missing_comma(&mut self, closing: SyntaxKind) {
+        if !self.starts_operand() {
+            return self.unexpected(&alloc::format!("`,` or {}", closing.name()));
+        }
+        if self.last_error.replace(self.position) == Some(self.position) {
+            return;
+        }
+        let place = Span::empty(self.end_of_last());
+        let problem = Diagnostic::new(Code::Unexpected, place, "there is no comma between these");
+        self.report(problem.label(self.span(), "this is the next").replace(
+            "put a comma",
+            place,
+            ",",
+        ));
+    }
+
+    /// Runs `parse` one level deeper, unless that is too deep: then the line and its block are skipped.
+    pub fn deeper<T>(&mut self, parse: impl FnOnce(&mut Self) -> T) -> Option<T> {
+        if self.depth >= super::MAX_DEPTH {
+            self.too_deep();
+            return None;
+        }
+        self.depth += 1;
+        let parsed = parse(self);
+        self.depth -= 1;
+        Some(parsed)
+    }
+
+    /// Reports that it goes too deep, and skips what does.
+    pub fn too_deep(&mut self) {
+        let known = self
+            .diagnostics
+            .last()
+            .is_some_and(|last| last.code == Code::TooDeep);
+        if !known {
+            let problem = Diagnostic::new(Code::TooDeep, self.span(), "this is nested too deeply");
+            self.report(problem.note("split it, with `let` or a function"));
+        }
+        self.last_error = Some(self.position);
+        self.skip_line_and_block();
+    }
+
+    /// What indents the lines from the one with the byte `from` to the one with the byte before `to`.
+    pub fn indent_lines(&self, from: u32, to: u32) -> Vec<Edit> {
+        let first = self.start_of_line(from);
+        let line_ends = self.text[first as usize..to as usize].match_indices('\n');
+        let starts = line_ends
+            .map(|(at, _)| first + at as u32 + 1)
+            .filter(|start| *start < to);
+        core::iter::once(first)
+            .chain(starts)
+            .map(|start| Edit::new(Span::empty(start), "    "))
+            .collect()
+    }
+
+    /// Where the line starts that holds the byte at `offset`.
+    pub fn start_of_line(&self, offset: u32) -> u32 {
+        self.text[..offset as usize]
+            .rfind('\n')
+            .map_or(0, |at| at as u32 + 1)
+    }
+}

@@ -1,0 +1,187 @@
+//! What people write who come from another language, and what they meant.
+
+use alloc::format;
+
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*};
+use crate::diagnostic::closest;
+
+/// What becomes of a colon at the end of a header.
+#[derive(Clone, Copy)]
+pub(super) enum Colon {
+    /// It goes.
+    Remove,
+    /// `then` takes its place, if a statement follows on the line.
+    Then,
+}
+
+/// Takes the colon that Python and Koord put at the end of a header.
+pub(super) fn header_colon(parser: &mut Parser<'_>, colon: Colon) {
+    if !parser.at(SyntaxKind::Colon) {
+        return;
+    }
+    let span = parser.span();
+    parser.bump();
+    let problem = Diagnostic::new(Code::HeaderColon, span, "no colon is needed here");
+    let needs_then = matches!(colon, Colon::Then) && !parser.at_line_end();
+    parser.report(if needs_then {
+        problem.replace("write `then`", span, " then")
+    } else {
+        problem.replace("remove it", span, "")
+    });
+}
+
+/// The words that begin a declaration.
+pub(super) const DECLARATIONS: &[&str] = &[
+    "program",
+    "library",
+    "import",
+    "enum",
+    "record",
+    "message",
+    "param",
+    "const",
+    "allread",
+    "allwrite",
+    "function",
+    "role",
+    "invariant",
+    "always",
+    "eventually",
+];
+
+/// What a word that begins a declaration in another language is here.
+pub(super) fn foreign_declaration(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "def" | "fn" | "func" | "fun" => "function",
+        "agent" | "automaton" => "program",
+        "module" => "library",
+        "use" | "using" | "include" | "from" => "import",
+        "struct" | "class" | "type" => "record",
+        "sharedsw" => "allread",
+        "sharedmw" | "shared" => "allwrite",
+        "constant" | "final" => "const",
+        "parameter" => "param",
+        _ => return closest(word, DECLARATIONS.iter().copied()),
+    })
+}
+
+/// Whether a word stands before a variable's name in other languages.
+pub(super) fn is_variable_word(word: &str) -> bool {
+    matches!(
+        word,
+        "var"
+            | "local"
+            | "state"
+            | "val"
+            | "mut"
+            | "int"
+            | "float"
+            | "double"
+            | "bool"
+            | "boolean"
+            | "string"
+    ) || word.starts_with(|first: char| first.is_ascii_uppercase())
+}
+
+/// Whether a word before a variable's name says nothing of its type.
+fn is_untyped(word: &str) -> bool {
+    matches!(word, "var" | "local" | "state" | "val" | "mut" | "let")
+}
+
+/// The type that other languages call so.
+fn type_of(word: &str) -> &str {
+    match word {
+        "int" | "long" | "Integer" => "Int",
+        "float" | "double" | "Double" => "Float",
+        "bool" | "boolean" | "Boolean" => "Bool",
+        "string" => "String",
+        "ItemPosition" => "Point",
+        _ => word,
+    }
+}
+
+/// Reports `Int x` or `var x`, with the two words next, and takes the first of them.
+pub(super) fn foreign_variable(parser: &mut Parser<'_>, keyword: &str) {
+    let (word, name) = (parser.span(), parser.nth_span(1));
+    let text = parser.word();
+    let after_name = parser.nth(2);
+    let form = if keyword.is_empty() {
+        "`x: Int = 0`"
+    } else {
+        "`let x = 0`"
+    };
+    let what = if keyword.is_empty() {
+        "a variable of the state"
+    } else {
+        "a local variable"
+    };
+    let problem = Diagnostic::new(
+        Code::ForeignDeclaration,
+        word.to(name),
+        format!("{what} is written {form}"),
+    );
+    let name_text = name.of(parser.text);
+    let mend = if is_untyped(text) {
+        // Without `let`, a variable needs its type.
+        (!keyword.is_empty() || after_name == SyntaxKind::Colon)
+            .then(|| format!("{keyword}{name_text}"))
+    } else {
+        Some(format!("{keyword}{name_text}: {}", type_of(text)))
+    };
+    parser.report(match mend {
+        Some(mend) => problem.replace(format!("write `{mend}`"), word.to(name), mend),
+        None => problem,
+    });
+    if is_untyped(text) {
+        parser.start(Error);
+        parser.bump();
+        parser.finish();
+    } else {
+        super::types::any(parser);
+    }
+}
+
+/// What is said of a statement that StarL does without, if the word at its start is one.
+pub(super) fn foreign_statement(parser: &Parser<'_>) -> Option<&'static str> {
+    let next = parser.nth(1);
+    let alone = matches!(next, Newline | Semicolon | Dedent | EndOfFile);
+    let heads =
+        !next.is_assignment() && !matches!(next, Dot | LeftBracket | SyntaxKind::Colon) && !alone;
+    Some(match parser.word() {
+        "while" | "loop" | "repeat" | "until" if heads && !calls(parser) => {
+            "every activation ends: write an action, which runs again while its guard holds, or a `for`"
+        }
+        "loop" | "repeat" if alone => {
+            "every activation ends: write an action, which runs again while its guard holds, or a `for`"
+        }
+        "switch" | "match" | "case" if heads && !calls(parser) => "write `if` and `elif`",
+        "break" | "continue" if alone => {
+            "a `for` runs over the whole of its collection: put an `if` in it, or `return`"
+        }
+        "pass" | "skip" if alone => "leave the block out",
+        "try" | "except" | "catch" if alone || next == SyntaxKind::Colon => {
+            "a run-time error stops the robot's program: ask before, as with `if some`"
+        }
+        _ => return None,
+    })
+}
+
+/// Whether the word that is next is called: brackets follow it, and nothing is indented under it.
+fn calls(parser: &Parser<'_>) -> bool {
+    parser.nth(1) == LeftParen && {
+        let end = (1..)
+            .find(|ahead| matches!(parser.nth(*ahead), Newline | Semicolon | EndOfFile | Dedent));
+        end.is_some_and(|end| parser.nth(end - 1) == RightParen && parser.nth(end + 1) != Indent)
+    }
+}
+
+/// Reports an operator of another language, and how it is written here.
+pub(super) fn foreign_operator(
+    parser: &mut Parser<'_>,
+    span: Span,
+    message: &str,
+    mend: (&str, &str),
+) {
+    let problem = Diagnostic::new(Code::ForeignOperator, span, message);
+    parser.report(problem.replace(mend.0, span, mend.1));
+}

@@ -1,0 +1,308 @@
+//! Statements.
+
+use alloc::format;
+
+use super::expression::{self, Shape, condition, expression as value};
+use super::item::name;
+use super::slips::{self, Colon as HeaderColon};
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, block, collection, types};
+
+/// Where a statement stands.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    /// It begins a line.
+    OwnLine,
+    /// Something stands before it on its line.
+    OnLine,
+}
+
+/// A statement; takes at least a token.
+pub(super) fn statement(parser: &mut Parser<'_>, place: Place) {
+    match parser.current() {
+        IfKeyword => {
+            let _ = parser.deeper(|parser| branches(parser, place));
+        }
+        ForKeyword => iteration(parser),
+        LetKeyword => local(parser),
+        ReturnKeyword => result(parser),
+        Identifier => from_name(parser),
+        ElifKeyword | ElseKeyword => stray(
+            parser,
+            "belongs to no `if`",
+            "it stands right below an `if` or `elif`",
+        ),
+        PreKeyword | EffKeyword => {
+            let note = "it stands right under the name of an action, as in `pick()`";
+            stray(parser, "cannot stand among statements", note);
+        }
+        OnKeyword => {
+            let note = "a handler stands by itself: begin its line as the declarations do";
+            stray(parser, "cannot stand among statements", note);
+        }
+        Ellipsis => stray(
+            parser,
+            "stands for something left out",
+            "write the statements, or leave the block out",
+        ),
+        _ if parser.starts_operand() => expression_or_assignment(parser),
+        _ => {
+            parser.unexpected("a statement");
+            nothing(parser);
+        }
+    }
+}
+
+/// Takes the line that holds no statement, at least one token of it.
+fn nothing(parser: &mut Parser<'_>) {
+    if parser.at_line_end() {
+        if !matches!(parser.current(), Dedent | EndOfFile | Newline) {
+            parser.bump();
+        }
+        return;
+    }
+    parser.skip_to_line_end();
+}
+
+/// A word that cannot begin a statement; what is under it goes with it.
+fn stray(parser: &mut Parser<'_>, message: &str, note: &str) {
+    let message = format!("{} {message}", parser.found());
+    let problem = Diagnostic::new(Code::Misplaced, parser.span(), message);
+    parser.report(problem.note(note));
+    parser.last_error = Some(parser.position);
+    parser.skip_line_and_block();
+}
+
+/// `let x = e` or `let x: T = e`.
+fn local(parser: &mut Parser<'_>) {
+    parser.start(LetStatement);
+    parser.bump();
+    local_rest(parser);
+    parser.finish();
+}
+
+fn local_rest(parser: &mut Parser<'_>) {
+    name(parser);
+    if parser.eat(Colon) {
+        types::any(parser);
+    }
+    if parser.expect(Equal) {
+        value(parser);
+    }
+}
+
+/// `return`, with a value or without.
+fn result(parser: &mut Parser<'_>) {
+    parser.start(ReturnStatement);
+    parser.bump();
+    if !parser.at_line_end() {
+        value(parser);
+    }
+    parser.finish();
+}
+
+/// `for x in xs`, and a block.
+fn iteration(parser: &mut Parser<'_>) {
+    parser.start(ForStatement);
+    parser.bump();
+    collection::iteration(parser);
+    block::indented(parser, "`for`");
+    parser.finish();
+}
+
+/// `if`, `elif` and `else`.
+fn branches(parser: &mut Parser<'_>, place: Place) {
+    parser.start(IfStatement);
+    branch(parser);
+    loop {
+        let next_line = parser.at(Newline) && place == Place::OwnLine;
+        let kind = if next_line {
+            parser.nth(1)
+        } else {
+            parser.current()
+        };
+        if !matches!(kind, ElifKeyword | ElseKeyword) {
+            break;
+        }
+        if next_line {
+            parser.bump();
+        }
+        let else_if = kind == ElseKeyword && parser.nth(1) == IfKeyword && opens_block(parser);
+        if kind == ElifKeyword || else_if {
+            branch(parser);
+            continue;
+        }
+        parser.start(ElseBranch);
+        parser.bump();
+        block::after_word(parser, "`else`", false);
+        parser.finish();
+        break;
+    }
+    parser.finish();
+}
+
+/// Whether the line that is next has an indented block under it.
+fn opens_block(parser: &Parser<'_>) -> bool {
+    let end =
+        (0..).find(|ahead| matches!(parser.nth(*ahead), Newline | Semicolon | Dedent | EndOfFile));
+    end.is_some_and(|end| parser.nth(end + 1) == Indent)
+}
+
+/// `if c`, `elif c` or `else if c`, with a block or `then` and a statement.
+fn branch(parser: &mut Parser<'_>) {
+    parser.start(IfBranch);
+    if parser.at(ElseKeyword) {
+        let span = parser.span().to(parser.nth_span(1));
+        let problem = Diagnostic::new(Code::ElseIf, span, "`else if` is one word");
+        parser.report(problem.replace("write `elif`", span, "elif"));
+        parser.bump();
+    }
+    parser.bump();
+    condition(parser);
+    slips::header_colon(parser, HeaderColon::Then);
+    let has_then = parser.eat(ThenKeyword);
+    if has_then {
+        slips::header_colon(parser, HeaderColon::Remove);
+    }
+    let inline = !parser.at_line_end() && !parser.at(LeftBrace);
+    if inline && (has_then || after_colon(parser)) {
+        block::single(parser);
+    } else {
+        block::indented(parser, "`if`");
+    }
+    parser.finish();
+}
+
+/// Whether a colon, which is reported, took the place of `then`.
+fn after_colon(parser: &Parser<'_>) -> bool {
+    parser.position > 0 && parser.lexemes[parser.position - 1].kind == Colon
+}
+
+/// A statement that begins with a name.
+fn from_name(parser: &mut Parser<'_>) {
+    let next = parser.nth(1);
+    if parser.word() == "atomic" && matches!(next, Newline | Colon | Identifier) {
+        parser.start(AtomicStatement);
+        parser.bump();
+        block::after_word(parser, "`atomic`", false);
+        return parser.finish();
+    }
+    if let Some(note) = slips::foreign_statement(parser) {
+        let message = format!("there is no `{}` in StarL", parser.word());
+        let problem = Diagnostic::new(Code::ForeignStatement, parser.span(), message);
+        parser.report(problem.note(note));
+        return parser.skip_line_and_block();
+    }
+    match next {
+        Colon if parser.nth(2) == Identifier => {
+            let span = parser.span();
+            let problem = Diagnostic::new(
+                Code::ForeignDeclaration,
+                span,
+                "a local variable begins with `let`",
+            );
+            parser.report(problem.replace("write `let`", Span::empty(span.start), "let "));
+            parser.start(LetStatement);
+            local_rest(parser);
+            parser.finish();
+        }
+        Identifier if parser.nth(2).is_assignment() || slips::is_variable_word(parser.word()) => {
+            parser.start(LetStatement);
+            slips::foreign_variable(parser, "let ");
+            local_rest(parser);
+            parser.finish();
+        }
+        _ => expression_or_assignment(parser),
+    }
+}
+
+/// `x = e`, `x += e`, or a call.
+fn expression_or_assignment(parser: &mut Parser<'_>) {
+    let start = parser.checkpoint();
+    let before = parser.position;
+    let span = parser.span();
+    let shape = value(parser);
+    if parser.position == before {
+        return nothing(parser);
+    }
+    let whole = Span::new(span.start, parser.end_of_last());
+    match parser.current() {
+        kind if kind.is_assignment() => {
+            check_target(parser, shape, whole);
+            assignment(parser, whole);
+            parser.start_at(start, AssignStatement);
+        }
+        PlusPlus => {
+            step(parser, whole);
+            parser.start_at(start, ExpressionStatement);
+        }
+        _ => {
+            check_effect(parser, shape, whole);
+            parser.start_at(start, ExpressionStatement);
+        }
+    }
+    parser.finish();
+}
+
+fn assignment(parser: &mut Parser<'_>, target: Span) {
+    let (kind, span) = (parser.current(), parser.span());
+    parser.bump();
+    let from = parser.span().start;
+    let shape = value(parser);
+    if !matches!(kind, SlashEqual | PercentEqual) {
+        return;
+    }
+    let operator = if kind == SlashEqual { "/" } else { "%" };
+    let message = format!("there is no operator {}", kind.name());
+    let problem = Diagnostic::new(Code::ForeignOperator, span, message);
+    let target = target.of(parser.text);
+    let operand = Span::new(from, parser.end_of_last().max(from));
+    let brackets =
+        matches!(shape, Shape::Other | Shape::Equality(_)) && operand.of(parser.text).contains(' ');
+    let operand_text = operand.of(parser.text);
+    let right = if brackets {
+        format!("({operand_text})")
+    } else {
+        operand_text.into()
+    };
+    let mend = format!("= {target} {operator} {right}");
+    let form = format!("write `{target} {mend}`");
+    parser.report(problem.replace(form, span.to(operand), mend));
+}
+
+/// `x++`.
+fn step(parser: &mut Parser<'_>, target: Span) {
+    let span = parser.span();
+    let form = format!("write `{} += 1`", target.of(parser.text));
+    let place = Span::new(target.end, span.end);
+    super::slips::foreign_operator(parser, place, "there is no operator `++`", (&form, " += 1"));
+    parser.start(Error);
+    parser.bump();
+    parser.finish();
+}
+
+fn check_target(parser: &mut Parser<'_>, shape: Shape, span: Span) {
+    if matches!(shape, Shape::Target | Shape::Broken) {
+        return;
+    }
+    let problem = Diagnostic::new(Code::InvalidTarget, span, "this cannot be assigned to");
+    parser.report(problem.expected("a variable, or a field or an element of one"));
+}
+
+fn check_effect(parser: &mut Parser<'_>, shape: Shape, span: Span) {
+    match shape {
+        expression::Shape::Call | expression::Shape::Broken => {}
+        expression::Shape::Equality(operator) => {
+            let problem = Diagnostic::new(
+                Code::ComparisonAsStatement,
+                operator,
+                "`==` compares, but a statement stands here",
+            );
+            parser.report(problem.replace("assign with `=`", operator, "="));
+        }
+        _ if !parser.at_line_end() => {}
+        _ => {
+            let problem = Diagnostic::new(Code::NoEffect, span, "this has no effect");
+            parser.report(problem.expected("a statement, such as a call or an assignment"));
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! Types: `Int`, `List[Point]`, `Map[String, Int]?`, `geometry.Line`, `enum {a, b}`.
+
+use super::{Code, Diagnostic, Parser, SyntaxKind::*, record};
+
+/// A type, or a report that there is none.
+pub(super) fn any(parser: &mut Parser<'_>) {
+    let start = parser.checkpoint();
+    if parser.deeper(single).is_none_or(|found| !found) {
+        return;
+    }
+    // More than one question mark says no more than one; the checker tells.
+    let mut optional = 0;
+    while parser.at(Question) && optional < 8 {
+        parser.start_at(start, OptionalType);
+        parser.bump();
+        parser.finish();
+        optional += 1;
+    }
+}
+
+fn single(parser: &mut Parser<'_>) -> bool {
+    if parser.at_word("enum") && parser.nth(1) == LeftBrace {
+        parser.start(EnumType);
+        parser.bump();
+        record::variants(parser);
+        parser.finish();
+        return true;
+    }
+    if !parser.at(Identifier) {
+        parser.unexpected("a type");
+        return false;
+    }
+    parser.start(NamedType);
+    parser.bump();
+    if parser.at(Dot) {
+        parser.bump();
+        parser.expect(Identifier);
+    }
+    match parser.current() {
+        LeftBracket => arguments(parser),
+        Less => angle_arguments(parser),
+        _ => {}
+    }
+    parser.finish();
+    true
+}
+
+fn arguments(parser: &mut Parser<'_>) {
+    let open = parser.span();
+    parser.start(TypeArguments);
+    parser.bump();
+    if parser.at(RightBracket) {
+        parser.unexpected("a type");
+    }
+    parser.separated(RightBracket, any);
+    parser.close(RightBracket, open);
+    parser.finish();
+}
+
+/// `List<Int>`, which is written `List[Int]`.
+fn angle_arguments(parser: &mut Parser<'_>) {
+    let open = parser.span();
+    let problem = Diagnostic::new(
+        Code::Unexpected,
+        open,
+        "what a type holds stands in square brackets",
+    );
+    parser.start(TypeArguments);
+    parser.bump();
+    any(parser);
+    while parser.eat(Comma) {
+        any(parser);
+    }
+    let close = parser.span();
+    if parser.at(Greater) {
+        parser.bump();
+        let edits = [(open, "["), (close, "]")]
+            .map(|(span, text)| crate::diagnostic::Edit::new(span, text));
+        let message = "write it in square brackets".into();
+        parser.report(problem.mend(crate::diagnostic::Mend {
+            message,
+            edits: edits.into(),
+        }));
+    } else {
+        parser.report(problem);
+        parser.last_error = Some(parser.position);
+    }
+    parser.finish();
+}
