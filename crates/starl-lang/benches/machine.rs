@@ -1,0 +1,75 @@
+//! How fast the machine runs, on the programs that `tools/bench_lua.sh` runs in Lua beside it.
+//!
+//! `cargo bench -p starl-lang --bench machine` prints each program's best and median milliseconds.
+
+#![allow(
+    clippy::disallowed_methods,
+    reason = "a benchmark reads the clock, nothing else does"
+)]
+
+use starl_lang::machine::{Fault, Host, HostCall, Import, Limits, Machine, Program, Workspace, assemble};
+use std::borrow::Cow;
+use std::time::Instant;
+
+const PROGRAM: &str = "
+function loop function (Int) (Int) registers 4 objects 0
+    int r1 0
+    copy r2 r0
+    int r0 0
+again:
+    remainder_constant r3 r1 7
+    add_int r0 r0 r3
+    loop r1 r2 @again
+    return_scalar r0 #0
+function fib function (Int) (Int) registers 3 objects 0
+    jump_if_less_constant r0 2 @small
+    add_constant r1 r0 -1
+    call r1 b0 f1
+    add_constant r2 r0 -2
+    call r2 b0 f1
+    add_int r0 r1 r2
+small:
+    return_scalar r0 #0
+";
+
+struct NoHost;
+
+impl Host for NoHost {
+    fn call(&mut self, _: u32, _: &mut HostCall<'_>) -> Result<u64, Cow<'static, str>> {
+        Err("there is nothing to call".into())
+    }
+}
+
+fn measure(program: &Program, name: &str, function: u32, argument: u64, expected: u64) {
+    let mut workspace = Workspace::new();
+    let mut state = program.new_state();
+    let mut times: Vec<f64> = (0..21)
+        .map(|_| {
+            let limits = Limits {
+                fuel: u64::MAX,
+                ..Limits::default()
+            };
+            let mut host = NoHost;
+            let mut machine = Machine::new(program, &mut state, &mut workspace, &mut host, limits);
+            let start = Instant::now();
+            let result = machine.call(function, &[argument], &[]).map(|(r, _)| r[0]);
+            let elapsed = start.elapsed().as_secs_f64() * 1e3;
+            assert_eq!(result.map_err(|error| error.fault), Ok::<u64, Fault>(expected));
+            elapsed
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    println!(
+        "{name:24} best {:8.3} ms   median {:8.3} ms",
+        times[0],
+        times[times.len() / 2]
+    );
+}
+
+fn main() {
+    let bytecode = assemble(PROGRAM).expect("the program is well written");
+    let program = Program::load(bytecode, &|_: &Import| None).expect("the program is valid");
+    measure(&program, "loop of 2,000,000", 0, 2_000_000, 5_999_995);
+    measure(&program, "fib 22", 1, 22, 17_711);
+    measure(&program, "fib 30", 1, 30, 832_040);
+}

@@ -1,0 +1,346 @@
+//! Reads the machine's text form, which [`disassemble`](super::disassemble) writes.
+//!
+//! A line is a declaration, an instruction, or a label (`name:`); `//` begins a comment. Things are
+//! numbered in the order of their declarations and named by kind and number: `enum0`, `type0` (an
+//! object type), `c0` (a scalar constant), `t0` (a text), `h0` (an import of the host), `f0`.
+//!
+//! ```text
+//! program Race
+//! enum Location init pick wait
+//! type List[Point]
+//! constant 0.075
+//! text "arrived"
+//! variable target type0
+//! import position query () (Point)
+//! import emit (type1) () labels index
+//! primitive motion ReachAvoid
+//! start f0
+//! action pick f1 f2
+//! handler Reached f3
+//! handler done primitive 0 f4
+//! property in_order 1 always f5
+//! property all_done 0 eventually f6 within 120000000000
+//! property answered 1 leads_to f7 f8 within 5000000000
+//! function fib function (Int) (Int) registers 4 objects 0
+//! span 0 120 140
+//!     jump_if_less_constant r0 2 @done
+//! ...
+//! done:
+//!     return_scalar r0 #0
+//! ```
+//!
+//! `span` gives the source of the instructions after it: file, first byte, byte after the last. A
+//! jump names a label of its function with `@` before it.
+
+use super::host::Import;
+use super::instruction::Instruction;
+use super::program::{
+    Action, Binding, Bytecode, Claim, Enum, Function, FunctionKind, Handler, Property, Span,
+    Variable,
+};
+use super::type_text::Cursor;
+use alloc::collections::BTreeMap;
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::fmt;
+
+/// What is wrong with the text form of a program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AssemblyError {
+    /// The line, counted from one.
+    pub line: u32,
+    /// What is wrong with it.
+    pub reason: &'static str,
+}
+
+impl fmt::Display for AssemblyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}: {}", self.line, self.reason)
+    }
+}
+
+impl core::error::Error for AssemblyError {}
+
+/// Reads a program's text form. The bytecode is not verified.
+pub fn assemble(text: &str) -> Result<Bytecode, AssemblyError> {
+    let mut assembler = Assembler::default();
+    for (index, line) in text.lines().enumerate() {
+        assembler.line = index as u32 + 1;
+        let line = line.trim();
+        let result = match line.strip_prefix("text ") {
+            Some(quoted) => assembler.text(quoted),
+            None => assembler.read(line.split("//").next().unwrap_or("").trim()),
+        };
+        result.map_err(|reason| assembler.error(reason))?;
+    }
+    assembler.end_function()?;
+    Ok(assembler.bytecode)
+}
+
+#[derive(Default)]
+struct Assembler {
+    bytecode: Bytecode,
+    line: u32,
+    /// The labels of the function that is being read.
+    labels: BTreeMap<String, u32>,
+    /// Its instructions, with their lines: they are read at its end, when labels are known.
+    pending: Vec<(u32, String)>,
+}
+
+impl Assembler {
+    fn error(&self, reason: &'static str) -> AssemblyError {
+        let line = self.line;
+        AssemblyError { line, reason }
+    }
+
+    /// The index of the next instruction.
+    fn next(&self) -> u32 {
+        (self.bytecode.code.len() + self.pending.len()) as u32
+    }
+
+    fn read(&mut self, line: &str) -> Result<(), &'static str> {
+        let mut cursor = Cursor::new(line);
+        let Some(first) = cursor.word() else {
+            return Ok(());
+        };
+        if let Some(label) = first.strip_suffix(':') {
+            let next = self.next();
+            return match self.labels.insert(label.into(), next) {
+                None => Ok(()),
+                Some(_) => Err("there is a label of this name already"),
+            };
+        }
+        let read = match first {
+            "program" => cursor.word().map(|name| self.bytecode.name = name.into()),
+            "enum" => self.enumeration(&mut cursor),
+            "type" => cursor.object().map(|o| self.bytecode.types.push(o)),
+            "constant" => constant(&mut cursor).map(|c| self.bytecode.constants.push(c)),
+            "variable" => self.variable(&mut cursor),
+            "import" => self.import(&mut cursor),
+            "primitive" => self.primitive(&mut cursor),
+            "start" => cursor.numbered("f").map(|f| self.bytecode.start = Some(f)),
+            "action" => self.action(&mut cursor),
+            "handler" => self.handler(&mut cursor),
+            "property" => self.property(&mut cursor),
+            "function" => {
+                self.end_function().map_err(|error| error.reason)?;
+                self.function(&mut cursor)
+            }
+            "span" => self.span(&mut cursor),
+            _ if self.bytecode.functions.is_empty() => None,
+            _ => {
+                self.pending.push((self.line, line.into()));
+                return Ok(());
+            }
+        };
+        match read {
+            Some(()) if cursor.rest().is_empty() => Ok(()),
+            _ => Err("this is no declaration, label or instruction"),
+        }
+    }
+
+    /// Reads the instructions of the function that ends here.
+    fn end_function(&mut self) -> Result<(), AssemblyError> {
+        let labels = core::mem::take(&mut self.labels);
+        for (line, text) in core::mem::take(&mut self.pending) {
+            let words: Vec<&str> = text.split_whitespace().collect();
+            let label = |name: &str| labels.get(name).copied();
+            let Some(instruction) = Instruction::read(&words, &label) else {
+                let reason = "this is no instruction, or one with other operands";
+                return Err(AssemblyError { line, reason });
+            };
+            self.bytecode.code.push(instruction);
+        }
+        if let Some(function) = self.bytecode.functions.last_mut() {
+            function.end = self.bytecode.code.len() as u32;
+        }
+        Ok(())
+    }
+
+    fn text(&mut self, quoted: &str) -> Result<(), &'static str> {
+        let text = unquote(quoted.trim()).ok_or("this is no text in quotes")?;
+        self.bytecode.texts.push(text);
+        Ok(())
+    }
+
+    fn enumeration(&mut self, cursor: &mut Cursor<'_>) -> Option<()> {
+        let name = cursor.word()?.into();
+        let variants = words(cursor);
+        self.bytecode.enums.push(Enum { name, variants });
+        Some(())
+    }
+
+    fn variable(&mut self, cursor: &mut Cursor<'_>) -> Option<()> {
+        let name = cursor.word()?.into();
+        let kind = cursor.kind(0)?;
+        self.bytecode.variables.push(Variable { name, kind });
+        Some(())
+    }
+
+    fn import(&mut self, cursor: &mut Cursor<'_>) -> Option<()> {
+        let name = cursor.word()?.into();
+        let query = cursor.eat("query");
+        let arguments = cursor.types()?;
+        let results = cursor.types()?;
+        let labels = match cursor.eat("labels") {
+            true => words(cursor),
+            false => Vec::new(),
+        };
+        self.bytecode.imports.push(Import {
+            name,
+            query,
+            labels,
+            arguments,
+            results,
+        });
+        Some(())
+    }
+
+    fn primitive(&mut self, cursor: &mut Cursor<'_>) -> Option<()> {
+        let name = cursor.word()?.into();
+        let kind = cursor.word()?.into();
+        self.bytecode.primitives.push(Binding { name, kind });
+        Some(())
+    }
+
+    fn action(&mut self, cursor: &mut Cursor<'_>) -> Option<()> {
+        let name = cursor.word()?.into();
+        let guard = cursor.numbered("f")?;
+        let effect = cursor.numbered("f")?;
+        self.bytecode.actions.push(Action {
+            name,
+            guard,
+            effect,
+        });
+        Some(())
+    }
+
+    fn handler(&mut self, cursor: &mut Cursor<'_>) -> Option<()> {
+        let event = cursor.word()?.into();
+        let primitive = match cursor.eat("primitive") {
+            true => Some(cursor.word()?.parse().ok()?),
+            false => None,
+        };
+        let function = cursor.numbered("f")?;
+        self.bytecode.handlers.push(Handler {
+            event,
+            primitive,
+            function,
+        });
+        Some(())
+    }
+
+    fn property(&mut self, cursor: &mut Cursor<'_>) -> Option<()> {
+        let name = cursor.word()?.into();
+        let robots = cursor.word()?.parse().ok()?;
+        let claim = match cursor.word()? {
+            "always" => Claim::Always(cursor.numbered("f")?),
+            "eventually" => Claim::Eventually {
+                holds: cursor.numbered("f")?,
+                within: within(cursor)?,
+            },
+            "leads_to" => Claim::LeadsTo {
+                cause: cursor.numbered("f")?,
+                consequence: cursor.numbered("f")?,
+                within: within(cursor)?,
+            },
+            _ => return None,
+        };
+        self.bytecode.properties.push(Property {
+            name,
+            claim,
+            robots,
+        });
+        Some(())
+    }
+
+    fn function(&mut self, cursor: &mut Cursor<'_>) -> Option<()> {
+        let name = cursor.word()?.into();
+        let kind = match cursor.word()? {
+            "function" => FunctionKind::Function,
+            "guard" => FunctionKind::Guard,
+            "procedure" => FunctionKind::Procedure,
+            "property" => FunctionKind::Property,
+            _ => return None,
+        };
+        let arguments = cursor.types()?;
+        let results = cursor.types()?;
+        let registers = cursor.eat("registers").then(|| cursor.word())??;
+        let objects = cursor.eat("objects").then(|| cursor.word())??;
+        let entry = self.next();
+        self.bytecode.functions.push(Function {
+            name,
+            kind,
+            entry,
+            end: entry,
+            registers: registers.parse().ok()?,
+            object_registers: objects.parse().ok()?,
+            arguments,
+            results,
+        });
+        Some(())
+    }
+
+    fn span(&mut self, cursor: &mut Cursor<'_>) -> Option<()> {
+        let span = Span {
+            file: cursor.word()?.parse().ok()?,
+            start: cursor.word()?.parse().ok()?,
+            end: cursor.word()?.parse().ok()?,
+        };
+        let next = self.next();
+        self.bytecode.spans.push((next, span));
+        Some(())
+    }
+}
+
+fn words(cursor: &mut Cursor<'_>) -> Vec<String> {
+    core::iter::from_fn(|| cursor.word().map(String::from)).collect()
+}
+
+fn within(cursor: &mut Cursor<'_>) -> Option<Option<u64>> {
+    match cursor.eat("within") {
+        true => Some(Some(cursor.word()?.parse().ok()?)),
+        false => Some(None),
+    }
+}
+
+/// A scalar constant: a Float if it has a point or an exponent, bits if it begins with `0x`, else an
+/// Int.
+fn constant(cursor: &mut Cursor<'_>) -> Option<u64> {
+    let word = cursor.word()?;
+    if let Some(digits) = word.strip_prefix("0x") {
+        return u64::from_str_radix(digits, 16).ok();
+    }
+    if word.contains(['.', 'e']) {
+        return word.parse().ok().map(f64::to_bits);
+    }
+    word.parse().ok().map(|number: i64| number as u64)
+}
+
+/// The text between quotes, with `\n`, `\t`, `\r`, `\"`, `\\` and `\u{..}` replaced.
+fn unquote(quoted: &str) -> Option<String> {
+    let inner = quoted.strip_prefix('"')?.strip_suffix('"')?;
+    let mut text = String::new();
+    let mut rest = inner.chars();
+    while let Some(character) = rest.next() {
+        text.push(match character {
+            '\\' => match rest.next()? {
+                'n' => '\n',
+                't' => '\t',
+                'r' => '\r',
+                '0' => '\0',
+                'u' => {
+                    let mut digits = rest.as_str().strip_prefix('{')?.splitn(2, '}');
+                    let code = u32::from_str_radix(digits.next()?, 16).ok()?;
+                    rest = digits.next()?.chars();
+                    char::from_u32(code)?
+                }
+                other @ ('"' | '\\' | '\'') => other,
+                _ => return None,
+            },
+            '"' => return None,
+            other => other,
+        });
+    }
+    Some(text)
+}

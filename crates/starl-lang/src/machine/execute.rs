@@ -1,0 +1,572 @@
+//! The loop that executes instructions.
+//!
+//! Scalar registers of the running function are a window of 256, so that an operand, a byte, needs no
+//! bounds check. Instructions on objects and calls of the host are in [`collections`](super::collections)
+//! and beside it: the loop stays small enough for the processor.
+
+use super::error::{Fault, RuntimeError};
+use super::host::Host;
+use super::instruction::Instruction;
+use super::operand::{PointIn, PointOut};
+use super::program::Program;
+use super::scalar;
+use super::state::State;
+use super::view::{Meter, View};
+use super::workspace::{Frame, OBJECT_WINDOW, WINDOW, Workspace};
+use starl_core::{Point, RobotId};
+
+/// The scalar registers of a function.
+pub(super) type Registers = [u64; WINDOW];
+
+/// What a run of the machine works on.
+pub(super) struct Execution<'a> {
+    pub program: &'a Program,
+    pub state: &'a mut State,
+    pub workspace: &'a mut Workspace,
+    pub host: &'a mut dyn Host,
+    pub meter: Meter,
+}
+
+impl Execution<'_> {
+    /// Runs a function whose windows begin at these registers until it returns.
+    pub fn run(
+        &mut self,
+        function: u32,
+        mut base: usize,
+        mut object_base: usize,
+    ) -> Result<(), RuntimeError> {
+        let program = self.program;
+        let code = &program.bytecode.code[..];
+        let entries = &program.entries[..];
+        let mut fuel = self.meter.fuel;
+        let mut depth = 0usize;
+        let mut pc = entries
+            .get(function as usize)
+            .map_or(usize::MAX, |&entry| entry as usize);
+
+        let fault = 'run: loop {
+            // Calls and returns come here to find their windows, and instructions on objects to find
+            // theirs again.
+            if object_base + OBJECT_WINDOW > self.workspace.objects.len()
+                || base + WINDOW > self.workspace.scalars.len()
+            {
+                if !self.workspace.grow(base, object_base, depth) {
+                    break 'run Fault::CallDepth;
+                }
+                continue 'run;
+            }
+            let Some(r) = self.workspace.scalars[base..].first_chunk_mut::<WINDOW>() else {
+                break 'run Fault::Malformed;
+            };
+
+            macro_rules! set {
+                ($to:expr, $value:expr) => {
+                    r[$to.place()] = $value
+                };
+            }
+            macro_rules! int {
+                ($register:expr) => {
+                    r[$register.place()] as i64
+                };
+            }
+            macro_rules! float {
+                ($register:expr) => {
+                    f64::from_bits(r[$register.place()])
+                };
+            }
+            macro_rules! set_int {
+                ($to:expr, $value:expr) => {
+                    match $value {
+                        Some(value) => set!($to, value as u64),
+                        None => break 'run Fault::Overflow,
+                    }
+                };
+            }
+            macro_rules! set_float {
+                ($to:expr, $value:expr) => {
+                    set!($to, scalar::bits($value))
+                };
+            }
+            macro_rules! set_bool {
+                ($to:expr, $value:expr) => {
+                    set!($to, u64::from($value))
+                };
+            }
+            macro_rules! jump_if {
+                ($condition:expr, $target:expr) => {
+                    if $condition {
+                        pc = $target.0 as usize;
+                    }
+                };
+            }
+            macro_rules! set_or_stop {
+                ($to:expr, $value:expr) => {
+                    match $value {
+                        Ok(value) => set!($to, value),
+                        Err(fault) => break 'run fault,
+                    }
+                };
+            }
+            macro_rules! spend {
+                ($cost:expr) => {
+                    match fuel.checked_sub($cost) {
+                        Some(rest) => fuel = rest,
+                        None => break 'run Fault::OutOfFuel,
+                    }
+                };
+            }
+            macro_rules! leave {
+                ($keep:expr, $until:expr) => {
+                    if $until.0 != 0 {
+                        let end = object_base + usize::from($until.0);
+                        let range = object_base + $keep..end;
+                        if let Some(objects) = self.workspace.objects.get_mut(range) {
+                            objects.fill(Default::default());
+                        }
+                    }
+                    let frame = depth
+                        .checked_sub(1)
+                        .and_then(|top| self.workspace.frames.get(top));
+                    let Some(&frame) = frame else {
+                        self.meter.fuel = fuel;
+                        return Ok(());
+                    };
+                    depth -= 1;
+                    pc = frame.position as usize;
+                    base = frame.base as usize;
+                    object_base = frame.object_base as usize;
+                    continue 'run;
+                };
+            }
+
+            loop {
+                let Some(&instruction) = code.get(pc) else {
+                    break 'run Fault::Malformed;
+                };
+                pc += 1;
+                spend!(1);
+                match instruction {
+                    Instruction::Copy { to, from } => set!(to, r[from.place()]),
+                    Instruction::Int { to, value } => set!(to, i64::from(value.0) as u64),
+                    Instruction::Constant { to, constant } => {
+                        match program.bytecode.constants.get(constant.0 as usize) {
+                            Some(&value) => set!(to, value),
+                            None => break 'run Fault::Malformed,
+                        }
+                    }
+                    Instruction::CopyBlock { to, from, count } => {
+                        spend!(u64::from(count.0 / 8));
+                        let end = from.place() + usize::from(count.0);
+                        if end <= WINDOW && to.place() + usize::from(count.0) <= WINDOW {
+                            r.copy_within(from.place()..end, to.place());
+                        }
+                    }
+                    Instruction::Load { to, variable } => {
+                        match self.state.scalars.get(variable.0 as usize) {
+                            Some(&value) => set!(to, value),
+                            None => break 'run Fault::Malformed,
+                        }
+                    }
+                    Instruction::Store { variable, from } => {
+                        match self.state.scalars.get_mut(variable.0 as usize) {
+                            Some(place) => *place = r[from.place()],
+                            None => break 'run Fault::Malformed,
+                        }
+                    }
+                    Instruction::LoadPoint { to, variable } => {
+                        match three(&self.state.scalars, variable.0) {
+                            Some(point) => set_three(r, to, point),
+                            None => break 'run Fault::Malformed,
+                        }
+                    }
+                    Instruction::StorePoint { variable, from } => {
+                        let start = variable.0 as usize;
+                        match self.state.scalars.get_mut(start..start.wrapping_add(3)) {
+                            Some(place) => place.copy_from_slice(&get_three(r, from)),
+                            None => break 'run Fault::Malformed,
+                        }
+                    }
+                    Instruction::LoadOther {
+                        to,
+                        robot,
+                        variable,
+                    } => {
+                        let robot = RobotId(r[robot.place()] as u32);
+                        match scalar::of_other(self.host, robot, variable.0) {
+                            Ok(value) => set!(to, value),
+                            Err(fault) => break 'run fault,
+                        }
+                    }
+                    Instruction::LoadOtherPoint {
+                        to,
+                        robot,
+                        variable,
+                    } => {
+                        let robot = RobotId(r[robot.place()] as u32);
+                        match scalar::point_of_other(self.host, robot, variable.0) {
+                            Ok(point) => set_three(r, to, point),
+                            Err(fault) => break 'run fault,
+                        }
+                    }
+
+                    Instruction::AddInt { to, left, right } => {
+                        set_int!(to, int!(left).checked_add(int!(right)))
+                    }
+                    Instruction::SubtractInt { to, left, right } => {
+                        set_int!(to, int!(left).checked_sub(int!(right)))
+                    }
+                    Instruction::MultiplyInt { to, left, right } => {
+                        set_int!(to, int!(left).checked_mul(int!(right)))
+                    }
+                    Instruction::DivideInt { to, left, right } => {
+                        set_or_stop!(to, scalar::divide(int!(left), int!(right)))
+                    }
+                    Instruction::RemainderInt { to, left, right } => {
+                        set_or_stop!(to, scalar::remainder(int!(left), int!(right)))
+                    }
+                    Instruction::AddConstant { to, left, right } => {
+                        set_int!(to, int!(left).checked_add(i64::from(right.0)))
+                    }
+                    Instruction::MultiplyConstant { to, left, right } => {
+                        set_int!(to, int!(left).checked_mul(i64::from(right.0)))
+                    }
+                    Instruction::DivideConstant { to, left, right } => {
+                        set_or_stop!(to, scalar::divide(int!(left), i64::from(right.0)))
+                    }
+                    Instruction::RemainderConstant { to, left, right } => {
+                        set_or_stop!(to, scalar::remainder(int!(left), i64::from(right.0)))
+                    }
+                    Instruction::NegateInt { to, from } => {
+                        set_int!(to, int!(from).checked_neg())
+                    }
+                    Instruction::AbsoluteInt { to, from } => {
+                        set_int!(to, int!(from).checked_abs())
+                    }
+                    Instruction::MinimumInt { to, left, right } => {
+                        set!(to, int!(left).min(int!(right)) as u64)
+                    }
+                    Instruction::MaximumInt { to, left, right } => {
+                        set!(to, int!(left).max(int!(right)) as u64)
+                    }
+
+                    Instruction::SubtractSpan { to, left, right } => {
+                        set!(to, int!(left).saturating_sub(int!(right)).max(0) as u64)
+                    }
+                    Instruction::MultiplySpan { to, span, times } => {
+                        set_int!(to, scalar::multiply_span(int!(span), int!(times)))
+                    }
+                    Instruction::ScaleSpan { to, span, factor } => {
+                        set_or_stop!(to, scalar::scale_span(int!(span), float!(factor)))
+                    }
+                    Instruction::RatioSpan { to, left, right } => {
+                        set_or_stop!(to, scalar::ratio_span(int!(left), int!(right)))
+                    }
+
+                    Instruction::AddFloat { to, left, right } => {
+                        set_float!(to, float!(left) + float!(right))
+                    }
+                    Instruction::SubtractFloat { to, left, right } => {
+                        set_float!(to, float!(left) - float!(right))
+                    }
+                    Instruction::MultiplyFloat { to, left, right } => {
+                        set_float!(to, float!(left) * float!(right))
+                    }
+                    Instruction::DivideFloat { to, left, right } => {
+                        set_float!(to, float!(left) / float!(right))
+                    }
+                    Instruction::NegateFloat { to, from } => set!(to, r[from.place()] ^ 1 << 63),
+                    Instruction::AbsoluteFloat { to, from } => {
+                        set!(to, r[from.place()] & !(1 << 63))
+                    }
+                    Instruction::MinimumFloat { to, left, right } => {
+                        set_float!(to, scalar::minimum(float!(left), float!(right)))
+                    }
+                    Instruction::MaximumFloat { to, left, right } => {
+                        set_float!(to, scalar::maximum(float!(left), float!(right)))
+                    }
+                    Instruction::Unary { to, from, function } => {
+                        spend!(7);
+                        set_float!(to, scalar::unary(function, float!(from)))
+                    }
+                    Instruction::Binary {
+                        to,
+                        left,
+                        right,
+                        function,
+                    } => {
+                        spend!(7);
+                        set_float!(to, scalar::binary(function, float!(left), float!(right)))
+                    }
+                    Instruction::FloatOfInt { to, from } => set_float!(to, int!(from) as f64),
+                    Instruction::IntOfFloat { to, from, rounding } => {
+                        set_or_stop!(to, scalar::int_of_float(float!(from), rounding))
+                    }
+
+                    Instruction::Not { to, from } => set_bool!(to, r[from.place()] == 0),
+                    Instruction::And { to, left, right } => {
+                        set_bool!(to, r[left.place()] != 0 && r[right.place()] != 0)
+                    }
+                    Instruction::Or { to, left, right } => {
+                        set_bool!(to, r[left.place()] != 0 || r[right.place()] != 0)
+                    }
+                    Instruction::Equal { to, left, right } => {
+                        set_bool!(to, r[left.place()] == r[right.place()])
+                    }
+                    Instruction::NotEqual { to, left, right } => {
+                        set_bool!(to, r[left.place()] != r[right.place()])
+                    }
+                    Instruction::LessInt { to, left, right } => {
+                        set_bool!(to, int!(left) < int!(right))
+                    }
+                    Instruction::LessEqualInt { to, left, right } => {
+                        set_bool!(to, int!(left) <= int!(right))
+                    }
+                    Instruction::EqualFloat { to, left, right } => {
+                        set_bool!(to, float!(left) == float!(right))
+                    }
+                    Instruction::LessFloat { to, left, right } => {
+                        set_bool!(to, float!(left) < float!(right))
+                    }
+                    Instruction::LessEqualFloat { to, left, right } => {
+                        set_bool!(to, float!(left) <= float!(right))
+                    }
+
+                    Instruction::CopyPoint { to, from } => {
+                        let point = get_three(r, from);
+                        set_three(r, to, point);
+                    }
+                    Instruction::AddPoint { to, left, right } => {
+                        let sum = get_point(r, left) + get_point(r, right);
+                        set_point(r, to, sum);
+                    }
+                    Instruction::SubtractPoint { to, left, right } => {
+                        let difference = get_point(r, left) - get_point(r, right);
+                        set_point(r, to, difference);
+                    }
+                    Instruction::NegatePoint { to, from } => {
+                        let point = -get_point(r, from);
+                        set_point(r, to, point);
+                    }
+                    Instruction::ScalePoint { to, from, factor } => {
+                        let product = get_point(r, from) * float!(factor);
+                        set_point(r, to, product);
+                    }
+                    Instruction::DividePoint { to, from, divisor } => {
+                        let quotient = get_point(r, from) / float!(divisor);
+                        set_point(r, to, quotient);
+                    }
+                    Instruction::Distance { to, left, right } => {
+                        set_float!(to, get_point(r, left).distance(get_point(r, right)))
+                    }
+                    Instruction::EqualPoint { to, left, right } => {
+                        set_bool!(to, get_point(r, left) == get_point(r, right))
+                    }
+
+                    Instruction::Jump { target } => pc = target.0 as usize,
+                    Instruction::JumpIf { condition, target } => {
+                        jump_if!(r[condition.place()] != 0, target)
+                    }
+                    Instruction::JumpUnless { condition, target } => {
+                        jump_if!(r[condition.place()] == 0, target)
+                    }
+                    Instruction::JumpIfEqual {
+                        left,
+                        right,
+                        target,
+                    } => jump_if!(r[left.place()] == r[right.place()], target),
+                    Instruction::JumpIfNotEqual {
+                        left,
+                        right,
+                        target,
+                    } => jump_if!(r[left.place()] != r[right.place()], target),
+                    Instruction::JumpIfLess {
+                        left,
+                        right,
+                        target,
+                    } => jump_if!(int!(left) < int!(right), target),
+                    Instruction::JumpIfLessEqual {
+                        left,
+                        right,
+                        target,
+                    } => jump_if!(int!(left) <= int!(right), target),
+                    Instruction::JumpIfEqualConstant {
+                        left,
+                        right,
+                        target,
+                    } => jump_if!(int!(left) == i64::from(right.0), target),
+                    Instruction::JumpIfNotEqualConstant {
+                        left,
+                        right,
+                        target,
+                    } => jump_if!(int!(left) != i64::from(right.0), target),
+                    Instruction::JumpIfLessConstant {
+                        left,
+                        right,
+                        target,
+                    } => jump_if!(int!(left) < i64::from(right.0), target),
+                    Instruction::JumpUnlessLessConstant {
+                        left,
+                        right,
+                        target,
+                    } => jump_if!(int!(left) >= i64::from(right.0), target),
+                    Instruction::JumpIfLessFloat {
+                        left,
+                        right,
+                        target,
+                    } => jump_if!(float!(left) < float!(right), target),
+                    Instruction::JumpUnlessLessFloat {
+                        left,
+                        right,
+                        target,
+                    } => {
+                        let less = float!(left) < float!(right);
+                        jump_if!(!less, target)
+                    }
+                    Instruction::JumpIfLessEqualFloat {
+                        left,
+                        right,
+                        target,
+                    } => jump_if!(float!(left) <= float!(right), target),
+                    Instruction::JumpUnlessLessEqualFloat {
+                        left,
+                        right,
+                        target,
+                    } => {
+                        let less_equal = float!(left) <= float!(right);
+                        jump_if!(!less_equal, target)
+                    }
+                    Instruction::JumpIfStateNot {
+                        right,
+                        target,
+                        variable,
+                    } => match self.state.scalars.get(usize::from(variable.0)) {
+                        Some(&value) => jump_if!(value as i64 != i64::from(right.0), target),
+                        None => break 'run Fault::Malformed,
+                    },
+                    Instruction::Loop {
+                        counter,
+                        limit,
+                        target,
+                    } => match int!(counter).checked_add(1) {
+                        Some(next) => {
+                            set!(counter, next as u64);
+                            jump_if!(next < int!(limit), target)
+                        }
+                        None => break 'run Fault::Overflow,
+                    },
+                    Instruction::Require { present } => {
+                        if r[present.place()] == 0 {
+                            break 'run Fault::NoneUnwrapped;
+                        }
+                    }
+
+                    Instruction::Call {
+                        scalars,
+                        objects,
+                        function,
+                    } => {
+                        let Some(&entry) = entries.get(function.0 as usize) else {
+                            break 'run Fault::Malformed;
+                        };
+                        let Some(frame) = self.workspace.frames.get_mut(depth) else {
+                            if !self.workspace.grow(base, object_base, depth + 1) {
+                                break 'run Fault::CallDepth;
+                            }
+                            // Once more, now that there is room: it is paid for already.
+                            pc -= 1;
+                            fuel += 1;
+                            continue 'run;
+                        };
+                        *frame = Frame {
+                            position: pc as u32,
+                            base: base as u32,
+                            object_base: object_base as u32,
+                        };
+                        depth += 1;
+                        pc = entry as usize;
+                        base += scalars.place();
+                        object_base += objects.place();
+                        continue 'run;
+                    }
+                    Instruction::ReturnScalar { from, until } => {
+                        r[0] = r[from.place()];
+                        leave!(0, until);
+                    }
+                    Instruction::Return { keep, until } => {
+                        leave!(usize::from(keep.0), until);
+                    }
+                    Instruction::ReturnFalse { until } => {
+                        r[0] = 0;
+                        leave!(0, until);
+                    }
+                    other => {
+                        match self.object_instruction(other, base, object_base) {
+                            Ok(cost) => spend!(cost),
+                            Err(fault) => break 'run fault,
+                        }
+                        continue 'run;
+                    }
+                }
+            }
+        };
+        self.meter.fuel = fuel;
+        Err(RuntimeError {
+            fault,
+            position: pc.wrapping_sub(1) as u32,
+        })
+    }
+
+    /// Executes an instruction on objects or a call of the host; gives what it costs beyond one.
+    #[inline(never)]
+    fn object_instruction(
+        &mut self,
+        instruction: Instruction,
+        base: usize,
+        object_base: usize,
+    ) -> Result<u64, Fault> {
+        let scalars = self.workspace.scalars.get_mut(base..);
+        let Some(registers) = scalars.and_then(|s| s.first_chunk_mut::<WINDOW>()) else {
+            return Err(Fault::Malformed);
+        };
+        let mut view = View {
+            program: self.program,
+            registers,
+            objects: &mut self.workspace.objects,
+            object_base,
+            state: &mut self.state.objects,
+            host: self.host,
+            meter: &mut self.meter,
+        };
+        view.execute(instruction)
+    }
+}
+
+fn three(scalars: &[u64], start: u32) -> Option<[u64; 3]> {
+    scalars.get(start as usize..)?.first_chunk().copied()
+}
+
+fn get_three(r: &Registers, from: PointIn) -> [u64; 3] {
+    let [x, y, z] = point_places(from.0);
+    [r[x], r[y], r[z]]
+}
+
+fn set_three(r: &mut Registers, to: PointOut, point: [u64; 3]) {
+    let [x, y, z] = point_places(to.0);
+    [r[x], r[y], r[z]] = point;
+}
+
+fn get_point(r: &Registers, from: PointIn) -> Point {
+    let [x, y, z] = get_three(r, from).map(f64::from_bits);
+    Point { x, y, z }
+}
+
+fn set_point(r: &mut Registers, to: PointOut, point: Point) {
+    set_three(r, to, [point.x, point.y, point.z].map(scalar::bits));
+}
+
+/// The registers of a point. The verifier sees that they do not go past the last one; going round
+/// spares the bounds check.
+#[inline(always)]
+fn point_places(first: u8) -> [usize; 3] {
+    [first, first.wrapping_add(1), first.wrapping_add(2)].map(usize::from)
+}

@@ -1,0 +1,329 @@
+//! Rows of equal blocks: what lists, sets, and the two halves of a map are made of.
+//!
+//! Invariant: `scalars` holds `length * width` words and `objects` `length * object_width` objects;
+//! `held` is the sum of the sizes of `objects`.
+
+use super::object::{Object, WORD};
+use super::types::{Layout, Order, Parts};
+use alloc::vec::Vec;
+use core::cmp::Ordering;
+use serde::{Deserialize, Serialize};
+
+/// A row of blocks of scalars and objects.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct List {
+    length: u32,
+    width: u8,
+    object_width: u8,
+    held: usize,
+    scalars: Vec<u64>,
+    objects: Vec<Object>,
+}
+
+/// One block, borrowed.
+#[derive(Clone, Copy, Debug)]
+pub struct Block<'a> {
+    /// Its scalars.
+    pub scalars: &'a [u64],
+    /// Its objects.
+    pub objects: &'a [Object],
+}
+
+impl List {
+    /// A list without elements, for blocks of this layout.
+    pub fn new(layout: &Layout) -> List {
+        List {
+            width: layout.scalars.len() as u8,
+            object_width: layout.objects.len() as u8,
+            ..List::default()
+        }
+    }
+
+    /// A list of one scalar each, for instance of Ints.
+    pub fn of_scalars(scalars: Vec<u64>) -> List {
+        List {
+            length: scalars.len() as u32,
+            width: 1,
+            scalars,
+            ..List::default()
+        }
+    }
+
+    /// A list of Points.
+    pub fn of_points(points: &[starl_core::Point]) -> List {
+        let coordinates = points.iter().flat_map(|p| [p.x, p.y, p.z]);
+        List {
+            length: points.len() as u32,
+            width: 3,
+            scalars: coordinates.map(f64::to_bits).collect(),
+            ..List::default()
+        }
+    }
+
+    /// A list of one object each, for instance of texts.
+    pub fn of_objects(objects: Vec<Object>) -> List {
+        List {
+            length: objects.len() as u32,
+            object_width: 1,
+            held: objects.iter().map(Object::bytes).sum(),
+            objects,
+            ..List::default()
+        }
+    }
+
+    /// How many elements there are.
+    pub fn len(&self) -> usize {
+        self.length as usize
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.length == 0
+    }
+
+    /// The size as if nothing were shared, bytes.
+    pub fn bytes(&self) -> usize {
+        WORD * (4 + self.scalars.len() + self.objects.len()) + self.held
+    }
+
+    /// The size of the elements from `index` on, without what their objects hold, bytes.
+    pub fn bytes_from(&self, index: usize) -> usize {
+        self.len().saturating_sub(index) * WORD * (self.width as usize + self.object_width as usize)
+    }
+
+    /// All scalars, block after block.
+    pub fn scalars(&self) -> &[u64] {
+        &self.scalars
+    }
+
+    /// The element at an index.
+    pub fn get(&self, index: usize) -> Option<Block<'_>> {
+        if index >= self.len() {
+            return None;
+        }
+        let (width, object_width) = (self.width as usize, self.object_width as usize);
+        Some(Block {
+            scalars: self.scalars.get(index * width..(index + 1) * width)?,
+            objects: self
+                .objects
+                .get(index * object_width..(index + 1) * object_width)?,
+        })
+    }
+
+    /// All elements in order.
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = Block<'_>> {
+        (0..self.len()).filter_map(|index| self.get(index))
+    }
+
+    /// Whether a block is as wide as the elements, and `index` is at most the size.
+    fn fits(&self, index: usize, block: Block<'_>) -> bool {
+        index <= self.len()
+            && block.scalars.len() == self.width as usize
+            && block.objects.len() == self.object_width as usize
+    }
+
+    /// Puts a block in the place of an element; false if there is none or the block is not as wide.
+    #[must_use]
+    pub fn set(&mut self, index: usize, block: Block<'_>) -> bool {
+        if index == self.len() || !self.fits(index, block) {
+            return false;
+        }
+        let (start, object_start) = self.starts(index);
+        self.scalars[start..start + block.scalars.len()].copy_from_slice(block.scalars);
+        for (place, object) in self.objects[object_start..].iter_mut().zip(block.objects) {
+            self.held = self.held - place.bytes() + object.bytes();
+            *place = object.clone();
+        }
+        true
+    }
+
+    /// Inserts a block before an element or at the end; false if the index is greater or the block
+    /// not as wide.
+    #[must_use]
+    pub fn insert(&mut self, index: usize, block: Block<'_>) -> bool {
+        if !self.fits(index, block) || self.length == u32::MAX {
+            return false;
+        }
+        let (start, object_start) = self.starts(index);
+        self.scalars
+            .splice(start..start, block.scalars.iter().copied());
+        self.held += block.objects.iter().map(Object::bytes).sum::<usize>();
+        self.objects
+            .splice(object_start..object_start, block.objects.iter().cloned());
+        self.length += 1;
+        true
+    }
+
+    /// Adds a block at the end; false if it is not as wide as the others.
+    #[must_use]
+    pub fn push(&mut self, block: Block<'_>) -> bool {
+        if !self.fits(self.len(), block) || self.length == u32::MAX {
+            return false;
+        }
+        self.scalars.extend_from_slice(block.scalars);
+        self.held += block.objects.iter().map(Object::bytes).sum::<usize>();
+        self.objects.extend_from_slice(block.objects);
+        self.length += 1;
+        true
+    }
+
+    /// Removes an element; false if there is none.
+    pub fn remove(&mut self, index: usize) -> bool {
+        if index >= self.len() {
+            return false;
+        }
+        let (start, object_start) = self.starts(index);
+        self.scalars.drain(start..start + self.width as usize);
+        let removed = object_start..object_start + self.object_width as usize;
+        self.held -= self
+            .objects
+            .drain(removed)
+            .map(|o| o.bytes())
+            .sum::<usize>();
+        self.length -= 1;
+        true
+    }
+
+    /// Keeps the elements from `first` on and before `last`, as far as there are any.
+    pub fn slice(&mut self, first: usize, last: usize) {
+        let last = last.min(self.len());
+        let first = first.min(last);
+        let ((start, object_start), (end, object_end)) = (self.starts(first), self.starts(last));
+        self.scalars.truncate(end);
+        self.scalars.drain(..start);
+        self.objects.truncate(object_end);
+        self.objects.drain(..object_start);
+        self.held = self.objects.iter().map(Object::bytes).sum();
+        self.length = (last - first) as u32;
+    }
+
+    /// Adds all elements of another list; false if they are not as wide as this one's.
+    #[must_use]
+    pub fn append(&mut self, other: &List) -> bool {
+        let Some(length) = self.length.checked_add(other.length) else {
+            return false;
+        };
+        if self.width != other.width || self.object_width != other.object_width {
+            return false;
+        }
+        self.length = length;
+        self.held += other.held;
+        self.scalars.extend_from_slice(&other.scalars);
+        self.objects.extend_from_slice(&other.objects);
+        true
+    }
+
+    /// The list with its elements in the order that `order` gives as indices; others are left out.
+    pub fn arranged(&self, order: impl Iterator<Item = usize>) -> List {
+        let mut arranged = List {
+            width: self.width,
+            object_width: self.object_width,
+            ..List::default()
+        };
+        for block in order.filter_map(|index| self.get(index)) {
+            let _ = arranged.push(block); // as wide, being from the same list
+        }
+        arranged
+    }
+
+    /// The indices of the elements in ascending order; equal ones in the order that they have.
+    pub fn order(&self, layout: &Layout, types: &[Parts]) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.len()).collect();
+        order.sort_by(|&left, &right| match (self.get(left), self.get(right)) {
+            (Some(left), Some(right)) => left.compare(right, layout, types),
+            _ => Ordering::Equal,
+        });
+        order
+    }
+
+    /// The list in ascending order; equal elements stay in the order that they had.
+    pub fn sorted(&self, layout: &Layout, types: &[Parts]) -> List {
+        self.arranged(self.order(layout, types).into_iter())
+    }
+
+    /// The sorted list without its repeated elements.
+    pub fn deduplicated(&self, layout: &Layout, types: &[Parts]) -> List {
+        let first = |&index: &usize| match (
+            index.checked_sub(1).and_then(|i| self.get(i)),
+            self.get(index),
+        ) {
+            (Some(before), Some(block)) => before.compare(block, layout, types) != Ordering::Equal,
+            _ => true,
+        };
+        self.arranged((0..self.len()).filter(first))
+    }
+
+    /// Where a block stands in a sorted list, or where it would have to.
+    pub fn search(
+        &self,
+        block: Block<'_>,
+        layout: &Layout,
+        types: &[Parts],
+    ) -> Result<usize, usize> {
+        let (mut low, mut high) = (0, self.len());
+        while low < high {
+            let middle = low + (high - low) / 2;
+            let Some(other) = self.get(middle) else {
+                return Err(low);
+            };
+            match other.compare(block, layout, types) {
+                Ordering::Less => low = middle + 1,
+                Ordering::Greater => high = middle,
+                Ordering::Equal => return Ok(middle),
+            }
+        }
+        Err(low)
+    }
+
+    /// The order of two lists of one layout: by the first elements that differ, then by size.
+    pub fn compare(&self, other: &List, layout: &Layout, types: &[Parts]) -> Ordering {
+        self.iter()
+            .zip(other.iter())
+            .map(|(left, right)| left.compare(right, layout, types))
+            .find(|order| order.is_ne())
+            .unwrap_or_else(|| self.length.cmp(&other.length))
+    }
+
+    /// Whether the bits of all elements are the same.
+    pub fn same(&self, other: &List) -> bool {
+        self.length == other.length
+            && self.scalars == other.scalars
+            && self.objects == other.objects
+    }
+
+    fn starts(&self, index: usize) -> (usize, usize) {
+        (
+            index * self.width as usize,
+            index * self.object_width as usize,
+        )
+    }
+}
+
+impl Block<'_> {
+    /// The order of two values of one layout.
+    pub fn compare(self, other: Block<'_>, layout: &Layout, types: &[Parts]) -> Ordering {
+        let scalars = self.scalars.iter().zip(other.scalars).zip(&layout.scalars);
+        for ((&left, &right), order) in scalars {
+            let order = match order {
+                Order::Integer => (left as i64).cmp(&(right as i64)),
+                Order::Float => compare_floats(left, right),
+            };
+            if order.is_ne() {
+                return order;
+            }
+        }
+        self.objects
+            .iter()
+            .zip(other.objects)
+            .zip(&layout.objects)
+            .map(|((left, right), &kind)| left.compare(right, kind, types))
+            .find(|order| order.is_ne())
+            .unwrap_or(Ordering::Equal)
+    }
+}
+
+/// The total order of Floats as keys; adding zero makes -0.0 into 0.0.
+fn compare_floats(left: u64, right: u64) -> Ordering {
+    let (left, right) = (f64::from_bits(left) + 0.0, f64::from_bits(right) + 0.0);
+    left.total_cmp(&right)
+}

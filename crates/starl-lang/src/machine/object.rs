@@ -1,0 +1,290 @@
+//! Values too large or too variable for registers: texts, collections, areas, obstacles.
+//!
+//! An object is a value. Copies share its body until one of them is changed, which then gets a body
+//! of its own. An object without a body is the empty text or collection, so that a state full of
+//! empty collections needs no memory but its own.
+
+use super::list::List;
+use super::types::{Layout, Parts};
+use alloc::boxed::Box;
+use alloc::string::String;
+use alloc::sync::Arc;
+use core::cmp::Ordering;
+use serde::{Deserialize, Serialize};
+use starl_core::{Area, Digest, Shape};
+
+/// Bytes of a scalar, or of a reference to an object.
+pub const WORD: usize = 8;
+
+/// A text, collection, area or obstacles; one word.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Object(Option<Arc<Body>>);
+
+/// What an object holds.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Body {
+    /// Characters.
+    Text(String),
+    /// A list, or a set: a list in ascending order without repetitions.
+    List(List),
+    /// A map.
+    Map(Box<Map>),
+    /// A region.
+    Area(Area),
+    /// Obstacles.
+    Obstacles(starl_core::motion::Obstacles),
+}
+
+/// Keys in ascending order without repetitions, and at the same index the value of each. Both are
+/// objects that hold lists, so that they can be had without copying.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Map {
+    /// The keys.
+    pub keys: Object,
+    /// The values.
+    pub values: Object,
+}
+
+impl Object {
+    /// The empty text, list, set or map; no area, no obstacles.
+    pub const EMPTY: Object = Object(None);
+
+    /// What it holds; none if it is empty.
+    pub fn body(&self) -> Option<&Body> {
+        self.0.as_deref()
+    }
+
+    /// The characters of a text.
+    pub fn text(&self) -> &str {
+        match self.body() {
+            Some(Body::Text(text)) => text,
+            _ => "",
+        }
+    }
+
+    /// The elements of a list or set; none if it is empty.
+    pub fn list(&self) -> Option<&List> {
+        match self.body() {
+            Some(Body::List(list)) => Some(list),
+            _ => None,
+        }
+    }
+
+    /// The entries of a map; none if it is empty.
+    pub fn map(&self) -> Option<&Map> {
+        match self.body() {
+            Some(Body::Map(map)) => Some(map),
+            _ => None,
+        }
+    }
+
+    /// The region.
+    pub fn area(&self) -> Option<&Area> {
+        match self.body() {
+            Some(Body::Area(area)) => Some(area),
+            _ => None,
+        }
+    }
+
+    /// A list to be changed, made new for blocks of this layout if there is none; none if the object
+    /// is no list.
+    pub fn list_mut(&mut self, layout: &Layout) -> Option<&mut List> {
+        let new = || Arc::new(Body::List(List::new(layout)));
+        match Arc::make_mut(self.0.get_or_insert_with(new)) {
+            Body::List(list) => Some(list),
+            _ => None,
+        }
+    }
+
+    /// A list to be changed if there is one.
+    pub fn existing_list_mut(&mut self) -> Option<&mut List> {
+        match Arc::make_mut(self.0.as_mut()?) {
+            Body::List(list) => Some(list),
+            _ => None,
+        }
+    }
+
+    /// A map to be changed, made new if there is none; none if the object is no map.
+    pub fn map_mut(&mut self) -> Option<&mut Map> {
+        let new = || Arc::new(Body::Map(Box::default()));
+        match Arc::make_mut(self.0.get_or_insert_with(new)) {
+            Body::Map(map) => Some(map),
+            _ => None,
+        }
+    }
+
+    /// A text to be changed, made new if there is none; none if the object is no text.
+    pub fn text_mut(&mut self) -> Option<&mut String> {
+        let new = || Arc::new(Body::Text(String::new()));
+        match Arc::make_mut(self.0.get_or_insert_with(new)) {
+            Body::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// How many elements, entries or characters there are.
+    pub fn size(&self) -> usize {
+        match self.body() {
+            None | Some(Body::Area(_)) => 0,
+            Some(Body::Text(text)) => text.chars().count(),
+            Some(Body::List(list)) => list.len(),
+            Some(Body::Map(map)) => map.keys.size(),
+            Some(Body::Obstacles(obstacles)) => obstacles.len(),
+        }
+    }
+
+    /// The size as if nothing were shared, bytes.
+    pub fn bytes(&self) -> usize {
+        match self.body() {
+            None => 0,
+            Some(Body::Text(text)) => 4 * WORD + text.len(),
+            Some(Body::List(list)) => list.bytes(),
+            Some(Body::Map(map)) => 4 * WORD + map.keys.bytes() + map.values.bytes(),
+            Some(Body::Area(Area::Polygon(polygon))) => {
+                4 * WORD + 3 * WORD * polygon.vertices().len()
+            }
+            Some(Body::Area(_)) => 8 * WORD,
+            Some(Body::Obstacles(obstacles)) => {
+                let corners = obstacles.iter().map(|obstacle| match &obstacle.shape {
+                    Shape::Polygon { base, .. } => base.vertices().len(),
+                    _ => 0,
+                });
+                4 * WORD + 8 * WORD * obstacles.len() + 3 * WORD * corners.sum::<usize>()
+            }
+        }
+    }
+
+    /// The order of two objects of one type; areas and obstacles have none and are equal only if
+    /// they are the same.
+    pub fn compare(&self, other: &Object, kind: u16, types: &[Parts]) -> Ordering {
+        let Some(parts) = types.get(usize::from(kind)) else {
+            return Ordering::Equal;
+        };
+        match (self.body(), other.body()) {
+            (None, None) => Ordering::Equal,
+            (Some(Body::List(left)), Some(Body::List(right))) => {
+                left.compare(right, &parts.element, types)
+            }
+            (Some(Body::Map(left)), Some(Body::Map(right))) => {
+                let keys = lists(&left.keys, &right.keys, &parts.element, types);
+                keys.then_with(|| lists(&left.values, &right.values, &parts.value, types))
+            }
+            (Some(Body::Area(left)), Some(Body::Area(right))) => order_of(left == right),
+            (Some(Body::Obstacles(left)), Some(Body::Obstacles(right))) => order_of(left == right),
+            (Some(Body::Text(left)), Some(Body::Text(right))) => left.cmp(right),
+            _ => self.filled().cmp(&other.filled()),
+        }
+    }
+
+    /// Whether there is anything in it.
+    fn filled(&self) -> bool {
+        match self.body() {
+            None => false,
+            Some(Body::Text(text)) => !text.is_empty(),
+            Some(Body::Area(_)) => true,
+            Some(_) => self.size() > 0,
+        }
+    }
+
+    /// Folds the value into a digest; equal values give equal digests.
+    pub fn digest(&self, digest: &mut Digest) {
+        match self.body() {
+            _ if !self.filled() => digest.word(0),
+            None => {}
+            Some(Body::Text(text)) => {
+                digest.word(1);
+                digest.bytes(text.as_bytes());
+            }
+            Some(Body::List(list)) => {
+                digest.word(2);
+                digest.word(list.len() as u64);
+                for block in list.iter() {
+                    block.scalars.iter().for_each(|&word| digest.word(word));
+                    block.objects.iter().for_each(|o| o.digest(digest));
+                }
+            }
+            Some(Body::Map(map)) => {
+                digest.word(3);
+                map.keys.digest(digest);
+                map.values.digest(digest);
+            }
+            Some(Body::Area(area)) => {
+                digest.word(4);
+                digest.bytes(&starl_core::message::encode(area));
+            }
+            Some(Body::Obstacles(obstacles)) => {
+                digest.word(5);
+                digest.bytes(&starl_core::message::encode(obstacles));
+            }
+        }
+    }
+}
+
+/// The order of two objects that hold lists.
+fn lists(left: &Object, right: &Object, layout: &Layout, types: &[Parts]) -> Ordering {
+    match (left.list(), right.list()) {
+        (Some(left), Some(right)) => left.compare(right, layout, types),
+        _ => left.size().cmp(&right.size()),
+    }
+}
+
+fn order_of(equal: bool) -> Ordering {
+    if equal {
+        Ordering::Equal
+    } else {
+        Ordering::Less
+    }
+}
+
+/// Bit for bit: unlike in [`Object::compare`], 0.0 and -0.0 differ and NaN equals itself.
+impl PartialEq for Object {
+    fn eq(&self, other: &Object) -> bool {
+        match (&self.0, &other.0) {
+            (Some(left), Some(right)) if Arc::ptr_eq(left, right) => true,
+            (Some(left), Some(right)) => match (&**left, &**right) {
+                (Body::Text(left), Body::Text(right)) => left == right,
+                (Body::List(left), Body::List(right)) => left.same(right),
+                (Body::Map(left), Body::Map(right)) => {
+                    left.keys == right.keys && left.values == right.values
+                }
+                (Body::Area(left), Body::Area(right)) => left == right,
+                (Body::Obstacles(left), Body::Obstacles(right)) => left == right,
+                _ => !self.filled() && !other.filled(),
+            },
+            _ => !self.filled() && !other.filled(),
+        }
+    }
+}
+
+impl Eq for Object {}
+
+impl From<Body> for Object {
+    fn from(body: Body) -> Object {
+        Object(Some(Arc::new(body)))
+    }
+}
+
+impl From<List> for Object {
+    fn from(list: List) -> Object {
+        Body::List(list).into()
+    }
+}
+
+impl From<&str> for Object {
+    fn from(text: &str) -> Object {
+        Body::Text(text.into()).into()
+    }
+}
+
+impl From<Area> for Object {
+    fn from(area: Area) -> Object {
+        Body::Area(area).into()
+    }
+}
+
+impl From<starl_core::motion::Obstacles> for Object {
+    fn from(obstacles: starl_core::motion::Obstacles) -> Object {
+        Body::Obstacles(obstacles).into()
+    }
+}

@@ -1,0 +1,263 @@
+//! Compiled programs: [`Bytecode`] as it is stored, and [`Program`], which is bytecode that was
+//! verified and joined to a host.
+
+use super::error::LoadError;
+use super::host::{Import, Resolve, Signature};
+use super::instruction::Instruction;
+use super::state::State;
+use super::types::{Layout, ObjectType, Parts, Type};
+use super::verify;
+use alloc::string::String;
+use alloc::vec::Vec;
+use serde::{Deserialize, Serialize};
+
+/// A compiled program as the compiler writes it; nothing in it is trusted.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Bytecode {
+    /// The program's name.
+    pub name: String,
+    /// All functions' instructions, one function after the other.
+    pub code: Vec<Instruction>,
+    /// Where instructions come from: the first instruction of each run of instructions that come
+    /// from one place, in ascending order.
+    pub spans: Vec<(u32, Span)>,
+    /// Scalar constants.
+    pub constants: Vec<u64>,
+    /// Constant texts.
+    pub texts: Vec<String>,
+    /// Enums.
+    pub enums: Vec<Enum>,
+    /// Types of objects; each refers to earlier ones only.
+    pub types: Vec<ObjectType>,
+    /// What is asked of the host.
+    pub imports: Vec<Import>,
+    /// State variables; their layout is that of the [`State`].
+    pub variables: Vec<Variable>,
+    /// Functions, in the order of their code.
+    pub functions: Vec<Function>,
+    /// A procedure without arguments and results that runs once, before anything else: it gives
+    /// variables their values and binds primitives, then runs the program's `init`.
+    pub start: Option<u32>,
+    /// Actions in the order of the text.
+    pub actions: Vec<Action>,
+    /// Handlers in the order of the text.
+    pub handlers: Vec<Handler>,
+    /// Primitives, in the order of their instance numbers.
+    pub primitives: Vec<Binding>,
+    /// Properties in the order of the text.
+    pub properties: Vec<Property>,
+}
+
+/// A piece of a source file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Span {
+    /// Which file: 0 is the program, others are what it imports.
+    pub file: u32,
+    /// The first byte.
+    pub start: u32,
+    /// The byte after the last.
+    pub end: u32,
+}
+
+/// A variable of the state.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Variable {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub kind: Type,
+}
+
+/// An enum.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Enum {
+    /// Its name.
+    pub name: String,
+    /// The names of its variants; a variant's number is its place here.
+    pub variants: Vec<String>,
+}
+
+/// What a function may do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FunctionKind {
+    /// No state, no host: what is written `function`. May be called by all.
+    Function,
+    /// Reads the state and calls queries: the guard of an action. Its first result is a Bool, the
+    /// others are the bindings, which are the arguments of the effect.
+    Guard,
+    /// Does anything: an effect, a handler, the start. May be called by procedures.
+    Procedure,
+    /// Reads states of robots that are its arguments, and calls queries; its result is a Bool.
+    Property,
+}
+
+/// A function.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Function {
+    /// Its name.
+    pub name: String,
+    /// What it may do.
+    pub kind: FunctionKind,
+    /// Its first instruction.
+    pub entry: u32,
+    /// The instruction after its last.
+    pub end: u32,
+    /// How many scalar registers it uses, at most 256.
+    pub registers: u16,
+    /// How many object registers it uses, at most 128.
+    pub object_registers: u8,
+    /// The types of its arguments, which are in its first registers when it begins.
+    pub arguments: Vec<Type>,
+    /// The types of its results, which are in its first registers when it ends.
+    pub results: Vec<Type>,
+}
+
+/// A guarded action.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Action {
+    /// Its name.
+    pub name: String,
+    /// Its guard.
+    pub guard: u32,
+    /// The procedure that it runs when the guard holds; its arguments are the guard's bindings.
+    pub effect: u32,
+}
+
+/// What is done about an event. Arguments of its procedure: for a message the sender, a robot, then
+/// the fields of the message; for a primitive's event the fields of the event.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Handler {
+    /// The name of the message or event.
+    pub event: String,
+    /// The primitive whose event it is; none for a message.
+    pub primitive: Option<u32>,
+    /// The procedure.
+    pub function: u32,
+}
+
+/// A primitive bound to a name.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Binding {
+    /// The name in the program, for instance `mux`.
+    pub name: String,
+    /// The kind of primitive, for instance `Mutex`.
+    pub kind: String,
+}
+
+/// A property.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Property {
+    /// Its name.
+    pub name: String,
+    /// What is claimed.
+    pub claim: Claim,
+    /// For each robot (1), each pair of robots (2) and so on; 0 for a claim about the whole fleet.
+    pub robots: u8,
+}
+
+/// What a property claims; numbers are functions of kind property.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Claim {
+    /// It holds at all times.
+    Always(u32),
+    /// It holds at some time, this many nanoseconds after the start at the latest.
+    Eventually {
+        /// What.
+        holds: u32,
+        /// Nanoseconds; none for without limit.
+        within: Option<u64>,
+    },
+    /// Whenever the first holds, the second holds at some time afterwards, this many nanoseconds
+    /// later at most.
+    LeadsTo {
+        /// The cause.
+        cause: u32,
+        /// The consequence.
+        consequence: u32,
+        /// Nanoseconds; none for without limit.
+        within: Option<u64>,
+    },
+}
+
+/// A program that can be run: verified bytecode whose imports are resolved. Shared by all robots that
+/// run it.
+#[derive(Clone, Debug)]
+pub struct Program {
+    pub(super) bytecode: Bytecode,
+    /// The first instruction of each function.
+    pub(super) entries: Vec<u32>,
+    /// The layouts of each function's arguments and results.
+    pub(super) layouts: Vec<(Layout, Layout)>,
+    pub(super) parts: Vec<Parts>,
+    pub(super) texts: Vec<super::object::Object>,
+    pub(super) signatures: Vec<Signature>,
+    state: Layout,
+}
+
+impl Program {
+    /// Verifies bytecode and resolves what it imports.
+    pub fn load(bytecode: Bytecode, host: &dyn Resolve) -> Result<Program, LoadError> {
+        let tables = verify::verify(&bytecode)?;
+        let resolve = |import: &Import| match host.resolve(import) {
+            Some(number) => Ok(Signature {
+                number,
+                arguments: Layout::of(&import.arguments),
+                results: Layout::of(&import.results),
+            }),
+            None => Err(LoadError::UnknownImport(import.name.clone())),
+        };
+        let signatures = bytecode
+            .imports
+            .iter()
+            .map(resolve)
+            .collect::<Result<_, _>>()?;
+        Ok(Program {
+            entries: bytecode.functions.iter().map(|f| f.entry).collect(),
+            texts: bytecode
+                .texts
+                .iter()
+                .map(|text| text.as_str().into())
+                .collect(),
+            layouts: tables.arguments.into_iter().zip(tables.results).collect(),
+            parts: tables.parts,
+            state: tables.state,
+            signatures,
+            bytecode,
+        })
+    }
+
+    /// The bytecode that was verified.
+    pub fn bytecode(&self) -> &Bytecode {
+        &self.bytecode
+    }
+
+    /// The layout of the state.
+    pub fn state_layout(&self) -> &Layout {
+        &self.state
+    }
+
+    /// The layouts of the parts of each object type.
+    pub fn parts(&self) -> &[Parts] {
+        &self.parts
+    }
+
+    /// A state in which all variables are zero, empty and none; the start gives them their values.
+    pub fn new_state(&self) -> State {
+        State::new(&self.state)
+    }
+
+    /// Where an instruction comes from.
+    pub fn span(&self, position: u32) -> Option<Span> {
+        let spans = &self.bytecode.spans;
+        let after = spans.partition_point(|(first, _)| *first <= position);
+        Some(spans.get(after.checked_sub(1)?)?.1)
+    }
+
+    /// The function that an instruction belongs to.
+    pub fn function_at(&self, position: u32) -> Option<&Function> {
+        let after = self.entries.partition_point(|&entry| entry <= position);
+        self.bytecode.functions.get(after.checked_sub(1)?)
+    }
+}

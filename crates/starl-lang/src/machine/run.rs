@@ -1,0 +1,205 @@
+//! Running parts of a program: what hosts call.
+
+use super::error::{Fault, RuntimeError};
+use super::execute::Execution;
+use super::host::Host;
+use super::object::Object;
+use super::program::Program;
+use super::state::State;
+use super::types::Layout;
+use super::view::Meter;
+use super::workspace::Workspace;
+use starl_core::RobotId;
+
+/// What one activation may use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Units of fuel; see [`Instruction`](super::Instruction) for what costs how many.
+    pub fuel: u64,
+    /// Bytes that the state's objects and the values worked on may take together, counted as if
+    /// nothing were shared.
+    pub memory: usize,
+}
+
+impl Default for Limits {
+    /// 100,000 instructions and 1 MiB.
+    fn default() -> Limits {
+        Limits {
+            fuel: 100_000,
+            memory: 1 << 20,
+        }
+    }
+}
+
+/// One activation of one robot's program. What is run in it shares its limits.
+///
+/// After an error the state is as the program left it: the robot's program should not be run again.
+pub struct Machine<'a> {
+    execution: Execution<'a>,
+}
+
+impl<'a> Machine<'a> {
+    /// A machine that runs the program on this state, which must be one of the program's.
+    pub fn new(
+        program: &'a Program,
+        state: &'a mut State,
+        workspace: &'a mut Workspace,
+        host: &'a mut dyn Host,
+        limits: Limits,
+    ) -> Machine<'a> {
+        Machine {
+            execution: Execution {
+                program,
+                state,
+                workspace,
+                host,
+                meter: Meter {
+                    fuel: limits.fuel,
+                    budget: limits.memory,
+                    spare: 0,
+                },
+            },
+        }
+    }
+
+    /// The fuel that is left.
+    pub fn fuel(&self) -> u64 {
+        self.execution.meter.fuel
+    }
+
+    /// The state as it is now.
+    pub fn state(&self) -> &State {
+        self.execution.state
+    }
+
+    /// Gives variables their values, binds primitives and runs the program's `init`.
+    pub fn start(&mut self) -> Result<(), RuntimeError> {
+        match self.execution.program.bytecode.start {
+            Some(start) => self.call(start, &[], &[]).map(|_| ()),
+            None => Ok(()),
+        }
+    }
+
+    /// Runs the effect of an action if its guard holds; whether it did.
+    pub fn action(&mut self, index: u32) -> Result<bool, RuntimeError> {
+        if !self.guard(index)? {
+            return Ok(false);
+        }
+        let action = self.execution.program.bytecode.actions.get(index as usize);
+        match action {
+            // The bindings follow the guard's Bool: they are the effect's first registers.
+            Some(action) => self.run(action.effect, 1).map(|()| true),
+            None => Ok(false),
+        }
+    }
+
+    /// Whether the guard of an action holds. Changes nothing.
+    pub fn guard(&mut self, index: u32) -> Result<bool, RuntimeError> {
+        let action = self.execution.program.bytecode.actions.get(index as usize);
+        match action {
+            Some(action) => {
+                let guard = action.guard;
+                let (scalars, _) = self.call(guard, &[], &[])?;
+                Ok(scalars.first().is_some_and(|&holds| holds != 0))
+            }
+            None => Ok(false),
+        }
+    }
+
+    /// Runs a handler with the scalars and objects of its arguments.
+    pub fn handler(
+        &mut self,
+        index: u32,
+        scalars: &[u64],
+        objects: &[Object],
+    ) -> Result<(), RuntimeError> {
+        let handler = self.execution.program.bytecode.handlers.get(index as usize);
+        match handler {
+            Some(handler) => self.call(handler.function, scalars, objects).map(|_| ()),
+            None => Ok(()),
+        }
+    }
+
+    /// Runs a function with the scalars and objects of its arguments; gives those of its results.
+    /// Arguments that do not fit the function are [`Fault::Malformed`].
+    pub fn call(
+        &mut self,
+        function: u32,
+        scalars: &[u64],
+        objects: &[Object],
+    ) -> Result<(&[u64], &[Object]), RuntimeError> {
+        let program = self.execution.program;
+        let Some(called) = program.layouts.get(function as usize) else {
+            return Err(malformed(program, function));
+        };
+        let (arguments, results) = called;
+        if arguments.scalars.len() != scalars.len() || arguments.objects.len() != objects.len() {
+            return Err(malformed(program, function));
+        }
+        let workspace = &mut *self.execution.workspace;
+        workspace.clear();
+        workspace.scalars[..scalars.len()].copy_from_slice(scalars);
+        workspace.objects[..objects.len()].clone_from_slice(objects);
+        workspace.used |= !objects.is_empty();
+        self.run(function, 0)?;
+        Ok(self.results(results))
+    }
+
+    fn results(&self, results: &Layout) -> (&[u64], &[Object]) {
+        let workspace = &*self.execution.workspace;
+        (
+            &workspace.scalars[..results.scalars.len()],
+            &workspace.objects[..results.objects.len()],
+        )
+    }
+
+    fn run(&mut self, function: u32, base: usize) -> Result<(), RuntimeError> {
+        let program = self.execution.program;
+        let called = program.bytecode.functions.get(function as usize);
+        let uses_objects = called.is_some_and(|called| called.object_registers > 0);
+        self.execution.workspace.used |= uses_objects;
+        let result = self.execution.run(function, base, 0);
+        match &result {
+            Ok(()) => {
+                // A function empties its registers but those of its results.
+                let results = program.layouts.get(function as usize);
+                self.execution.workspace.used = results.is_some_and(|(_, r)| !r.objects.is_empty());
+            }
+            Err(_) => self.execution.workspace.clear(),
+        }
+        result
+    }
+
+    /// Whether a claim, a function of kind property, holds of these robots, whose states the host
+    /// gives. Changes nothing.
+    pub fn holds(
+        program: &Program,
+        function: u32,
+        robots: &[RobotId],
+        workspace: &mut Workspace,
+        host: &mut dyn Host,
+        limits: Limits,
+    ) -> Result<bool, RuntimeError> {
+        let mut arguments = [0; MOST_ROBOTS];
+        let Some(arguments) = arguments.get_mut(..robots.len()) else {
+            return Err(malformed(program, function));
+        };
+        for (argument, robot) in arguments.iter_mut().zip(robots) {
+            *argument = u64::from(robot.0);
+        }
+        let mut none = State::default(); // properties do not touch a state of their own
+        let mut machine = Machine::new(program, &mut none, workspace, host, limits);
+        let (scalars, _) = machine.call(function, arguments, &[])?;
+        Ok(scalars.first().is_some_and(|&holds| holds != 0))
+    }
+}
+
+/// The most robots that a property quantifies over at once.
+const MOST_ROBOTS: usize = 255;
+
+fn malformed(program: &Program, function: u32) -> RuntimeError {
+    RuntimeError {
+        fault: Fault::Malformed,
+        position: program.entries.get(function as usize).copied().unwrap_or(0),
+    }
+}

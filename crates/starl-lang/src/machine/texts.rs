@@ -1,0 +1,97 @@
+//! Instructions on texts.
+
+use super::error::Fault;
+use super::list::List;
+use super::object::Object;
+use super::operand::{EnumIndex, Format, In, ObjectIn, ObjectInOut, ObjectOut, Out, PointIn, Text};
+use super::view::{View, shift};
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::fmt::Write;
+use starl_core::{Duration, Time};
+
+impl View<'_> {
+    pub fn text(&mut self, to: ObjectOut, constant: Text) -> Result<u64, Fault> {
+        let text = self.program.texts.get(constant.0 as usize).cloned();
+        self.share(to, text.ok_or(Fault::Malformed)?)
+    }
+
+    pub fn append_text(&mut self, text: ObjectInOut, from: ObjectIn) -> Result<u64, Fault> {
+        let from = self.read(from)?.clone();
+        self.append(text, from.text(), shift(from.bytes()))
+    }
+
+    pub fn append_scalar(
+        &mut self,
+        text: ObjectInOut,
+        from: In,
+        format: Format,
+    ) -> Result<u64, Fault> {
+        let mut words = String::new();
+        let written = format_scalar(&mut words, self.scalar(from), format);
+        written.map_err(|_| Fault::Malformed)?;
+        self.append(text, &words, 3)
+    }
+
+    pub fn append_point(&mut self, text: ObjectInOut, from: PointIn) -> Result<u64, Fault> {
+        let first = from.0;
+        let [x, y, z] = [first, first.wrapping_add(1), first.wrapping_add(2)]
+            .map(|register| f64::from_bits(self.registers[usize::from(register)]));
+        self.append(text, &alloc::format!("({x:?}, {y:?}, {z:?})"), 11)
+    }
+
+    pub fn append_variant(
+        &mut self,
+        text: ObjectInOut,
+        from: In,
+        of: EnumIndex,
+    ) -> Result<u64, Fault> {
+        let number = usize::try_from(self.scalar(from)).ok();
+        let variants = self.program.bytecode.enums.get(usize::from(of.0));
+        let name = variants.and_then(|e| e.variants.get(number?));
+        let name = name.ok_or(Fault::ConversionOutOfRange)?;
+        self.append(text, name, shift(name.len()))
+    }
+
+    fn append(&mut self, text: ObjectInOut, words: &str, cost: u64) -> Result<u64, Fault> {
+        self.change(text, |object, _| {
+            object.text_mut().ok_or(Fault::Malformed)?.push_str(words);
+            Ok(cost)
+        })
+    }
+
+    pub fn contains_text(&mut self, to: Out, text: ObjectIn, part: ObjectIn) -> Result<u64, Fault> {
+        let (text, part) = (self.read(text)?.text(), self.read(part)?.text());
+        let cost = (text.len() + part.len()) / 8;
+        let found = text.contains(part);
+        self.set_bool(to, found);
+        Ok(cost as u64)
+    }
+
+    pub fn split_text(
+        &mut self,
+        to: ObjectOut,
+        text: ObjectIn,
+        separator: ObjectIn,
+    ) -> Result<u64, Fault> {
+        let (text, separator) = (self.read(text)?.text(), self.read(separator)?.text());
+        let parts: Vec<Object> = match separator {
+            "" => Vec::from([text.into()]),
+            separator => text.split(separator).map(Object::from).collect(),
+        };
+        let cost = shift(text.len()) + 8 * parts.len() as u64;
+        Ok(cost + self.put(to, List::of_objects(parts).into())?)
+    }
+}
+
+/// Writes a scalar as a person reads it.
+pub(super) fn format_scalar(out: &mut String, scalar: u64, format: Format) -> core::fmt::Result {
+    match format {
+        Format::Bool => write!(out, "{}", scalar != 0),
+        Format::Int => write!(out, "{}", scalar as i64),
+        Format::Float => write!(out, "{:?}", f64::from_bits(scalar)),
+        Format::Time => write!(out, "{}", Time(scalar)),
+        Format::Duration => write!(out, "{}", Duration(scalar)),
+        Format::Robot => write!(out, "robot{scalar}"),
+    }
+}

@@ -1,0 +1,126 @@
+//! What compiled programs know of types: how a value lies in registers, and how values are ordered.
+//!
+//! Invariant of a loaded program: object types refer to earlier ones only, so every value is a tree
+//! of limited depth.
+
+use alloc::boxed::Box;
+use alloc::string::String;
+use alloc::vec::Vec;
+use serde::{Deserialize, Serialize};
+
+/// The deepest that collections may be nested.
+pub const DEEPEST_TYPE: u32 = 32;
+
+/// A type of the language.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Type {
+    /// True or false.
+    Bool,
+    /// A signed integer of 64 bits.
+    Int,
+    /// A number of IEEE 754, binary64.
+    Float,
+    /// A moment, nanoseconds since the run started.
+    Time,
+    /// A span of time, nanoseconds.
+    Duration,
+    /// A robot's number.
+    Robot,
+    /// The number of a variant of an enum, which is an index into the program's enums.
+    Enum(u16),
+    /// Three Floats, metres.
+    Point,
+    /// A value of the object type with this index.
+    Object(u16),
+    /// A value or none.
+    Optional(Box<Type>),
+    /// Fields in order, with their names.
+    Record(Vec<(String, Type)>),
+}
+
+/// A type whose values are objects.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ObjectType {
+    /// Characters.
+    Text,
+    /// A region.
+    Area,
+    /// Obstacles, as the host gives them.
+    Obstacles,
+    /// Elements in any order.
+    List(Type),
+    /// Elements once each, in ascending order.
+    Set(Type),
+    /// Values by key, in ascending order of the keys.
+    Map(Type, Type),
+}
+
+/// How a scalar is ordered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Order {
+    /// As a signed integer: everything but Floats.
+    Integer,
+    /// As a Float: -0.0 equals 0.0, NaN equals itself and comes last (first with its sign set).
+    Float,
+}
+
+/// How a value lies in registers: its scalars, then its objects, both in the order of the text.
+/// Values are ordered by their scalars first, then by their objects.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Layout {
+    /// The order of each scalar.
+    pub scalars: Vec<Order>,
+    /// The type of each object.
+    pub objects: Vec<u16>,
+}
+
+impl Layout {
+    /// The layout of values of these types, one after the other.
+    pub fn of<'a>(types: impl IntoIterator<Item = &'a Type>) -> Layout {
+        let mut layout = Layout::default();
+        for part in types {
+            layout.push(part);
+        }
+        layout
+    }
+
+    fn push(&mut self, part: &Type) {
+        match part {
+            Type::Float => self.scalars.push(Order::Float),
+            Type::Point => self.scalars.extend([Order::Float; 3]),
+            Type::Object(index) => self.objects.push(*index),
+            Type::Optional(value) => {
+                self.scalars.push(Order::Integer);
+                self.push(value);
+            }
+            Type::Record(fields) => fields.iter().for_each(|(_, field)| self.push(field)),
+            _ => self.scalars.push(Order::Integer),
+        }
+    }
+}
+
+/// The layouts of an object type's parts: elements of a list or set, or keys and values of a map.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Parts {
+    /// An element, or a key.
+    pub element: Layout,
+    /// A value.
+    pub value: Layout,
+}
+
+impl Parts {
+    /// The parts of an object type; nothing for types without parts.
+    pub fn of(object: &ObjectType) -> Parts {
+        match object {
+            ObjectType::List(element) | ObjectType::Set(element) => Parts {
+                element: Layout::of([element]),
+                value: Layout::default(),
+            },
+            ObjectType::Map(key, value) => Parts {
+                element: Layout::of([key]),
+                value: Layout::of([value]),
+            },
+            ObjectType::Text | ObjectType::Area | ObjectType::Obstacles => Parts::default(),
+        }
+    }
+}

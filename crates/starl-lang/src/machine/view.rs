@@ -1,0 +1,177 @@
+//! What an instruction on objects sees: the windows of the running function, the state's objects, the
+//! host; and the metering of memory.
+//!
+//! Memory is counted as if nothing were shared, so that what a program may do does not depend on who
+//! else holds its values. Counting afresh after every instruction would be slow: the meter counts what
+//! is added until that could exceed the budget, and only then sums up what there is.
+
+use super::error::Fault;
+use super::execute::Registers;
+use super::host::Host;
+use super::list::Block;
+use super::object::Object;
+use super::operand::{self, FIRST_STATE_OPERAND, In, ObjectIn, ObjectInOut, ObjectOut, Type};
+use super::program::Program;
+use super::types::{Layout, Parts};
+use super::workspace::OBJECT_WINDOW;
+
+/// What an activation may use.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Meter {
+    /// Instructions that are left.
+    pub fuel: u64,
+    /// Bytes that the state and all values in registers may have together.
+    pub budget: usize,
+    /// Bytes that may be added before they have to be summed up.
+    pub spare: usize,
+}
+
+/// The parts of the machine that an instruction on objects works on.
+pub(super) struct View<'a> {
+    pub program: &'a Program,
+    pub registers: &'a mut Registers,
+    /// The object registers of all running functions.
+    pub objects: &'a mut [Object],
+    /// Where those of the function begin that runs now.
+    pub object_base: usize,
+    pub state: &'a mut [Object],
+    pub host: &'a mut dyn Host,
+    pub meter: &'a mut Meter,
+}
+
+/// What copying or moving this many bytes costs.
+pub(super) fn shift(bytes: usize) -> u64 {
+    (bytes / 64) as u64
+}
+
+/// The object that an operand names.
+pub(super) fn object_at<'a>(
+    objects: &'a [Object],
+    base: usize,
+    state: &'a [Object],
+    operand: u8,
+) -> Result<&'a Object, Fault> {
+    let place = match operand.checked_sub(FIRST_STATE_OPERAND) {
+        Some(variable) => state.get(usize::from(variable)),
+        None => objects.get(base + usize::from(operand)),
+    };
+    place.ok_or(Fault::Malformed)
+}
+
+impl<'a> View<'a> {
+    pub fn scalar(&self, register: In) -> u64 {
+        self.registers[register.place()]
+    }
+
+    pub fn set_bool(&mut self, to: operand::Out, value: bool) {
+        self.registers[to.place()] = u64::from(value);
+    }
+
+    /// The object that an operand names.
+    pub fn read(&self, operand: ObjectIn) -> Result<&Object, Fault> {
+        object_at(self.objects, self.object_base, self.state, operand.0)
+    }
+
+    /// The place of the object that an operand names.
+    pub fn place(&mut self, operand: u8) -> Result<&mut Object, Fault> {
+        let place = match operand.checked_sub(FIRST_STATE_OPERAND) {
+            Some(variable) => self.state.get_mut(usize::from(variable)),
+            None => self
+                .objects
+                .get_mut(self.object_base + usize::from(operand)),
+        };
+        place.ok_or(Fault::Malformed)
+    }
+
+    /// Puts a new or shared object into a place and counts its memory.
+    pub fn put(&mut self, to: ObjectOut, object: Object) -> Result<u64, Fault> {
+        let bytes = object.bytes();
+        *self.place(to.0)? = object;
+        self.allocate(bytes)
+    }
+
+    /// As [`View::put`], for an object that others hold too.
+    pub fn share(&mut self, to: ObjectOut, object: Object) -> Result<u64, Fault> {
+        let cost = shift(object.bytes());
+        Ok(cost + self.put(to, object)?)
+    }
+
+    /// Changes an object in place and counts the memory that it grows by. The change gives its cost.
+    pub fn change(
+        &mut self,
+        operand: ObjectInOut,
+        change: impl FnOnce(&mut Object, &View<'a>) -> Result<u64, Fault>,
+    ) -> Result<u64, Fault> {
+        // The object is taken out while it is changed, so that nobody else holds it.
+        let mut object = core::mem::take(self.place(operand.0)?);
+        let before = object.bytes();
+        let result = change(&mut object, self);
+        let grown = object.bytes().saturating_sub(before);
+        *self.place(operand.0)? = object;
+        let cost = result?;
+        Ok(cost + self.allocate(grown)?)
+    }
+
+    /// The layouts of a type's parts.
+    pub fn parts(&self, kind: Type) -> Result<&'a Parts, Fault> {
+        self.program
+            .parts
+            .get(usize::from(kind.0))
+            .ok_or(Fault::Malformed)
+    }
+
+    /// The registers of a value of this layout.
+    pub fn block(
+        &self,
+        scalars: operand::Block,
+        objects: operand::ObjectBlock,
+        layout: &Layout,
+    ) -> Result<Block<'_>, Fault> {
+        self.block_of(scalars, layout.scalars.len(), objects, layout.objects.len())
+    }
+
+    /// The registers of a value of so many scalars and objects.
+    pub fn block_of(
+        &self,
+        scalars: operand::Block,
+        width: usize,
+        objects: operand::ObjectBlock,
+        object_width: usize,
+    ) -> Result<Block<'_>, Fault> {
+        let (start, object_start) = (scalars.place(), self.object_base + objects.place());
+        let scalars = self.registers.get(start..start + width);
+        let objects = self.objects.get(object_start..object_start + object_width);
+        match (scalars, objects) {
+            (Some(scalars), Some(objects)) => Ok(Block { scalars, objects }),
+            _ => Err(Fault::Malformed),
+        }
+    }
+
+    /// Counts memory that is added; gives what the counting costs.
+    pub fn allocate(&mut self, bytes: usize) -> Result<u64, Fault> {
+        match self.meter.spare.checked_sub(bytes) {
+            Some(rest) => {
+                self.meter.spare = rest;
+                Ok(0)
+            }
+            None => self.count_afresh(),
+        }
+    }
+
+    #[cold]
+    fn count_afresh(&mut self) -> Result<u64, Fault> {
+        let end = (self.object_base + OBJECT_WINDOW).min(self.objects.len());
+        let running = self.objects.get(..end).unwrap_or_default();
+        let all = running.iter().chain(self.state.iter());
+        let bytes: usize = all.map(Object::bytes).sum();
+        match self.meter.budget.checked_sub(bytes) {
+            Some(spare) => {
+                self.meter.spare = spare;
+                Ok((end + self.state.len()) as u64 / 8)
+            }
+            None => Err(Fault::OutOfMemory {
+                budget: self.meter.budget as u64,
+            }),
+        }
+    }
+}

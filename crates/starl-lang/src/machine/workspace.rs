@@ -1,0 +1,84 @@
+//! Registers and calls of a running program. One workspace serves any number of robots, one after
+//! the other: nothing in it outlives an activation.
+
+use super::object::Object;
+use alloc::vec::Vec;
+
+/// The scalar registers that a function sees.
+pub(super) const WINDOW: usize = 256;
+/// The object registers that a function sees.
+pub(super) const OBJECT_WINDOW: usize = 128;
+/// The deepest that calls may be nested.
+pub(super) const DEEPEST_CALL: usize = 1000;
+/// The most scalar registers, those of all calls together.
+const MOST_SCALARS: usize = 64 * 1024;
+/// The most object registers, those of all calls together.
+const MOST_OBJECTS: usize = 16 * 1024;
+
+/// Where a call came from.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Frame {
+    /// The instruction after the call.
+    pub position: u32,
+    /// Where the caller's scalar registers begin.
+    pub base: u32,
+    /// Where the caller's object registers begin.
+    pub object_base: u32,
+}
+
+/// The registers of running functions; grows as calls need it, up to fixed bounds.
+#[derive(Clone, Debug)]
+pub struct Workspace {
+    pub(super) scalars: Vec<u64>,
+    pub(super) objects: Vec<Object>,
+    pub(super) frames: Vec<Frame>,
+    /// Whether object registers may hold anything.
+    pub(super) used: bool,
+}
+
+impl Default for Workspace {
+    fn default() -> Workspace {
+        Workspace {
+            scalars: alloc::vec![0; 2 * WINDOW],
+            objects: alloc::vec![Object::EMPTY; OBJECT_WINDOW],
+            frames: alloc::vec![Frame::default(); 8],
+            used: false,
+        }
+    }
+}
+
+impl Workspace {
+    /// A workspace of the least size.
+    pub fn new() -> Workspace {
+        Workspace::default()
+    }
+
+    /// Empties object registers.
+    pub(super) fn clear(&mut self) {
+        if core::mem::take(&mut self.used) {
+            self.objects.fill(Object::EMPTY);
+        }
+    }
+
+    /// Makes room for windows that begin at these registers and for so many calls; false if they lie
+    /// beyond the bounds.
+    #[cold]
+    pub(super) fn grow(&mut self, base: usize, object_base: usize, depth: usize) -> bool {
+        let (scalars, objects) = (base + WINDOW, object_base + OBJECT_WINDOW);
+        if scalars > MOST_SCALARS || objects > MOST_OBJECTS || depth > DEEPEST_CALL {
+            return false;
+        }
+        if scalars > self.scalars.len() {
+            self.scalars.resize((2 * scalars).min(MOST_SCALARS), 0);
+        }
+        if objects > self.objects.len() {
+            self.objects
+                .resize((2 * objects).min(MOST_OBJECTS), Object::EMPTY);
+        }
+        if depth > self.frames.len() {
+            self.frames
+                .resize((2 * depth).min(DEEPEST_CALL), Frame::default());
+        }
+        true
+    }
+}
