@@ -147,9 +147,14 @@ fn sensors(table: Section<'_>) -> SensorSuite {
 }
 
 fn clock(table: Section<'_>) -> Clock {
+    let drift = table.number("drift");
+    if drift >= 1.0 {
+        let message = "with a drift of 1 or more a clock may stand or run backwards";
+        table.problem("drift", message, "give less than 1");
+    }
     Clock {
         offset: table.duration("offset"),
-        drift_ppm: table.number("drift") * 1e6,
+        drift_ppm: drift * 1e6,
     }
 }
 

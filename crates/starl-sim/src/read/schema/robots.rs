@@ -156,6 +156,6 @@ const CLOCK: &[Field] = &[
         "drift",
         RATIO,
         Default::Value("0"),
-        "Greatest drift either way, e.g. `\"50ppm\"`.",
+        "Greatest drift either way, below 1, e.g. `\"50ppm\"`.",
     ),
 ];
