@@ -50,6 +50,9 @@ const PART_PER_ESTIMATE: f64 = 0.5;
 const PART_PER_SECOND: f64 = 2.5;
 /// Below this part of the slow speed the robot crawls: it may hardly move.
 const CRAWL: f64 = 0.25;
+/// How far ahead on the straight way the point pursued lies, at most, metres: an arc leaves the straight
+/// way by up to a quarter of this times the bearing, and paths have little room beside obstacles.
+const LOOK_AHEAD: f64 = 0.3;
 /// Within this distance the robot backs up to a point behind it instead of turning round, metres.
 const BACK_UP: f64 = 0.15;
 
@@ -80,7 +83,8 @@ impl Gains {
         };
 
         let crawls = goal.speed_limit < CRAWL * self.slow_speed;
-        if self.turns(tracking, bearing, distance, crawls) {
+        let last = goal.next.is_none();
+        if self.turns(tracking, bearing, distance, last, crawls) {
             return Drive::Turn {
                 rate: self.turn_rate(bearing, period),
             };
@@ -104,8 +108,9 @@ impl Gains {
         if fabs(bearing) < radians(1.0) {
             return Drive::Straight { speed: signed };
         }
-        // The circle that touches the heading and passes through the way-point.
-        let pursuit = 2.0 * sin(bearing) / distance * speed;
+        // The circle that touches the heading and passes through the way-point, or through the point on
+        // the straight way to it that is pursued.
+        let pursuit = 2.0 * sin(bearing) / distance.min(LOOK_AHEAD) * speed;
         let most = fabs(self.turn_rate(bearing, period));
         Drive::Arc {
             speed: signed,
@@ -114,13 +119,20 @@ impl Gains {
     }
 
     /// Whether to turn on the spot, with hysteresis.
-    fn turns(&self, tracking: &mut Tracking, bearing: f64, distance: f64, crawls: bool) -> bool {
+    fn turns(
+        &self,
+        tracking: &mut Tracking,
+        bearing: f64,
+        distance: f64,
+        last: bool,
+        crawls: bool,
+    ) -> bool {
         let limit = if crawls {
             // No arc that slow would ever get it round.
             radians(2.0)
         } else if tracking.phase == TURNING {
             radians(8.0)
-        } else if distance < BACK_UP {
+        } else if last && distance < BACK_UP {
             // So near, an arc ends within tolerance although the angle is large.
             radians(55.0)
         } else {

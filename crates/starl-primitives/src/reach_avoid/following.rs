@@ -126,21 +126,18 @@ impl ReachAvoid {
             return false;
         };
         let body = robot.body();
-        let free = |from: Point, to: Point, slack: f64| {
+        let free = |from: Point, to: Point| {
             let mut obstacles = unsafe_set.iter().chain(known.iter());
-            !obstacles.any(|obstacle| blocks(obstacle, from, to, body, slack))
+            !obstacles.any(|obstacle| blocks(obstacle, from, to, body, 0.0))
         };
         let Options {
             vicinity,
             pass_radius,
             ..
         } = self.options;
-        route.advance(
-            body.reachable(robot.position()),
-            vicinity,
-            pass_radius,
-            free,
-        )
+        let position = body.reachable(robot.position());
+        // At a way-point the way on is the planned one, but for a quarter of the vicinity.
+        route.advance(position, 0.25 * vicinity, pass_radius, free)
     }
 
     /// Feeds the tracker the point to go to now.

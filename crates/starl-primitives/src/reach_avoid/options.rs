@@ -10,7 +10,7 @@ pub struct Options {
     /// for others. At least twice the accuracy of the positioning system. Default 0.075.
     pub vicinity: f64,
     /// A way-point before the last counts as passed at this distance if the way from there to the
-    /// next one is free, otherwise at the vicinity, metres. Default 0.15.
+    /// next one is free, otherwise at a quarter of the vicinity, metres. Default 0.15.
     pub pass_radius: f64,
     /// A robot this far from its path plans again, metres. Default 0.5.
     pub off_path: f64,

@@ -49,17 +49,16 @@ impl Route {
         &self.points
     }
 
-    /// Counts way-points as passed that the robot at `position` has come to: within `near` metres if
-    /// one can go straight on to the next but for half of that, within `wide` metres, or past it and
-    /// within twice that, if one can go straight on for certain; in any case within a quarter of
-    /// `near`. `free` says whether one can go from a point to another, with so many metres of slack.
-    /// Says whether any were passed. The last never is.
+    /// Counts way-points as passed that the robot at `position` has come to: within `wide` metres, or
+    /// past it and within twice that, if one can go straight on to the next; in any case within `near`.
+    /// `free` says whether one can go from a point to another. Says whether any were passed. The last
+    /// never is.
     pub fn advance(
         &mut self,
         position: Point,
         near: f64,
         wide: f64,
-        free: impl Fn(Point, Point, f64) -> bool,
+        free: impl Fn(Point, Point) -> bool,
     ) -> bool {
         let before = self.at;
         while let Some(next) = self.next() {
@@ -67,9 +66,7 @@ impl Route {
             let distance = position.distance(current);
             let past = (position - current).dot(current - from) >= 0.0;
             let reach = if past { 2.0 * wide } else { wide };
-            let passed = distance <= 0.25 * near
-                || distance <= near && free(position, next, 0.5 * near)
-                || distance <= reach && free(position, next, 0.0);
+            let passed = distance <= near || distance <= reach && free(position, next);
             if !passed {
                 break;
             }
