@@ -1,7 +1,7 @@
 //! Which motions would make bodies overlap, and so do not take place.
 //!
-//! A body meets another if their predicted places overlap and are nearer to each other than the
-//! present ones: bodies that overlap already may part. A body that is stopped stays where it was, and
+//! A body meets another if their predicted places overlap, unless the present ones do too and are
+//! nearer to each other: bodies that overlap already may part. A body that is stopped stays where it was, and
 //! may so stop others that counted on its leaving; [`settle`] follows that to its end. It ends since
 //! present places do not overlap and each round stops more bodies.
 
@@ -52,11 +52,12 @@ pub fn first_hit(shared: &Shared, robot: RobotId, next: &[Point], reach: f64) ->
     hit
 }
 
-/// How deep two bodies at new places would overlap, a negative number; none if they do not, or are
-/// moving apart.
+/// How deep two bodies at new places would overlap, a negative number; none if they do not, or overlap
+/// already and are moving apart.
 fn overlap(shared: &Shared, a: RobotId, a_then: Point, b: RobotId, b_then: Point) -> Option<f64> {
     let (first, second) = (&shared.bodies[a.index()], &shared.bodies[b.index()]);
-    let gap = a_then.planar_distance(b_then) - first.radius - second.radius;
+    let reach = first.radius + second.radius;
+    let gap = a_then.planar_distance(b_then) - reach;
     if gap >= 0.0 {
         return None;
     }
@@ -64,7 +65,10 @@ fn overlap(shared: &Shared, a: RobotId, a_then: Point, b: RobotId, b_then: Point
     a_moved.position = a_then;
     b_moved.position = b_then;
     let nearing = a_then.distance(b_then) < first.position.distance(second.position);
-    (nearing && same_height(&a_moved, &b_moved)).then_some(gap)
+    // One that sinks onto another which drives off may enter it while their centres part.
+    let apart = first.position.planar_distance(second.position) >= reach;
+    let entering = nearing || apart || !same_height(first, second);
+    (entering && same_height(&a_moved, &b_moved)).then_some(gap)
 }
 
 /// Stops the robots that run into robots that have been stopped, until there are no more.
