@@ -81,7 +81,12 @@ fn token(text: &str) -> (SyntaxKind, usize) {
         '\r' if text.starts_with("\r\n") => (Newline, 2),
         ' ' | '\t' | '\r' => (Whitespace, whitespace(text)),
         '/' if text.starts_with("//") => (comment(text), to_end_of_line(text)),
-        '/' if text.starts_with("/*") => (Comment, text.find("*/").map_or(text.len(), |at| at + 2)),
+        // One that is not closed must not swallow the rest of the program.
+        '/' if text.starts_with("/*") => (
+            Comment,
+            text.find("*/")
+                .map_or_else(|| to_end_of_line(text), |at| at + 2),
+        ),
         '#' => (Comment, to_end_of_line(text)),
         '"' => quoted::quoted(text, '"'),
         '\'' => quoted::quoted(text, '\''),

@@ -1,0 +1,260 @@
+//! What a program is made of, white space aside: tokens, comments, and declarations with errors as they
+//! are.
+
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use rowan::{NodeOrToken, WalkEvent};
+
+use crate::diagnostic::{Code, Severity, Span};
+use crate::syntax::{Parse, SyntaxElement, SyntaxKind, SyntaxKind::*, SyntaxNode, SyntaxToken};
+
+/// Something that is written, and how it stands in the source.
+pub(super) struct Piece {
+    pub content: Content,
+    /// How many line ends are before it.
+    pub breaks: usize,
+    /// Whether it goes on with what began in a line above.
+    pub continues: bool,
+    /// How many blocks it is in.
+    pub depth: usize,
+    /// If it is the first of a declaration, whether that has a block.
+    pub starts: Option<Declaration>,
+}
+
+/// What is written.
+pub(super) enum Content {
+    /// A token or a comment.
+    Token(SyntaxToken),
+    /// A declaration with errors, as it is.
+    Verbatim(String),
+}
+
+/// What matters of a declaration for the lines around it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Declaration {
+    /// One of a line.
+    Line,
+    /// One with a block, or the header of the file.
+    Block,
+}
+
+/// What may stand at the end of a line without being seen.
+const BLANK: [char; 3] = [' ', '\t', '\r'];
+
+/// The pieces of a program.
+pub(super) fn pieces(parse: &Parse) -> Vec<Piece> {
+    let root = parse.syntax();
+    let mut walk = Walk {
+        pieces: Vec::new(),
+        breaks: 0,
+        in_line: false,
+        depth: 0,
+        starts: None,
+    };
+    let errors = errors(parse, &root);
+    let mut group: Vec<SyntaxElement> = Vec::new();
+    for element in root.children_with_tokens() {
+        let last = match &element {
+            NodeOrToken::Node(node) => node.last_token(),
+            NodeOrToken::Token(token) => Some(token.clone()),
+        };
+        group.push(element);
+        if last.is_some_and(|last| last.kind() == Newline) {
+            walk.group(&group, &errors);
+            group.clear();
+        }
+    }
+    walk.group(&group, &errors);
+    walk.pieces
+}
+
+/// The lines, as parts of the text by rising place, for which it is not known what white space means.
+fn errors(parse: &Parse, root: &SyntaxNode) -> Vec<Span> {
+    let known = [Code::TabIndentation, Code::MissingHeader];
+    let errors = parse
+        .diagnostics()
+        .iter()
+        .filter(|diagnostic| diagnostic.severity() == Severity::Error);
+    let errors = errors
+        .filter(|error| !known.contains(&error.code))
+        .map(|error| error.span);
+    let skipped = root
+        .children()
+        .filter(|node| node.kind() == Error)
+        .map(|node| node.text_range().into());
+    let text = root.text().to_string();
+    let mut lines: Vec<Span> = errors
+        .chain(skipped)
+        .map(|span| whole_lines(span, &text))
+        .collect();
+    lines.sort_unstable();
+    lines.dedup_by(|next, last| {
+        let joined = next.start <= last.end;
+        if joined {
+            last.end = last.end.max(next.end);
+        }
+        joined
+    });
+    lines
+}
+
+fn whole_lines(span: Span, text: &str) -> Span {
+    let start = text[..span.start as usize]
+        .rfind('\n')
+        .map_or(0, |at| at + 1);
+    let rest = &text[span.end as usize..];
+    let end = span.end as usize + rest.find('\n').unwrap_or(rest.len());
+    Span::new(start as u32, end as u32)
+}
+
+fn has_error(node: &SyntaxNode, errors: &[Span]) -> bool {
+    let span = Span::from(node.text_range());
+    let text = node.text().to_string();
+    let end = span.end - (text.len() - text.trim_end_matches(['\n', '\r', ' ']).len()) as u32;
+    let before = errors.partition_point(|error| error.start < end);
+    errors[..before]
+        .last()
+        .is_some_and(|error| error.end >= span.start)
+}
+
+struct Walk {
+    pieces: Vec<Piece>,
+    breaks: usize,
+    /// Whether a line has begun that is not ended.
+    in_line: bool,
+    depth: usize,
+    starts: Option<Declaration>,
+}
+
+impl Walk {
+    /// What stands together on a line, or begins on it.
+    fn group(&mut self, group: &[SyntaxElement], errors: &[Span]) {
+        let is_node = |element: &SyntaxElement| element.as_node().is_some();
+        let first = group.iter().position(is_node);
+        let last = group.iter().rposition(is_node);
+        let mut nodes = group.iter().filter_map(NodeOrToken::as_node);
+        let (Some(first), Some(last), true) =
+            (first, last, nodes.any(|node| has_error(node, errors)))
+        else {
+            return group.iter().for_each(|element| self.element(element));
+        };
+        group[..first]
+            .iter()
+            .for_each(|element| self.element(element));
+        let text: String = group[first..=last]
+            .iter()
+            .map(|element| element.to_string())
+            .collect();
+        self.verbatim(&text);
+        group[last + 1..]
+            .iter()
+            .for_each(|element| self.element(element));
+    }
+
+    fn element(&mut self, element: &SyntaxElement) {
+        let node = match element {
+            NodeOrToken::Node(node) => node,
+            NodeOrToken::Token(token) => return self.token(token.clone()),
+        };
+        for event in node.preorder_with_tokens() {
+            match event {
+                WalkEvent::Enter(NodeOrToken::Node(node)) => self.enter(&node),
+                WalkEvent::Leave(NodeOrToken::Node(node)) => self.leave(&node),
+                WalkEvent::Enter(NodeOrToken::Token(token)) => self.token(token),
+                WalkEvent::Leave(NodeOrToken::Token(_)) => {}
+            }
+        }
+    }
+
+    fn enter(&mut self, node: &SyntaxNode) {
+        match node.kind() {
+            Block | ActionBody | RoleBody => self.depth += 1,
+            ProgramHeader | LibraryHeader | InitDeclaration | ActionDeclaration
+            | HandlerDeclaration | RoleDeclaration => self.starts = Some(Declaration::Block),
+            FunctionDeclaration => {
+                let has_block = node.children().any(|child| child.kind() == Block);
+                self.starts = Some(if has_block {
+                    Declaration::Block
+                } else {
+                    Declaration::Line
+                });
+            }
+            kind if (Import..=PropertyDeclaration).contains(&kind) => {
+                let parent = node.parent().map(|parent| parent.kind());
+                if matches!(parent, Some(SourceFile | RoleBody)) {
+                    self.starts = Some(Declaration::Line);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn leave(&mut self, node: &SyntaxNode) {
+        if matches!(node.kind(), Block | ActionBody | RoleBody) {
+            self.depth -= 1;
+        }
+    }
+
+    fn token(&mut self, token: SyntaxToken) {
+        match token.kind() {
+            Whitespace => {}
+            Newline => {
+                self.breaks += 1;
+                self.in_line = false;
+            }
+            LineBreak => self.breaks += 1,
+            kind => {
+                self.push(Content::Token(token));
+                self.in_line |= !kind.is_trivia();
+            }
+        }
+    }
+
+    /// A declaration as it is; the line ends around it are as everywhere.
+    fn verbatim(&mut self, text: &str) {
+        let is_blank = |character: char| character.is_ascii_whitespace();
+        // Its indentation belongs to it, if it has any.
+        let start = text.len() - text.trim_start_matches(['\n', '\r']).len();
+        self.breaks += text[..start].matches('\n').count();
+        let body = text[start..].trim_end_matches(is_blank);
+        if !body.is_empty() {
+            self.starts = Some(Declaration::Line);
+            self.push(Content::Verbatim(body.into()));
+        }
+        self.breaks += text[start + body.len()..].matches('\n').count();
+        self.in_line = self.breaks == 0;
+    }
+
+    fn push(&mut self, content: Content) {
+        let breaks = core::mem::take(&mut self.breaks);
+        let continues = self.in_line;
+        let starts = self.starts.take();
+        self.pieces.push(Piece {
+            content,
+            breaks,
+            continues,
+            depth: self.depth,
+            starts,
+        });
+    }
+}
+
+impl Content {
+    /// What the token is; nothing for a declaration that stays as it is.
+    pub fn kind(&self) -> Option<SyntaxKind> {
+        match self {
+            Self::Token(token) => Some(token.kind()),
+            Self::Verbatim(_) => None,
+        }
+    }
+
+    /// How it is written.
+    pub fn text(&self) -> &str {
+        match self {
+            Self::Token(token) if token.kind().is_trivia() => token.text().trim_end_matches(BLANK),
+            Self::Token(token) => token.text(),
+            Self::Verbatim(text) => text,
+        }
+    }
+}
