@@ -21,8 +21,9 @@ fn a_slower_rate_is_noticed() {
     }
 }
 
+/// The first gap of its length comes as a surprise, later ones do not.
 #[test]
-fn three_of_ten_estimates_may_be_lost() {
+fn gaps_are_reckoned_with_for_a_while() {
     for model in AGILE {
         for (positioning, seed) in runs(12) {
             let lossy = Positioning {
@@ -30,6 +31,25 @@ fn three_of_ten_estimates_may_be_lost() {
                 ..positioning
             };
             World::new(&circle(model, 8), lossy, seed).must_arrive(240.0);
+        }
+    }
+}
+
+#[test]
+fn half_of_the_estimates_may_be_lost_if_the_options_name_the_gaps() {
+    let options = Options {
+        period: 0.5,
+        ..Options::default()
+    };
+    for model in AGILE {
+        for (positioning, seed) in runs(6) {
+            let lossy = Positioning {
+                loss: 0.5,
+                ..positioning
+            };
+            let scene = circle(model, 8);
+            let mut world = World::with_options(&scene, lossy, seed, Some(options.clone()));
+            world.must_arrive(240.0);
         }
     }
 }

@@ -5,7 +5,7 @@ mod avoidance_world;
 use avoidance_world::scenes::{AGILE, narrow_corridor};
 use avoidance_world::{World, runs};
 
-/// Seconds; the slowest of 600 runs took 560. Which one backs out, and how far, is left to chance.
+/// Seconds; 3 of 2,400 runs took longer. Which one backs out, and how far, is left to chance.
 const BOUND: f64 = 900.0;
 
 #[test]

@@ -1,5 +1,5 @@
-//! Reciprocal avoidance: keeps robots from colliding with each other, and from blocking each other
-//! for ever.
+//! Reciprocal avoidance: keeps robots from colliding with each other and with obstacles, and from
+//! blocking each other for ever.
 //!
 //! Each robot, at each position estimate, confines the point where it can stop to its own buffered
 //! Voronoi cell (Zhou, Wang, Bandyopadhyay and Schwager 2017, "Fast, on-line collision avoidance for
@@ -7,11 +7,12 @@
 //! neighbours: no messages, no agreement, no order among robots.
 //!
 //! Where ours differs: borders lie between the segments in which robots can stop, not between points,
-//! so robots with inertia are covered (`surroundings.rs`); they split the gap between two bodies, not
-//! the distance of their centres; the nearest velocity replaces the paper's receding-horizon
-//! programme (`cell.rs`); heights count (`height.rs`). Against deadlock, robots pass on the right
-//! (`passing.rs`), make way at a contested way-point (`courtesy.rs`), and yield at random when they
-//! get no farther (`yielding.rs`), instead of the paper's fixed right-hand rule.
+//! so robots with inertia are covered, and obstacles are borders too (`surroundings.rs`); borders
+//! split the gap between two bodies, not the distance of their centres; the nearest velocity replaces
+//! the paper's receding-horizon programme (`cell.rs`); robots on wheels and cars are limited by where
+//! they are heading (`drive.rs`); heights count (`height.rs`). Against deadlock, robots pass on the
+//! right (`passing.rs`), make way at a contested way-point (`courtesy.rs`), and yield at random when
+//! they get no farther (`yielding.rs`), instead of the paper's fixed right-hand rule.
 //!
 //! What is guaranteed, and under which assumptions, is in `docs/explanation/avoidance.md`.
 

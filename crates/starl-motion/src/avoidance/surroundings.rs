@@ -3,7 +3,8 @@
 //! The border between two robots splits the gap between their stopping segments: from where a robot is
 //! to where it stops if it brakes now. Both robots judge the same two segments, so both find the same
 //! line between them, and as long as each keeps its segment behind that line they stay apart. It is
-//! the gap between the bodies that is split, so robots of unequal size get equal room.
+//! the gap between the bodies that is split, so robots of unequal size get equal room. An obstacle's
+//! border lies at the obstacle: all the room before it is the robot's own.
 
 use super::cell::{Border, Cell};
 use super::drive::Drive;

@@ -2,11 +2,12 @@
 //!
 //! Cells alone keep robots apart but let them block each other: two that meet head-on, or a crowd
 //! around one way-point, stop at the borders between them. A robot that has made no progress for its
-//! patience while a neighbour was in the way leaves its course for a while: to the side (mostly the
-//! right), or backwards. Direction and time are drawn at random, so robots in the same situation do
-//! different things, and the times grow with every vain attempt, as in Ethernet's back-off (Metcalfe
-//! and Boggs 1976), until some robot has the room it needs. The robot that is nearest to its own
-//! target mostly stands its ground: of robots that want the same point, the others make way.
+//! patience while a neighbour was in the way leaves its course for a while: to the right, or backwards;
+//! a car, which gets nowhere else without shunting, straight on or straight back. Direction and time
+//! are drawn at random, so robots in the same situation do different things, and the times grow with
+//! every vain attempt, as in Ethernet's back-off (Metcalfe and Boggs 1976), until some robot has the
+//! room it needs. The robot that is nearest to its own target mostly stands its ground: of robots that
+//! want the same point, the others make way.
 
 use super::Options;
 use super::cell::Cell;

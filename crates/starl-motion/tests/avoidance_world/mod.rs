@@ -6,13 +6,15 @@
 //! documentation allows. Gaps are measured between true bodies at every step of 10 ms.
 #![allow(dead_code)] // Each test file uses a part.
 
+mod robot;
 pub mod scenes;
 
+pub use robot::Robot;
+
 use starl_core::motion::Estimate;
-use starl_core::{Command, Duration, MotionRequest, Obstacle, Point, Pose, Random, Time, math};
+use starl_core::{Duration, Obstacle, Point, Random, Time, math};
 use starl_motion::avoidance::Options;
-use starl_motion::{Disturbance, Impact, Model, Neighbour, Pilot, State, models};
-use std::sync::Arc;
+use starl_motion::{Disturbance, Impact, Neighbour};
 
 const STEP: Duration = Duration::from_millis(10);
 /// A robot this near to its goal has arrived, metres; that of Race.
@@ -59,61 +61,6 @@ pub fn runs(seeds: u64) -> impl Iterator<Item = (Positioning, u64)> {
         .flat_map(|seed| [0.0, 0.005, 0.01].map(|noise| (Positioning { noise, ..EXACT }, seed)))
 }
 
-/// One robot of a world.
-pub struct Robot {
-    pub model: Arc<dyn Model>,
-    pub state: State,
-    pub goal: Point,
-    pub arrived: bool,
-    pub command: Command,
-    pilot: Pilot,
-    random: Random,
-    phase: u64,
-    seen: Estimate,
-}
-
-impl Robot {
-    /// Sends the robot to a point.
-    pub fn send(&mut self, goal: Point) {
-        self.goal = goal;
-        self.arrived = false;
-        let target = self.model.body().reachable(goal);
-        self.pilot
-            .request(&MotionRequest::Track { target, next: None });
-    }
-
-    /// Makes the robot stand still, which counts as having arrived.
-    pub fn halt(&mut self) {
-        self.pilot.request(&MotionRequest::Halt);
-        self.arrived = true;
-    }
-
-    /// Where it truly is.
-    pub fn position(&self) -> Point {
-        self.state.pose.position
-    }
-
-    /// Free space between its body and another one, metres; infinite if one is above the other.
-    pub fn gap(&self, other: &Robot) -> f64 {
-        let (a, b) = (self.model.body(), other.model.body());
-        let (low, high) = (self.position().z, other.position().z);
-        if low >= high + b.height || high >= low + a.height {
-            return f64::INFINITY;
-        }
-        self.position().planar_distance(other.position()) - a.radius - b.radius
-    }
-
-    fn neighbour(&self) -> Neighbour {
-        let body = self.model.body();
-        Neighbour {
-            position: self.seen.pose.position,
-            velocity: self.seen.twist.linear,
-            radius: body.radius,
-            height: body.height,
-        }
-    }
-}
-
 /// Robots, obstacles and the clock.
 pub struct World {
     pub robots: Vec<Robot>,
@@ -145,25 +92,10 @@ impl World {
     ) -> World {
         let mut random = Random::keyed(seed, &[0]);
         let robots = scene.robots.iter().enumerate().map(|(index, placed)| {
-            let model = models::by_name(placed.model).expect("a model of this name");
             let yaw = random.between(-math::PI, math::PI);
-            let state = model.at_rest(Pose::level(placed.start, yaw));
-            let mut robot = Robot {
-                pilot: Pilot::new(&*model, options.clone()),
-                seen: Estimate {
-                    pose: state.pose,
-                    ..Estimate::default()
-                },
-                random: Random::keyed(seed, &[1, index as u64]),
-                phase: u64::from(random.below(positioning.steps as u32)),
-                command: Command::Stop,
-                arrived: false,
-                goal: placed.goal,
-                model,
-                state,
-            };
-            robot.send(placed.goal);
-            robot
+            let phase = random.below(positioning.steps as u32);
+            let own = Random::keyed(seed, &[1, index as u64]);
+            Robot::new(placed, yaw, u64::from(phase), own, options.clone())
         });
         let robots = robots.collect();
         let first = scene.robots.first().map_or("nobody", |placed| placed.model);
