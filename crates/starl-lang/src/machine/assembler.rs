@@ -67,6 +67,7 @@ pub fn assemble(text: &str) -> Result<Bytecode, AssemblyError> {
     for (index, line) in text.lines().enumerate() {
         assembler.line = index as u32 + 1;
         let line = line.trim();
+        // A text may hold what would begin a comment.
         let result = match line.strip_prefix("text ") {
             Some(quoted) => assembler.text(quoted),
             None => assembler.read(line.split("//").next().unwrap_or("").trim()),

@@ -51,6 +51,11 @@ impl Execution<'_> {
                 || base + WINDOW > self.workspace.scalars.len()
             {
                 if !self.workspace.grow(base, object_base, depth) {
+                    // The call is to blame, not what it calls.
+                    let caller = depth
+                        .checked_sub(1)
+                        .and_then(|top| self.workspace.frames.get(top));
+                    pc = caller.map_or(pc, |frame| frame.position as usize);
                     break 'run Fault::CallDepth;
                 }
                 continue 'run;

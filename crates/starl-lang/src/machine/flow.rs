@@ -15,6 +15,7 @@ use super::types::Layout;
 use super::verify::Tables;
 use super::workspace::{OBJECT_WINDOW, WINDOW};
 use alloc::vec::Vec;
+use core::ops::Range;
 
 /// The type of an object register that was not written.
 const UNWRITTEN: u16 = u16::MAX;
@@ -167,16 +168,20 @@ impl Context<'_> {
     /// A block of this layout is there.
     pub fn reads_block(&self, scalars: u8, objects: u8, layout: &Layout) -> Result<(), Broken> {
         self.reads(scalars, layout.scalars.len())?;
-        for (offset, &kind) in layout.objects.iter().enumerate() {
-            let register = usize::from(objects) + offset;
-            if register >= usize::from(self.function.object_registers) {
-                return Err("an object register is beyond those that the function has");
-            }
-            if self.facts.objects[register] != kind {
-                return Err("an object register does not hold the type that is needed");
-            }
+        let held = &self.facts.objects[self.object_range(objects, layout)?];
+        match held == layout.objects {
+            true => Ok(()),
+            false => Err("an object register does not hold the type that is needed"),
         }
-        Ok(())
+    }
+
+    /// The object registers of a block, which must be there.
+    fn object_range(&self, first: u8, layout: &Layout) -> Result<Range<usize>, Broken> {
+        let range = usize::from(first)..usize::from(first) + layout.objects.len();
+        match range.end <= usize::from(self.function.object_registers) {
+            true => Ok(range),
+            false => Err("an object register is beyond those that the function has"),
+        }
     }
 
     /// A block of this layout is written.
@@ -187,13 +192,8 @@ impl Context<'_> {
         layout: &Layout,
     ) -> Result<(), Broken> {
         self.writes(scalars, layout.scalars.len())?;
-        for (offset, &kind) in layout.objects.iter().enumerate() {
-            let register = usize::from(objects) + offset;
-            if register >= usize::from(self.function.object_registers) {
-                return Err("an object register is beyond those that the function has");
-            }
-            self.facts.objects[register] = kind;
-        }
+        let range = self.object_range(objects, layout)?;
+        self.facts.objects[range].copy_from_slice(&layout.objects);
         Ok(())
     }
 

@@ -97,7 +97,7 @@ instructions! {
     /// to = value.
     Int "int" { to: Out, value: Immediate }
     /// to = a scalar constant.
-    Constant "constant" { to: Out, constant: Constant }
+    Constant "load_constant" { to: Out, constant: Constant }
 
     // The robot's state, scalars.
 
@@ -307,7 +307,7 @@ instructions! {
     // Texts.
 
     /// to = a constant text. A share.
-    Text "text" { to: ObjectOut, constant: Text }
+    Text "load_text" { to: ObjectOut, constant: Text }
     /// text = text, from. Costs the size of `from` over 64.
     AppendText "append_text" { text: ObjectInOut, from: ObjectIn }
     /// text = text, the scalar in text form. Costs 4.
