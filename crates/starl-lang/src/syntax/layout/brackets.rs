@@ -37,7 +37,10 @@ pub(super) fn pairs(text: &str, tokens: &Tokens, diagnostics: &mut Vec<Diagnosti
                         .iter()
                         .rposition(|bracket| tokens.kind(*bracket).closing() == Some(*kind));
                     let Some(partner) = partner else {
-                        diagnostics.push(not_opened(text, tokens.span(index)));
+                        diagnostics.push(match open.pop() {
+                            Some(bracket) => mismatched(text, tokens, bracket, index),
+                            None => not_opened(text, tokens.span(index)),
+                        });
                         continue;
                     };
                     for bracket in open.drain(partner + 1..) {
@@ -69,6 +72,22 @@ fn not_closed(text: &str, tokens: &Tokens, bracket: usize) -> Diagnostic {
         format!("this `{}` is not closed", span.of(text)),
     )
     .expected(format!("`{closing}`"))
+}
+
+fn mismatched(text: &str, tokens: &Tokens, open: usize, close: usize) -> Diagnostic {
+    let (open, kind, close) = (tokens.span(open), tokens.kind(open), tokens.span(close));
+    let right = kind
+        .closing()
+        .and_then(|kind| kind.text())
+        .unwrap_or_default();
+    let message = format!(
+        "this `{}` does not close a `{}`",
+        close.of(text),
+        open.of(text)
+    );
+    Diagnostic::new(Code::UnbalancedBracket, close, message)
+        .label(open, "which is open here")
+        .replace(format!("write `{right}`"), close, right)
 }
 
 fn not_opened(text: &str, span: Span) -> Diagnostic {

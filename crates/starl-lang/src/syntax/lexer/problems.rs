@@ -5,7 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::{SyntaxKind, SyntaxKind::*, Tokens};
-use crate::diagnostic::{Code, Diagnostic, Edit, Mend, Span, closest};
+use crate::diagnostic::{Code, Diagnostic, Span, closest};
 use crate::syntax::literal::{self, UNITS};
 
 /// The problems of the tokens of `text`, in order.
@@ -26,7 +26,7 @@ pub(crate) fn problems(text: &str, tokens: &Tokens) -> Vec<Diagnostic> {
             MalformedNumber => problems.push(malformed_number(span.of(text), span)),
             StringLiteral => string(span.of(text), span, &mut problems),
             MalformedString => problems.push(malformed_string(span.of(text), span)),
-            Comment => problems.extend(comment(span.of(text), span)),
+            Comment => problems.extend(comment(text, span)),
             Unknown => problems.push(unknown(text, span)),
             _ => problems.extend(spelling(*kind, text, span)),
         }
@@ -143,24 +143,20 @@ fn malformed_string(text: &str, span: Span) -> Diagnostic {
 }
 
 fn comment(text: &str, span: Span) -> Option<Diagnostic> {
+    let comment = span.of(text);
     let problem = Diagnostic::new(Code::ForeignComment, span, "a comment starts with `//`");
-    if text.starts_with('#') {
+    if comment.starts_with('#') {
         return Some(problem.replace("write `//`", Span::new(span.start, span.start + 1), "//"));
     }
-    let inner = text.strip_prefix("/*")?;
+    let inner = comment.strip_prefix("/*")?;
     let inner = inner.strip_suffix("*/").unwrap_or(inner).trim();
     let problem = problem.note("there are no comments between `/*` and `*/`");
-    // Only where nothing but the comment is on its lines is it sure that the rest stays the same.
-    let single = !inner.contains('\n');
-    Some(if single {
-        let edit = Edit::new(span, format!("// {inner}"));
-        problem.mend(Mend {
-            message: "write it after `//`".into(),
-            edits: Vec::from([edit]),
-        })
-    } else {
-        problem
-    })
+    // Where more is on its lines, that would become a part of it.
+    let rest = text[span.end as usize..].lines().next().unwrap_or_default();
+    if inner.contains('\n') || !rest.trim().is_empty() {
+        return Some(problem);
+    }
+    Some(problem.replace("write it after `//`", span, format!("// {inner}")))
 }
 
 fn unknown(text: &str, span: Span) -> Diagnostic {
@@ -172,9 +168,6 @@ fn unknown(text: &str, span: Span) -> Diagnostic {
             "`{character}` is not a quotation mark of a program"
         ))
         .replace("write `\"`", span, "\""),
-        '&' => problem("there is no operator `&`".into()).replace("write `and`", span, word("and")),
-        '|' => problem("there is no operator `|`".into()).replace("write `or`", span, word("or")),
-        '~' => problem("there is no operator `~`".into()).replace("write `not`", span, word("not")),
         '^' => problem("there is no operator `^`".into()).note("a power is written `pow(a, b)`"),
         '∀' => problem("`∀` is written `forall`".into()).replace(
             "write `forall`",

@@ -266,11 +266,10 @@ pub(super) fn handler(parser: &mut Parser<'_>) {
     if parser.at(LeftParen) {
         parser.start(HandlerParameterList);
         parser.bump();
-        parser.separated(RightParen, handler_parameter);
-        parser.close(RightParen, open);
+        parser.separated(RightParen, open, handler_parameter);
         parser.finish();
     } else {
-        parser.unexpected("`(`, the sender and the fields, and `)`");
+        parser.unexpected("the sender and the fields in brackets, as in `(from, x)`");
     }
     block::indented(parser, "a handler");
 }

@@ -61,13 +61,14 @@ pub(super) fn opens_block(parser: &mut Parser<'_>, owner: &str) -> bool {
 /// Reports that what is under a header is missing or not indented.
 fn missing(parser: &mut Parser<'_>, owner: &str) {
     let place = Span::empty(parser.end_of_last());
-    let problem = Diagnostic::new(
-        Code::MissingBlock,
-        place,
-        format!("{owner} needs an indented block"),
-    );
+    let message = format!("{owner} needs an indented block");
+    let problem = Diagnostic::new(Code::MissingBlock, place, message);
     let next = parser.nth_span(1);
-    let follows = parser.at(Newline) && !matches!(parser.nth(1), Dedent | EndOfFile);
+    // After an empty line something else begins.
+    let gap = Span::new(place.end, next.start).of(parser.text);
+    let follows = parser.at(Newline)
+        && !matches!(parser.nth(1), Dedent | EndOfFile)
+        && gap.matches('\n').count() == 1;
     parser.last_error = Some(parser.position);
     parser.report(if follows {
         let start = parser.start_of_line(next.start);
@@ -132,13 +133,12 @@ pub(super) fn unexpected_indentation(parser: &mut Parser<'_>, inner: fn(&mut Par
         return parser.finish();
     }
     let message = "this line is indented, but nothing above it opens a block";
-    let mut problem = Diagnostic::new(
-        Code::UnexpectedIndentation,
-        Span::new(start, first.start),
-        message,
-    );
+    let place = Span::new(start, first.start);
+    let problem = Diagnostic::new(Code::UnexpectedIndentation, place, message);
     if joins(parser.nth(1)) {
-        problem = problem.note("a line goes on if it ends in an operator: move this one up");
+        move_operator(parser, problem);
+        parser.skip_block();
+        return parser.finish();
     }
     parser.report(problem);
     let entered = parser.deeper(|parser| {
@@ -149,6 +149,21 @@ pub(super) fn unexpected_indentation(parser: &mut Parser<'_>, inner: fn(&mut Par
         parser.eat(Dedent);
     }
     parser.finish();
+}
+
+/// Reports a line that begins with the operator by which it goes on with the one above.
+fn move_operator(parser: &mut Parser<'_>, problem: Diagnostic) {
+    let (operator, end) = (parser.nth_span(1), parser.end_of_last());
+    let rest = Span::new(operator.start, parser.nth_span(2).start);
+    let text = operator.of(parser.text);
+    let edits = [
+        Edit::new(Span::empty(end), format!(" {text}")),
+        Edit::new(rest, ""),
+    ]
+    .into();
+    let message = format!("move `{text}` to the end of the line above");
+    let problem = problem.note("a line goes on in the next if it ends in an operator");
+    parser.report(problem.mend(Mend { message, edits }));
 }
 
 /// Whether it stands between two operands.

@@ -10,7 +10,7 @@ pub(super) fn arguments(parser: &mut Parser<'_>) -> u32 {
     let mut height = 0;
     parser.start(ArgumentList);
     parser.bump();
-    parser.separated(RightParen, |parser| {
+    parser.separated(RightParen, open, |parser| {
         parser.start(Argument);
         if parser.at(Identifier) && parser.nth(1) == Equal {
             name(parser);
@@ -19,7 +19,6 @@ pub(super) fn arguments(parser: &mut Parser<'_>) -> u32 {
         height = height.max(expression_parsed(parser).height);
         parser.finish();
     });
-    parser.close(RightParen, open);
     parser.finish();
     height + 1
 }
@@ -64,13 +63,12 @@ fn elements(
     let mut height = 0;
     parser.start(kind);
     parser.bump();
-    parser.separated(closing, |parser| {
+    parser.separated(closing, open, |parser| {
         height = height.max(element(parser));
         if parser.at(ForKeyword) {
             height = height.max(comprehension(parser));
         }
     });
-    parser.close(closing, open);
     parser.finish();
     Parsed::new(Shape::Other, height + 1)
 }

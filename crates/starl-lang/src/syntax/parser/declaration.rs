@@ -4,7 +4,7 @@ use alloc::format;
 
 use super::item::{self, name};
 use super::slips::{self, Colon as HeaderColon};
-use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*};
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*};
 use super::{action, block, expression, record, types};
 
 /// Whether the word that is next begins a declaration rather than naming something: another word follows.
@@ -106,16 +106,33 @@ pub(super) fn binding(parser: &mut Parser<'_>) {
     let named = parser.span();
     name(parser);
     parser.bump();
+    let first = parser.current();
     let shape = expression::expression(parser);
-    if !matches!(shape, expression::Shape::Call | expression::Shape::Broken) {
-        let problem = Diagnostic::new(
-            Code::ForeignDeclaration,
-            named,
-            format!("the variable `{}` needs a type", named.of(parser.text)),
-        );
-        let note = "only a primitive is bound without one, as in `motion = ReachAvoid()`";
-        parser.report(problem.expected("`name: Type = value`").note(note));
+    if matches!(shape, expression::Shape::Call | expression::Shape::Broken) {
+        return;
     }
+    let text = named.of(parser.text);
+    let message = format!("the variable `{text}` needs a type");
+    let problem = Diagnostic::new(Code::ForeignDeclaration, named, message)
+        .expected("`name: Type = value`")
+        .note("only a primitive is bound without one, as in `motion = ReachAvoid()`");
+    let place = Span::empty(named.end);
+    parser.report(match type_of(first).filter(|_| parser.at_line_end()) {
+        Some(ty) => problem.replace(format!("write `{text}: {ty}`"), place, format!(": {ty}")),
+        None => problem,
+    });
+}
+
+/// The type of what begins with the literal.
+fn type_of(literal: SyntaxKind) -> Option<&'static str> {
+    Some(match literal {
+        IntegerLiteral => "Int",
+        FloatLiteral | LengthLiteral | AngleLiteral => "Float",
+        DurationLiteral => "Duration",
+        StringLiteral => "String",
+        TrueKeyword | FalseKeyword => "Bool",
+        _ => return None,
+    })
 }
 
 /// `function name(a: T) -> V`, with a block or `= value`.
@@ -133,8 +150,10 @@ pub(super) fn function(parser: &mut Parser<'_>) {
         );
         parser.bump();
         types::any(parser);
-    } else if parser.expect(Arrow) {
+    } else if parser.eat(Arrow) {
         types::any(parser);
+    } else {
+        parser.unexpected("`->` and the type of the result");
     }
     if parser.eat(Equal) {
         expression::expression(parser);
@@ -146,12 +165,13 @@ pub(super) fn function(parser: &mut Parser<'_>) {
 fn parameters(parser: &mut Parser<'_>) {
     let open = parser.span();
     if !parser.at(LeftParen) {
-        return parser.unexpected("`(` and parameters up to `)`");
+        return parser.unexpected("parameters in brackets, as in `(x: Int)`");
     }
     parser.start(ParameterList);
     parser.bump();
-    parser.separated(RightParen, |parser| record::typed_name(parser, Parameter));
-    parser.close(RightParen, open);
+    parser.separated(RightParen, open, |parser| {
+        record::typed_name(parser, Parameter)
+    });
     parser.finish();
 }
 

@@ -85,7 +85,6 @@ pub(super) fn binary(parser: &mut Parser<'_>, least: u8) -> Parsed {
 
 fn binary_here(parser: &mut Parser<'_>, least: u8) -> Parsed {
     let start = parser.checkpoint();
-    let from = parser.span().start;
     let mut left = match prefix(parser, start) {
         Some(parsed) => parsed,
         None => postfix(parser, start),
@@ -97,6 +96,9 @@ fn binary_here(parser: &mut Parser<'_>, least: u8) -> Parsed {
             return Parsed::BROKEN;
         }
         let (kind, span) = (parser.current(), parser.span());
+        if kind == Minus && parser.nth(1) == Minus && ends_line(parser.nth(2)) {
+            return left;
+        }
         if kind == Equal {
             slip_equal(parser, span);
         }
@@ -113,7 +115,7 @@ fn binary_here(parser: &mut Parser<'_>, least: u8) -> Parsed {
         parser.start_at(start, BinaryExpression);
         parser.finish();
         compared = (power == power::COMPARISON).then_some(operand);
-        let is_equality = kind == EqualEqual && parser.text.get(from as usize..).is_some();
+        let is_equality = kind == EqualEqual;
         let shape = match right.shape {
             Shape::Broken => Shape::Broken,
             _ if is_equality && matches!(left.shape, Shape::Target) => Shape::Equality(span),
@@ -122,6 +124,11 @@ fn binary_here(parser: &mut Parser<'_>, least: u8) -> Parsed {
         left = Parsed::new(shape, left.height.max(right.height) + 1);
     }
     left
+}
+
+/// Whether a statement is over when this is next.
+fn ends_line(kind: SyntaxKind) -> bool {
+    matches!(kind, Newline | Semicolon | Dedent | EndOfFile | ElseKeyword)
 }
 
 /// The powers of the operator that is next, and of its right operand.

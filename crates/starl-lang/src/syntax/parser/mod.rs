@@ -59,11 +59,16 @@ pub(crate) fn parse(
     parser.builder.finish()
 }
 
+/// Where the brackets start that are reported already.
 fn unpaired(diagnostics: &[Diagnostic]) -> Vec<u32> {
     let unbalanced = diagnostics
         .iter()
         .filter(|diagnostic| diagnostic.code == Code::UnbalancedBracket);
-    let mut starts: Vec<u32> = unbalanced.map(|diagnostic| diagnostic.span.start).collect();
+    let spans = |diagnostic: &Diagnostic| {
+        let labels: Vec<Span> = diagnostic.labels.iter().map(|label| label.span).collect();
+        labels.into_iter().chain([diagnostic.span])
+    };
+    let mut starts: Vec<u32> = unbalanced.flat_map(spans).map(|span| span.start).collect();
     starts.sort_unstable();
     starts
 }
@@ -256,6 +261,7 @@ impl<'a> Parser<'a> {
     fn unexpected(&mut self, expected: &str) {
         let start = self.span().start;
         let known = self.unpaired.binary_search(&start).is_ok() && !self.at_line_end();
+        let known = known || self.follows_unknown();
         if self.last_error.replace(self.position) == Some(self.position) || known {
             return;
         }
@@ -274,6 +280,16 @@ impl<'a> Parser<'a> {
                 .expected(expected)
                 .found(found),
         );
+    }
+
+    /// Whether a character without meaning, which is reported, is right before what comes next.
+    fn follows_unknown(&self) -> bool {
+        let next = self
+            .lexemes
+            .get(self.position)
+            .map_or(self.tokens.len(), |lexeme| lexeme.index as usize);
+        let mut before = (0..next).rev().map(|index| self.tokens.kind(index));
+        before.find(|kind| *kind != Whitespace) == Some(Unknown)
     }
 
     /// What the next lexeme is called where a person is told of it.

@@ -14,15 +14,14 @@ pub(super) fn enumeration(parser: &mut Parser<'_>) {
 pub(super) fn variants(parser: &mut Parser<'_>) {
     let open = parser.span();
     if !parser.at(LeftBrace) {
-        return parser.unexpected("`{` and the names of its values");
+        return parser.unexpected("its values in braces, as in `{a, b}`");
     }
     parser.start(VariantList);
     parser.bump();
     if parser.at(RightBrace) {
         parser.unexpected("a name");
     }
-    parser.separated(RightBrace, name);
-    parser.close(RightBrace, open);
+    parser.separated(RightBrace, open, name);
     parser.finish();
 }
 
@@ -43,16 +42,16 @@ pub(super) fn message(parser: &mut Parser<'_>) {
 fn fields(parser: &mut Parser<'_>, opening: SyntaxKind, closing: SyntaxKind) {
     let open = parser.span();
     if !parser.at(opening) {
-        let closing = closing.text().unwrap_or_default();
-        return parser.unexpected(&alloc::format!(
-            "{} and fields up to `{closing}`",
-            opening.name()
-        ));
+        let form = if opening == LeftParen {
+            "`(x: Int)`"
+        } else {
+            "`{x: Int}`"
+        };
+        return parser.unexpected(&alloc::format!("fields in brackets, as in {form}"));
     }
     parser.start(FieldList);
     parser.bump();
-    parser.separated(closing, |parser| typed_name(parser, Field));
-    parser.close(closing, open);
+    parser.separated(closing, open, |parser| typed_name(parser, Field));
     parser.finish();
 }
 

@@ -80,26 +80,38 @@ impl Parser<'_> {
     /// Takes the closing bracket for the opening one at `open`, or reports that it is missing, unless
     /// that is known.
     pub fn close(&mut self, kind: SyntaxKind, open: Span) {
+        let is_known = |start: u32, parser: &Self| parser.unpaired.binary_search(&start).is_ok();
         if self.at(kind) {
             self.bump();
-        } else if self.unpaired.binary_search(&open.start).is_err() {
+        } else if !is_known(open.start, self) {
             self.unexpected(kind.name());
+        } else if self.current().is_closing() && is_known(self.span().start, self) {
+            // The wrong one in its place.
+            self.bump();
         }
     }
 
-    /// Elements with commas between them, to the closing bracket; an end of line ends them too.
-    pub fn separated(&mut self, closing: SyntaxKind, mut element: impl FnMut(&mut Self)) {
-        while !self.at(closing) && !self.at_line_end() {
+    /// Elements with commas between them, from after the opening bracket at `open` to the closing one. If
+    /// there is none, the end of the line is the end.
+    pub fn separated(
+        &mut self,
+        closing: SyntaxKind,
+        open: Span,
+        mut element: impl FnMut(&mut Self),
+    ) {
+        let is_paired = self.unpaired.binary_search(&open.start).is_err();
+        while !self.current().is_closing() && !self.at_line_end() {
             let before = self.position;
             element(self);
+            if is_paired && self.at(Semicolon) {
+                self.semicolon();
+                continue;
+            }
             if self.eat(Comma) {
                 continue;
             }
-            if self.at(closing) || self.at_line_end() {
-                return;
-            }
-            if self.current().is_closing() {
-                return;
+            if self.current().is_closing() || self.at_line_end() {
+                break;
             }
             self.missing_comma(closing);
             if self.position == before || !self.starts_operand() {
@@ -107,6 +119,21 @@ impl Parser<'_> {
                 self.eat(Comma);
             }
         }
+        self.close(closing, open);
+    }
+
+    /// Takes a semicolon that stands for a comma.
+    fn semicolon(&mut self) {
+        let span = self.span();
+        let problem = Diagnostic::new(
+            Code::Unexpected,
+            span,
+            "a comma parts what stands in brackets",
+        );
+        self.report(problem.replace("write `,`", span, ","));
+        self.start(Error);
+        self.bump();
+        self.finish();
     }
 
     fn missing_comma(&mut self, closing: SyntaxKind) {
@@ -147,8 +174,8 @@ impl Parser<'_> {
             let problem = Diagnostic::new(Code::TooDeep, self.span(), "this is nested too deeply");
             self.report(problem.note("split it, with `let` or a function"));
         }
-        self.last_error = Some(self.position);
         self.skip_line_and_block();
+        self.last_error = Some(self.position);
     }
 
     /// What indents the lines from the one with the byte `from` to the one with the byte before `to`.

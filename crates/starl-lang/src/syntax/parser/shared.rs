@@ -3,7 +3,7 @@
 use alloc::format;
 
 use super::item::name;
-use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, declaration, types};
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, declaration, slips, types};
 
 /// `allread name[RobotId]: Type`: one element for each robot, which only that robot writes.
 pub(super) fn all_read(parser: &mut Parser<'_>) {
@@ -48,18 +48,16 @@ fn word_and_name(parser: &mut Parser<'_>) {
 
 /// Koord's `allwrite int sum`.
 fn type_first(parser: &mut Parser<'_>) {
-    let span = parser.span();
-    let problem = Diagnostic::new(
-        Code::ForeignDeclaration,
-        span,
-        "the type of a variable stands after its name",
-    );
+    let (word, named) = (parser.span(), parser.nth_span(1));
+    let both = word.to(named);
+    let message = "the type of a variable stands after its name";
+    let problem = Diagnostic::new(Code::ForeignDeclaration, both, message);
     let form = format!(
-        "such as `{}: {}`",
-        parser.nth_span(1).of(parser.text),
-        parser.word()
+        "{}: {}",
+        named.of(parser.text),
+        slips::type_of(parser.word())
     );
-    parser.report(problem.note(form));
+    parser.report(problem.replace(format!("write `{form}`"), both, form));
     types::any(parser);
 }
 
@@ -91,10 +89,10 @@ fn typed(parser: &mut Parser<'_>) {
     if parser.at(Colon) {
         parser.bump();
         types::any(parser);
-    } else if !parser
+    } else if parser
         .diagnostics
         .last()
-        .is_some_and(|last| last.code == Code::ForeignDeclaration)
+        .is_none_or(|last| last.code != Code::ForeignDeclaration)
     {
         parser.expect(Colon);
     }

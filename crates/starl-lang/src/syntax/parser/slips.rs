@@ -89,7 +89,7 @@ fn is_untyped(word: &str) -> bool {
 }
 
 /// The type that other languages call so.
-fn type_of(word: &str) -> &str {
+pub(super) fn type_of(word: &str) -> &str {
     match word {
         "int" | "long" | "Integer" => "Int",
         "float" | "double" | "Double" => "Float",

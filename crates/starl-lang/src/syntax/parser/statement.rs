@@ -232,7 +232,11 @@ fn expression_or_assignment(parser: &mut Parser<'_>) {
             parser.start_at(start, AssignStatement);
         }
         PlusPlus => {
-            step(parser, whole);
+            step(parser, whole, "+");
+            parser.start_at(start, ExpressionStatement);
+        }
+        Minus => {
+            step(parser, whole, "-");
             parser.start_at(start, ExpressionStatement);
         }
         _ => {
@@ -269,15 +273,20 @@ fn assignment(parser: &mut Parser<'_>, target: Span) {
     parser.report(problem.replace(form, span.to(operand), mend));
 }
 
-/// `x++`.
-fn step(parser: &mut Parser<'_>, target: Span) {
-    let span = parser.span();
-    let form = format!("write `{} += 1`", target.of(parser.text));
-    let place = Span::new(target.end, span.end);
-    super::slips::foreign_operator(parser, place, "there is no operator `++`", (&form, " += 1"));
+/// `x++` or `x--`.
+fn step(parser: &mut Parser<'_>, target: Span, sign: &str) {
+    let mut span = parser.span();
     parser.start(Error);
     parser.bump();
+    if sign == "-" {
+        span = span.to(parser.span());
+        parser.bump();
+    }
     parser.finish();
+    let form = format!("write `{} {sign}= 1`", target.of(parser.text));
+    let place = Span::new(target.end, span.end);
+    let message = format!("there is no operator `{sign}{sign}`");
+    slips::foreign_operator(parser, place, &message, (&form, &format!(" {sign}= 1")));
 }
 
 fn check_target(parser: &mut Parser<'_>, shape: Shape, span: Span) {

@@ -52,8 +52,7 @@ fn arguments(parser: &mut Parser<'_>) {
     if parser.at(RightBracket) {
         parser.unexpected("a type");
     }
-    parser.separated(RightBracket, any);
-    parser.close(RightBracket, open);
+    parser.separated(RightBracket, open, any);
     parser.finish();
 }
 
