@@ -23,7 +23,8 @@ pub enum Colour {
 /// `name` is what the file is called there.
 #[must_use]
 pub fn render(name: &str, source: &str, diagnostics: &[Diagnostic], colour: Colour) -> String {
-    let file = SimpleFile::new(name, source);
+    let visible = visible(source);
+    let file = SimpleFile::new(name, visible.as_str());
     let config = Config {
         tab_width: 4,
         ..Config::default()
@@ -44,6 +45,22 @@ pub fn render(name: &str, source: &str, diagnostics: &[Diagnostic], colour: Colo
         text.push_str(&part.unwrap_or_else(|| format!("{}: {}\n", shown.message, name)));
     }
     text
+}
+
+/// The source with a sign in the place of each character that would not be seen, or that would change
+/// what a terminal does, of the same length in bytes.
+fn visible(source: &str) -> String {
+    let sign = |character: char| match character {
+        '\n' | '\r' | '\t' => character,
+        '\u{202a}'..='\u{202e}'
+        | '\u{2066}'..='\u{2069}'
+        | '\u{200b}'..='\u{200f}'
+        | '\u{feff}' => '\u{fffd}',
+        _ if character.is_control() && character.len_utf8() == 1 => '?',
+        _ if character.is_control() => '\u{bf}',
+        _ => character,
+    };
+    source.chars().map(sign).collect()
 }
 
 fn shown(diagnostic: &Diagnostic, source: &str) -> Shown<()> {
