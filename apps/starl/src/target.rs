@@ -5,7 +5,8 @@ use crate::failure::Failure;
 use crate::output::reason;
 use starl_catalog::examples::{self, EXAMPLES};
 use starl_sim::read::{Loader, Override, Request, Resolved, Source, suggest};
-use std::fs;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// Reads the scenario that the arguments name, checked to its last field, programs included.
@@ -75,8 +76,8 @@ fn find(target: &str) -> Result<(Source, Box<dyn Loader>), Failure> {
 }
 
 fn text(path: &Path) -> Result<String, Failure> {
-    let bytes = fs::read(path)
-        .map_err(|error| Failure::file(path, format!("cannot be read: {}", reason(&error))))?;
+    let bytes =
+        bytes(path).map_err(|error| Failure::file(path, format!("cannot be read: {error}")))?;
     String::from_utf8(bytes).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
@@ -87,11 +88,28 @@ fn text(path: &Path) -> Result<String, Failure> {
     })
 }
 
+/// Larger files are no scenarios, world files or images.
+const LARGEST_FILE: u64 = 256 << 20;
+
+fn bytes(path: &Path) -> Result<Vec<u8>, String> {
+    let read = || {
+        let mut bytes = Vec::new();
+        let file = File::open(path)?;
+        file.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    };
+    let bytes = read().map_err(|error: io::Error| reason(&error))?;
+    match bytes.len() as u64 > LARGEST_FILE {
+        true => Err("it is larger than 256 MiB".to_string()),
+        false => Ok(bytes),
+    }
+}
+
 /// Brings files from the scenario's folder.
 struct Folder(PathBuf);
 
 impl Loader for Folder {
     fn load(&self, path: &str) -> Result<Vec<u8>, String> {
-        fs::read(self.0.join(path)).map_err(|error| reason(&error))
+        bytes(&self.0.join(path))
     }
 }

@@ -222,3 +222,18 @@ fn commands_that_do_not_exist_are_refused() {
         assert!(!stderr(&output).is_empty(), "{arguments:?}");
     }
 }
+
+#[test]
+#[cfg(unix)]
+fn files_without_end_are_not_read_to_it() {
+    let folder = folder("files_without_end");
+    refused(&folder, &["run", "/dev/zero"], &["/dev/zero", "256 MiB"]);
+    let text =
+        "program = \"race\"\nworld.files = [\"/dev/zero\"]\n[[robots]]\nmodel = \"create\"\n";
+    file(&folder, "endless.toml", text);
+    refused(
+        &folder,
+        &["run", "endless.toml"],
+        &["endless.toml:2", "256 MiB"],
+    );
+}

@@ -117,7 +117,8 @@ pub enum Event {
 pub enum DropReason {
     /// Lost at random.
     Loss,
-    /// The receiver is out of radio range.
+    /// The receiver is out of radio range or of sight, or does not exist. Receivers out of range of a
+    /// message to all are not told of.
     Range,
     /// Sender and receiver are in different parts of a partition.
     Partition,

@@ -45,6 +45,10 @@ pub fn route(
         log.record(digest, from, outgoing.at.min(window.to), event);
     };
     let mut offer = |to: RobotId| {
+        if network.line_of_sight && occluded(shared, from, to) {
+            lost(to, DropReason::Range);
+            return;
+        }
         if shared.parted(from, to) {
             lost(to, DropReason::Partition);
             return;
@@ -77,31 +81,24 @@ pub fn route(
         }
     };
     match (outgoing.destination, network.range) {
-        (Destination::Robot(to), _) if to.index() >= shared.bodies.len() => {}
         (Destination::Robot(to), range) => {
-            if range.is_some_and(|range| apart(shared, from, to) > range)
-                || (network.line_of_sight && occluded(shared, from, to))
-            {
-                lost(to, DropReason::Range);
-            } else {
+            let exists = to.index() < shared.bodies.len();
+            if exists && range.is_none_or(|range| apart(shared, from, to) <= range) {
                 offer(to);
+            } else {
+                lost(to, DropReason::Range);
             }
         }
         (Destination::All, None) => {
-            for &to in shared.fleet.iter().filter(|&&to| to != from) {
-                if !(network.line_of_sight && occluded(shared, from, to)) {
-                    offer(to);
-                }
-            }
+            let others = shared.fleet.iter().filter(|&&to| to != from);
+            others.copied().for_each(offer);
         }
+        // Who is out of range of a message to all is not listed: that may be nearly everyone.
         (Destination::All, Some(range)) => {
             let center = shared.bodies[from.index()].position;
             shared.grid.for_each_within(center, range, |entry| {
                 let to = entry.robot();
-                if to != from
-                    && apart(shared, from, to) <= range
-                    && !(network.line_of_sight && occluded(shared, from, to))
-                {
+                if to != from && apart(shared, from, to) <= range {
                     offer(to);
                 }
             });

@@ -8,25 +8,41 @@ use starl_core::{Duration, Time};
 /// What breaks during a run of this duration, and when.
 pub(super) fn read(root: Section<'_>, names: &Names, duration: Duration) -> Faults {
     let schedule = root.tables("fault", |table| fault(table, names, duration));
-    let rates = root.table("fault_rates", rates);
+    let rates = root.table("fault_rates", |table| rates(table, names.count(), duration));
     Faults {
         schedule: schedule.into_iter().flatten().collect(),
         rates,
     }
 }
 
-fn rates(table: Section<'_>) -> FaultRates {
+/// A run whose rates promise more faults than this is refused: they are drawn before it starts.
+const MOST_FAULTS: f64 = 1e6;
+
+fn rates(table: Section<'_>, robots: u64, duration: Duration) -> FaultRates {
+    let rate = |field: &str, subjects: u64| {
+        let rate = table.number(field);
+        let expected = rate * subjects as f64 * duration.seconds();
+        if expected > MOST_FAULTS {
+            let message = format!("brings about some {expected:.0} faults in {duration}");
+            table.problem(
+                field,
+                message,
+                "give a rate that brings about at most a million",
+            );
+        }
+        rate
+    };
     FaultRates {
-        crash: table.number("crash"),
+        crash: rate("crash", robots),
         restart_after: table
             .optional_duration("restart_after")
             .unwrap_or(Duration::ZERO),
-        partition: table.number("partition"),
+        partition: rate("partition", 1),
         heal_after: table.duration("heal_after"),
-        stuck_motor: table.number("stuck_motor"),
-        frozen_sensor: table.number("frozen_sensor"),
+        stuck_motor: rate("stuck_motor", robots),
+        frozen_sensor: rate("frozen_sensor", robots),
         repair_after: table.duration("repair_after"),
-        corrupt_state: table.number("corrupt_state"),
+        corrupt_state: rate("corrupt_state", robots),
     }
 }
 

@@ -98,6 +98,11 @@ impl Names {
         self.groups.iter().find_map(shared)
     }
 
+    /// How many robots there are.
+    pub fn count(&self) -> u64 {
+        self.total.into()
+    }
+
     /// The robot of this name.
     pub fn find(&self, name: &str) -> Option<RobotId> {
         self.groups.iter().find_map(|group| {

@@ -1,6 +1,6 @@
 //! Turns a node of the tree into what its field holds, or says why it is not that.
 
-use super::schema::{Dimension, Kind, Range, model_names};
+use super::schema::{Dimension, Kind, LEAST_PERIOD, Range, model_names};
 use super::suggest;
 use super::tree::{Node, Value};
 use super::unit::Quantity;
@@ -160,6 +160,9 @@ pub(super) fn quantity(node: &Node, dimension: Dimension, range: Range) -> Resul
             format!("{described} is not above zero"),
             "give a positive one",
         ),
+        Range::Period if si < LEAST_PERIOD => {
+            complain(format!("{described} is too short"), "give 100us or more")
+        }
         Range::NotNegative if si < 0.0 => {
             complain(format!("{described} is negative"), "give zero or more")
         }

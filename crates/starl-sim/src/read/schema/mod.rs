@@ -49,7 +49,12 @@ pub enum Range {
     NotNegative,
     /// Above zero.
     Positive,
+    /// A span of time that is not so short that a run in such steps would never end.
+    Period,
 }
+
+/// The least [`Range::Period`], seconds.
+pub const LEAST_PERIOD: f64 = 1e-4;
 
 /// What a field holds.
 #[derive(Clone, Copy, Debug)]
@@ -134,8 +139,8 @@ const CORNERS: &[Field] = &[
     ),
 ];
 
-/// A duration above zero.
-const PERIOD: Kind = Kind::Quantity(Dimension::Time, Range::Positive);
+/// A duration to be spent, or between two events.
+const PERIOD: Kind = Kind::Quantity(Dimension::Time, Range::Period);
 /// A duration.
 const TIME: Kind = Kind::Quantity(Dimension::Time, Range::NotNegative);
 /// A length above zero.
@@ -161,6 +166,7 @@ impl Kind {
             Range::Any => "",
             Range::NotNegative => ", at least 0",
             Range::Positive => ", above 0",
+            Range::Period => ", at least 100us",
         };
         match self {
             Kind::Text => "text".to_string(),
