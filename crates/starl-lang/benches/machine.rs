@@ -1,4 +1,6 @@
-//! How fast the machine runs, on the programs that `tools/bench_lua.sh` runs in Lua beside it.
+//! How fast the machine runs, on the programs that `tools/bench_lua.sh` runs in Lua beside it,
+//!
+//! and a fleet that runs the small race of the tests.
 //!
 //! `cargo bench -p starl-lang --bench machine` prints each program's best and median milliseconds.
 
@@ -7,7 +9,12 @@
     reason = "a benchmark reads the clock, nothing else does"
 )]
 
-use starl_lang::machine::{Fault, Host, HostCall, Import, Limits, Machine, Program, Workspace, assemble};
+#[path = "../tests/machine_support/mod.rs"]
+mod machine_support;
+
+use starl_lang::machine::{
+    Fault, Host, HostCall, Import, Limits, Machine, Program, State, Workspace, assemble,
+};
 use std::borrow::Cow;
 use std::time::Instant;
 
@@ -54,7 +61,10 @@ fn measure(program: &Program, name: &str, function: u32, argument: u64, expected
             let start = Instant::now();
             let result = machine.call(function, &[argument], &[]).map(|(r, _)| r[0]);
             let elapsed = start.elapsed().as_secs_f64() * 1e3;
-            assert_eq!(result.map_err(|error| error.fault), Ok::<u64, Fault>(expected));
+            assert_eq!(
+                result.map_err(|error| error.fault),
+                Ok::<u64, Fault>(expected)
+            );
             elapsed
         })
         .collect();
@@ -66,10 +76,41 @@ fn measure(program: &Program, name: &str, function: u32, argument: u64, expected
     );
 }
 
+/// Activations of many robots that are on their way, one workspace for all of them.
+fn measure_fleet(robots: usize) {
+    let program = machine_support::program(machine_support::RACE);
+    let mut host = machine_support::TestHost::default();
+    let mut workspace = Workspace::new();
+    let mut states: Vec<State> = (0..robots).map(|_| program.new_state()).collect();
+    let mut activate = |states: &mut [State], actions: &[u32]| {
+        let start = Instant::now();
+        for state in states {
+            let limits = Limits::default();
+            let mut machine = Machine::new(&program, state, &mut workspace, &mut host, limits);
+            for &action in actions {
+                machine.action(action).expect("the race has no errors");
+            }
+        }
+        start.elapsed().as_secs_f64() * 1e9 / robots as f64
+    };
+    let started = activate(&mut states, &[0, 1]);
+    let mut times: Vec<f64> = (0..21).map(|_| activate(&mut states, &[0, 1])).collect();
+    times.sort_by(f64::total_cmp);
+    let bytes = states.iter().map(State::bytes).max().unwrap_or(0);
+    println!(
+        "{robots} robots, Race: {:.0} ns each to begin, then best {:.0} and median {:.0} ns an \
+         activation; {bytes} bytes of state",
+        started,
+        times[0],
+        times[times.len() / 2]
+    );
+}
+
 fn main() {
     let bytecode = assemble(PROGRAM).expect("the program is well written");
     let program = Program::load(bytecode, &|_: &Import| None).expect("the program is valid");
     measure(&program, "loop of 2,000,000", 0, 2_000_000, 5_999_995);
     measure(&program, "fib 22", 1, 22, 17_711);
     measure(&program, "fib 30", 1, 30, 832_040);
+    measure_fleet(100_000);
 }

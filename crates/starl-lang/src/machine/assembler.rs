@@ -10,10 +10,12 @@
 //! type List[Point]
 //! constant 0.075
 //! text "arrived"
+//! parameter vicinity Float
 //! variable target type0
 //! import position query () (Point)
 //! import emit (type1) () labels index
 //! primitive motion ReachAvoid
+//! defaults f9
 //! start f0
 //! action pick f1 f2
 //! handler Reached f3
@@ -116,9 +118,13 @@ impl Assembler {
             "enum" => self.enumeration(&mut cursor),
             "type" => cursor.object().map(|o| self.bytecode.types.push(o)),
             "constant" => constant(&mut cursor).map(|c| self.bytecode.constants.push(c)),
-            "variable" => self.variable(&mut cursor),
+            "variable" => self.variable(&mut cursor, false),
+            "parameter" => self.variable(&mut cursor, true),
             "import" => self.import(&mut cursor),
             "primitive" => self.primitive(&mut cursor),
+            "defaults" => cursor
+                .numbered("f")
+                .map(|f| self.bytecode.defaults = Some(f)),
             "start" => cursor.numbered("f").map(|f| self.bytecode.start = Some(f)),
             "action" => self.action(&mut cursor),
             "handler" => self.handler(&mut cursor),
@@ -171,10 +177,14 @@ impl Assembler {
         Some(())
     }
 
-    fn variable(&mut self, cursor: &mut Cursor<'_>) -> Option<()> {
+    fn variable(&mut self, cursor: &mut Cursor<'_>, parameter: bool) -> Option<()> {
         let name = cursor.word()?.into();
         let kind = cursor.kind(0)?;
-        self.bytecode.variables.push(Variable { name, kind });
+        self.bytecode.variables.push(Variable {
+            name,
+            kind,
+            parameter,
+        });
         Some(())
     }
 

@@ -41,7 +41,12 @@ fn declarations(out: &mut String, bytecode: &Bytecode) -> fmt::Result {
         writeln!(out, "text {text:?}")?;
     }
     for variable in &bytecode.variables {
-        writeln!(out, "variable {} {}", variable.name, variable.kind)?;
+        let declared = if variable.parameter {
+            "parameter"
+        } else {
+            "variable"
+        };
+        writeln!(out, "{declared} {} {}", variable.name, variable.kind)?;
     }
     for import in &bytecode.imports {
         let query = if import.query { " query" } else { "" };
@@ -61,6 +66,9 @@ fn declarations(out: &mut String, bytecode: &Bytecode) -> fmt::Result {
 }
 
 fn entry_points(out: &mut String, bytecode: &Bytecode) -> fmt::Result {
+    if let Some(defaults) = bytecode.defaults {
+        writeln!(out, "defaults f{defaults}")?;
+    }
     if let Some(start) = bytecode.start {
         writeln!(out, "start f{start}")?;
     }

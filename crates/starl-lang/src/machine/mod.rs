@@ -11,6 +11,7 @@
 //! else is kept from one activation to the next.
 
 mod assembler;
+mod codec;
 mod collections;
 mod disassembler;
 mod error;
@@ -33,6 +34,7 @@ mod texts;
 mod type_text;
 mod types;
 mod value;
+mod variables;
 mod verify;
 mod view;
 mod workspace;

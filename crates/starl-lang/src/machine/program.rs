@@ -35,8 +35,11 @@ pub struct Bytecode {
     pub variables: Vec<Variable>,
     /// Functions, in the order of their code.
     pub functions: Vec<Function>,
-    /// A procedure without arguments and results that runs once, before anything else: it gives
-    /// variables their values and binds primitives, then runs the program's `init`.
+    /// A procedure without arguments and results that gives parameters their default values. The
+    /// host may then give them others, before the start.
+    pub defaults: Option<u32>,
+    /// A procedure without arguments and results that runs once: it gives variables their values and
+    /// binds primitives, then runs the program's `init`.
     pub start: Option<u32>,
     /// Actions in the order of the text.
     pub actions: Vec<Action>,
@@ -66,6 +69,8 @@ pub struct Variable {
     pub name: String,
     /// Its type.
     pub kind: Type,
+    /// Whether the host may give it a value before the start.
+    pub parameter: bool,
 }
 
 /// An enum.

@@ -72,6 +72,15 @@ impl<'a> Machine<'a> {
         self.execution.state
     }
 
+    /// Gives parameters their default values. Others may then be put into the state, see
+    /// [`Program::set`], before the start.
+    pub fn defaults(&mut self) -> Result<(), RuntimeError> {
+        match self.execution.program.bytecode.defaults {
+            Some(defaults) => self.call(defaults, &[], &[]).map(|_| ()),
+            None => Ok(()),
+        }
+    }
+
     /// Gives variables their values, binds primitives and runs the program's `init`.
     pub fn start(&mut self) -> Result<(), RuntimeError> {
         match self.execution.program.bytecode.start {

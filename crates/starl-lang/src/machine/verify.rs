@@ -173,7 +173,7 @@ fn functions(bytecode: &Bytecode, tables: &Tables) -> Result<(), LoadError> {
 
 /// Entry points are functions of the right kind, arguments and results.
 fn entry_points(bytecode: &Bytecode) -> Result<(), LoadError> {
-    if let Some(start) = bytecode.start {
+    for start in [bytecode.defaults, bytecode.start].into_iter().flatten() {
         let start = function(bytecode, start, FunctionKind::Procedure)?;
         check(
             start.arguments.is_empty() && start.results.is_empty(),

@@ -24,8 +24,11 @@ variable here Point
 variable loc enum0
 variable numbers type1
 variable notes type10
+parameter places type3
+parameter limit Duration?
 import position query () (Point)
 import emit (Int, type0) () labels index
+defaults f6
 start f5
 
 function scalars function (Int, Int) (Int) registers 20 objects 0
@@ -222,4 +225,10 @@ function start procedure () () registers 40 objects 20
     list_add b18 r32 b0 type3
     polygon b19 b18
     return #0 #20
+
+function defaults procedure () () registers 1 objects 0
+    int r0 0
+    store v5 r0
+    store v6 r0
+    return #0 #0
 "#;
