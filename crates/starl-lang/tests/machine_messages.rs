@@ -143,7 +143,7 @@ fn wrong_bytes_are_refused() {
     let program = program(TYPES);
     let refused = |kind: Type, bytes: &[u8]| {
         assert_eq!(
-            program.decode(&[kind.clone()], bytes),
+            program.decode(std::slice::from_ref(&kind), bytes),
             None,
             "{kind} {bytes:?}"
         );

@@ -7,11 +7,12 @@
 use super::error::{Fault, RuntimeError};
 use super::host::Host;
 use super::instruction::Instruction;
+use super::object::{Body, Object};
 use super::operand::{PointIn, PointOut};
 use super::program::Program;
 use super::scalar;
 use super::state::State;
-use super::view::{Meter, View};
+use super::view::{Meter, View, object_at, object_at_mut};
 use super::workspace::{Frame, OBJECT_WINDOW, WINDOW, Workspace};
 use starl_core::{Point, RobotId};
 
@@ -119,6 +120,15 @@ impl Execution<'_> {
                         None => break 'run Fault::OutOfFuel,
                     }
                 };
+            }
+            macro_rules! object_instruction {
+                ($instruction:expr) => {{
+                    match self.object_instruction($instruction, base, object_base) {
+                        Ok(cost) => spend!(cost),
+                        Err(fault) => break 'run fault,
+                    }
+                    continue 'run;
+                }};
             }
             macro_rules! leave {
                 ($keep:expr, $until:expr) => {
@@ -504,13 +514,60 @@ impl Execution<'_> {
                         r[0] = 0;
                         leave!(0, until);
                     }
-                    other => {
-                        match self.object_instruction(other, base, object_base) {
-                            Ok(cost) => spend!(cost),
-                            Err(fault) => break 'run fault,
+                    // The commonest instructions on objects, in the commonest case.
+                    Instruction::ListGet {
+                        list,
+                        index,
+                        scalars,
+                        ..
+                    } => {
+                        let (objects, state) = (&self.workspace.objects, &self.state.objects);
+                        let object = object_at(objects, object_base, state, list.0);
+                        let element = object
+                            .ok()
+                            .and_then(Object::list)
+                            .and_then(|list| list.scalars_at(r[index.place()]));
+                        match element {
+                            Some(element) if element.len() < 8 => {
+                                for (offset, &word) in element.iter().enumerate() {
+                                    r[(scalars.place() + offset) % WINDOW] = word;
+                                }
+                            }
+                            _ => object_instruction!(instruction),
                         }
-                        continue 'run;
                     }
+                    Instruction::ListSet {
+                        list,
+                        index,
+                        scalars,
+                        ..
+                    } => {
+                        let (objects, state) =
+                            (&mut self.workspace.objects, &mut self.state.objects);
+                        let object = object_at_mut(objects, object_base, state, list.0);
+                        let element = object
+                            .ok()
+                            .and_then(Object::own_list_mut)
+                            .and_then(|list| list.scalars_at_mut(r[index.place()]));
+                        match element {
+                            Some(element) if element.len() < 8 => {
+                                for (offset, word) in element.iter_mut().enumerate() {
+                                    *word = r[(scalars.place() + offset) % WINDOW];
+                                }
+                            }
+                            _ => object_instruction!(instruction),
+                        }
+                    }
+                    Instruction::Size { to, from } => {
+                        let (objects, state) = (&self.workspace.objects, &self.state.objects);
+                        let object = object_at(objects, object_base, state, from.0);
+                        match object.map(Object::body) {
+                            Ok(None) => set!(to, 0),
+                            Ok(Some(Body::List(list))) => set!(to, list.len() as u64),
+                            _ => object_instruction!(instruction),
+                        }
+                    }
+                    other => object_instruction!(other),
                 }
             }
         };

@@ -110,6 +110,28 @@ impl List {
         })
     }
 
+    /// The scalars of the element at an index, of a list whose elements hold no objects.
+    #[inline]
+    pub fn scalars_at(&self, index: u64) -> Option<&[u64]> {
+        let width = usize::from(self.width);
+        if self.object_width > 0 || index >= u64::from(self.length) {
+            return None;
+        }
+        let start = index as usize * width;
+        self.scalars.get(start..start + width)
+    }
+
+    /// As [`List::scalars_at`], to be changed.
+    #[inline]
+    pub fn scalars_at_mut(&mut self, index: u64) -> Option<&mut [u64]> {
+        let width = usize::from(self.width);
+        if self.object_width > 0 || index >= u64::from(self.length) {
+            return None;
+        }
+        let start = index as usize * width;
+        self.scalars.get_mut(start..start + width)
+    }
+
     /// All elements in order.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = Block<'_>> {
         (0..self.len()).filter_map(|index| self.get(index))

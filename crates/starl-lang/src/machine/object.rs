@@ -51,6 +51,7 @@ impl Object {
     pub const EMPTY: Object = Object(None);
 
     /// What it holds; none if it is empty.
+    #[inline]
     pub fn body(&self) -> Option<&Body> {
         self.0.as_deref()
     }
@@ -64,6 +65,7 @@ impl Object {
     }
 
     /// The elements of a list or set; none if it is empty.
+    #[inline]
     pub fn list(&self) -> Option<&List> {
         match self.body() {
             Some(Body::List(list)) => Some(list),
@@ -100,6 +102,15 @@ impl Object {
     /// A list to be changed if there is one.
     pub fn existing_list_mut(&mut self) -> Option<&mut List> {
         match Arc::make_mut(self.0.as_mut()?) {
+            Body::List(list) => Some(list),
+            _ => None,
+        }
+    }
+
+    /// A list to be changed if there is one that nobody else holds.
+    #[inline]
+    pub fn own_list_mut(&mut self) -> Option<&mut List> {
+        match Arc::get_mut(self.0.as_mut()?)? {
             Body::List(list) => Some(list),
             _ => None,
         }

@@ -45,6 +45,7 @@ pub(super) fn shift(bytes: usize) -> u64 {
 }
 
 /// The object that an operand names.
+#[inline]
 pub(super) fn object_at<'a>(
     objects: &'a [Object],
     base: usize,
@@ -54,6 +55,21 @@ pub(super) fn object_at<'a>(
     let place = match operand.checked_sub(FIRST_STATE_OPERAND) {
         Some(variable) => state.get(usize::from(variable)),
         None => objects.get(base + usize::from(operand)),
+    };
+    place.ok_or(Fault::Malformed)
+}
+
+/// The place of the object that an operand names.
+#[inline]
+pub(super) fn object_at_mut<'a>(
+    objects: &'a mut [Object],
+    base: usize,
+    state: &'a mut [Object],
+    operand: u8,
+) -> Result<&'a mut Object, Fault> {
+    let place = match operand.checked_sub(FIRST_STATE_OPERAND) {
+        Some(variable) => state.get_mut(usize::from(variable)),
+        None => objects.get_mut(base + usize::from(operand)),
     };
     place.ok_or(Fault::Malformed)
 }
@@ -74,13 +90,7 @@ impl<'a> View<'a> {
 
     /// The place of the object that an operand names.
     pub fn place(&mut self, operand: u8) -> Result<&mut Object, Fault> {
-        let place = match operand.checked_sub(FIRST_STATE_OPERAND) {
-            Some(variable) => self.state.get_mut(usize::from(variable)),
-            None => self
-                .objects
-                .get_mut(self.object_base + usize::from(operand)),
-        };
-        place.ok_or(Fault::Malformed)
+        object_at_mut(self.objects, self.object_base, self.state, operand)
     }
 
     /// Puts a new or shared object into a place and counts its memory.
