@@ -1,4 +1,5 @@
 //! Formatting changes neither tokens nor the tree, and formatting again changes nothing.
+#![cfg(feature = "compiler")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! What the canonical layout is: before, and after.
+#![cfg(feature = "compiler")]
 
 use starl_lang::format::format;
 

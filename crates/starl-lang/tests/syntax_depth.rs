@@ -1,4 +1,5 @@
 //! No text nests so deeply, or is so long, that reading it overflows the stack or takes for ever.
+#![cfg(feature = "compiler")]
 
 mod common;
 

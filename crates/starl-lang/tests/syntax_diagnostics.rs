@@ -4,6 +4,7 @@
 //! messages suggest mends, the source with all of them done follows in another block of `starl`, and the
 //! page says whether that is right. `BLESS=1 cargo test -p starl-lang --test
 //! syntax_diagnostics` writes the messages anew.
+#![cfg(feature = "compiler")]
 #![allow(clippy::disallowed_methods, reason = "a test reads its cases")]
 
 mod common;

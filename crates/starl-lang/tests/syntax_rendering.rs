@@ -1,4 +1,5 @@
 //! Diagnostics as JSON, in colour, and with what a terminal must not see.
+#![cfg(feature = "compiler")]
 
 use starl_lang::diagnostic::{Code, Colour, LineIndex, Position, closest, json, render};
 use starl_lang::syntax::parse;

@@ -1,4 +1,5 @@
 //! The text of the tree is the source, whatever that is, and reading it never fails.
+#![cfg(feature = "compiler")]
 
 mod common;
 

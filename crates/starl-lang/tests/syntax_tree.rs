@@ -1,4 +1,5 @@
 //! The typed view finds every part of a program.
+#![cfg(feature = "compiler")]
 
 mod common;
 

@@ -1,0 +1,55 @@
+//! Reading any text gives a tree of the whole of it; diagnostics and mends lie in the text and can be
+//! shown; formatting keeps what matters and settles at once. Seeds: `fuzz/seeds/language`.
+
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use starl_lang::diagnostic::{Colour, json, render};
+use starl_lang::format::format_parse;
+use starl_lang::syntax::{Parse, SyntaxKind, parse};
+
+fn tokens(parse: &Parse) -> Vec<(SyntaxKind, String)> {
+    let elements = parse.syntax().descendants_with_tokens();
+    let tokens = elements.filter_map(|element| element.into_token());
+    let space = [
+        SyntaxKind::Whitespace,
+        SyntaxKind::LineBreak,
+        SyntaxKind::Newline,
+    ];
+    let matters = tokens.filter(|token| !space.contains(&token.kind()));
+    matters
+        .map(|token| {
+            (
+                token.kind(),
+                token.text().trim_end_matches([' ', '\t', '\r']).to_string(),
+            )
+        })
+        .collect()
+}
+
+fuzz_target!(|text: &str| {
+    let read = parse(text);
+    assert_eq!(read.syntax().text().to_string(), text);
+    for diagnostic in read.diagnostics() {
+        let spans = diagnostic
+            .labels
+            .iter()
+            .map(|label| label.span)
+            .chain([diagnostic.span]);
+        for span in spans {
+            assert!(span.start <= span.end);
+            assert!(text.get(span.start as usize..span.end as usize).is_some());
+        }
+        if let Some(mend) = &diagnostic.mend {
+            assert_ne!(mend.apply(text), text);
+        }
+    }
+    if read.diagnostics().len() < 50 {
+        render("fuzz.starl", text, read.diagnostics(), Colour::Off);
+        json("fuzz.starl", text, read.diagnostics());
+    }
+    let formatted = format_parse(&read);
+    let again = parse(&formatted);
+    assert_eq!(tokens(&read), tokens(&again));
+    assert_eq!(format_parse(&again), formatted);
+});
