@@ -110,3 +110,11 @@ fn race_takes_less_than_a_kibibyte_a_robot() {
     state.objects[0] = List::of_points(&[Point::ZERO; 20]).into();
     assert!(state.bytes() < 1024, "{} bytes", state.bytes());
 }
+
+#[test]
+fn robots_may_run_on_any_thread() {
+    fn anywhere<T: Send + Sync>() {}
+    anywhere::<Program>();
+    anywhere::<State>();
+    anywhere::<Workspace>();
+}

@@ -72,7 +72,7 @@ pub struct RuntimeError {
     /// What happened.
     pub fault: Fault,
     /// The instruction, an index into the program's code; see
-    /// [`Program::span`](super::Program::span).
+    /// [`Program::span`](crate::machine::Program::span).
     pub position: u32,
 }
 

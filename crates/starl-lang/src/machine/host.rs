@@ -6,9 +6,10 @@
 //! from zero), and its methods and flags are imports like any other, `Mutex.acquire` or `Mutex.held`,
 //! with the instance as their first argument, an Int.
 
-use super::object::Object;
-use super::state::State;
-use super::types::{Layout, Type};
+use crate::machine::interpreter::scalar::bits;
+use crate::machine::types::{Layout, Type};
+use crate::machine::value::object::Object;
+use crate::machine::value::state::State;
 use alloc::borrow::Cow;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -139,7 +140,7 @@ impl HostCall<'_> {
 
     /// Writes a Float result.
     pub fn set_float(&mut self, index: usize, value: f64) {
-        self.set_scalar(index, value.to_bits());
+        self.set_scalar(index, bits(value));
     }
 
     /// Writes a robot.
@@ -164,7 +165,7 @@ impl HostCall<'_> {
 
 /// The registers that an import's arguments and results take.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Signature {
+pub(in crate::machine) struct Signature {
     pub number: u32,
     pub arguments: Layout,
     pub results: Layout,

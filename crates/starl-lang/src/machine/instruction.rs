@@ -7,7 +7,7 @@
 //! (is there a value?) followed by the value, all of it zero where there is none. An object is a text,
 //! list, set, map, area or obstacles: a value of its own, shared until it is changed. The scalars of a
 //! value are in scalar registers and its objects in object registers, both in the order of the text
-//! ([`Layout`](super::Layout)).
+//! ([`Layout`](crate::machine::Layout)).
 //!
 //! Operands `s0` to `s127` name objects of the robot's state in the place of object registers. The
 //! scalars of the state are read by `load` and written by `store`.
@@ -18,11 +18,12 @@
 //!
 //! Every instruction executed costs one unit of fuel; those on objects cost more, as said with them:
 //! a *share* of an object is its size in bytes over 64 (it may have to be copied when one of its
-//! holders changes it), a *shift* of n bytes is n over 64.
+//! holders changes it), a *shift* of n bytes is n over 64. Moving a block costs an eighth of its
+//! registers.
 //!
 //! Where an error is possible it is said; the machine stops there, and nothing after it happens.
 
-use super::operand::*;
+use crate::machine::operand::*;
 use serde::{Deserialize, Serialize};
 
 macro_rules! instructions {
@@ -273,7 +274,7 @@ instructions! {
 
     /// Calls a function whose windows begin at the named registers. Error: call depth.
     Call "call" { scalars: Block, objects: ObjectBlock, function: FunctionIndex }
-    /// Calls the host, see [`Host`](super::Host). What it costs beyond one, the host says. Error: the
+    /// Calls the host, see [`Host`](crate::machine::Host). What it costs beyond one, the host says. Error: the
     /// host's own.
     CallHost "call_host" { scalars: Block, objects: ObjectBlock, import: ImportIndex }
     /// Ends the function; its results are in the first registers. Object registers from `keep`, the number of

@@ -10,48 +10,29 @@
 //! states and equal fuel, on every target; a robot's program is its program and its [`State`], nothing
 //! else is kept from one activation to the next.
 
-mod assembler;
-mod codec;
-mod collections;
-mod disassembler;
 mod error;
-mod execute;
-mod flow;
 mod host;
 mod instruction;
-mod list;
-mod lists;
-mod maps;
-mod object;
+mod interpreter;
 pub mod operand;
 mod program;
-mod rules;
-mod run;
-mod scalar;
-mod sets;
-mod state;
-mod texts;
-mod type_text;
+mod text;
 mod types;
 mod value;
-mod variables;
 mod verify;
-mod view;
-mod workspace;
 
-pub use assembler::{AssemblyError, assemble};
-pub use disassembler::disassemble;
 pub use error::{Fault, LoadError, RuntimeError};
 pub use host::{Host, HostCall, Import, Resolve};
 pub use instruction::Instruction;
-pub use list::{Block, List};
-pub use object::{Body, Map, Object};
+pub use interpreter::workspace::Workspace;
+pub use interpreter::{Limits, Machine};
 pub use program::{
     Action, Binding, Bytecode, Claim, Enum, Function, FunctionKind, Handler, Program, Property,
     Span, Variable,
 };
-pub use run::{Limits, Machine};
-pub use state::State;
+pub use text::{AssemblyError, assemble, disassemble};
 pub use types::{Layout, ObjectType, Order, Parts, Type};
-pub use value::Value;
-pub use workspace::Workspace;
+pub use value::list::{Block, List};
+pub use value::object::{Body, Map, Object};
+pub use value::state::State;
+pub use value::tree::Value;

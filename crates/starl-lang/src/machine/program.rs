@@ -1,12 +1,12 @@
 //! Compiled programs: [`Bytecode`] as it is stored, and [`Program`], which is bytecode that was
 //! verified and joined to a host.
 
-use super::error::LoadError;
-use super::host::{Import, Resolve, Signature};
-use super::instruction::Instruction;
-use super::state::State;
-use super::types::{Layout, ObjectType, Parts, Type};
 use super::verify;
+use crate::machine::error::LoadError;
+use crate::machine::host::{Import, Resolve, Signature};
+use crate::machine::instruction::Instruction;
+use crate::machine::types::{Layout, ObjectType, Parts, Type};
+use crate::machine::value::state::State;
 use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
@@ -190,14 +190,14 @@ pub enum Claim {
 /// run it.
 #[derive(Clone, Debug)]
 pub struct Program {
-    pub(super) bytecode: Bytecode,
+    pub(in crate::machine) bytecode: Bytecode,
     /// The first instruction of each function.
-    pub(super) entries: Vec<u32>,
+    pub(in crate::machine) entries: Vec<u32>,
     /// The layouts of each function's arguments and results.
-    pub(super) layouts: Vec<(Layout, Layout)>,
-    pub(super) parts: Vec<Parts>,
-    pub(super) texts: Vec<super::object::Object>,
-    pub(super) signatures: Vec<Signature>,
+    pub(in crate::machine) layouts: Vec<(Layout, Layout)>,
+    pub(in crate::machine) parts: Vec<Parts>,
+    pub(in crate::machine) texts: Vec<crate::machine::value::object::Object>,
+    pub(in crate::machine) signatures: Vec<Signature>,
     state: Layout,
 }
 

@@ -1,12 +1,14 @@
 //! Instructions on objects: which method executes which, and those that all objects share.
 
-use super::error::Fault;
-use super::host::HostCall;
-use super::instruction::Instruction;
-use super::object::Object;
-use super::operand::{Block, ImportIndex, In, ObjectBlock, ObjectIn, ObjectOut, ObjectSlot, Out};
-use super::scalar::unknown_robot;
-use super::view::{View, shift};
+use crate::machine::error::Fault;
+use crate::machine::host::HostCall;
+use crate::machine::instruction::Instruction;
+use crate::machine::interpreter::scalar::unknown_robot;
+use crate::machine::interpreter::view::{View, shift};
+use crate::machine::operand::{
+    Block, ImportIndex, In, ObjectBlock, ObjectIn, ObjectOut, ObjectSlot, Out,
+};
+use crate::machine::value::object::Object;
 use core::cmp::Ordering;
 use starl_core::{Area, ConvexPolygon, Point, RobotId};
 
@@ -259,7 +261,7 @@ impl View<'_> {
         to: Out,
         left: ObjectIn,
         right: ObjectIn,
-        kind: super::operand::Type,
+        kind: crate::machine::operand::Type,
         holds: fn(Ordering) -> bool,
     ) -> Result<u64, Fault> {
         let (left, right) = (self.read(left)?, self.read(right)?);

@@ -5,19 +5,21 @@
 //! else holds its values. Counting afresh after every instruction would be slow: the meter counts what
 //! is added until that could exceed the budget, and only then sums up what there is.
 
-use super::error::Fault;
-use super::execute::Registers;
-use super::host::Host;
-use super::list::Block;
-use super::object::Object;
-use super::operand::{self, FIRST_STATE_OPERAND, In, ObjectIn, ObjectInOut, ObjectOut, Type};
-use super::program::Program;
-use super::types::{Layout, Parts};
-use super::workspace::OBJECT_WINDOW;
+use crate::machine::error::Fault;
+use crate::machine::host::Host;
+use crate::machine::interpreter::execute::Registers;
+use crate::machine::interpreter::workspace::OBJECT_WINDOW;
+use crate::machine::operand::{
+    self, FIRST_STATE_OPERAND, In, ObjectIn, ObjectInOut, ObjectOut, Type,
+};
+use crate::machine::program::Program;
+use crate::machine::types::{Layout, Parts};
+use crate::machine::value::list::Block;
+use crate::machine::value::object::Object;
 
 /// What an activation may use.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Meter {
+pub(in crate::machine) struct Meter {
     /// Instructions that are left.
     pub fuel: u64,
     /// Bytes that the state and all values in registers may have together.
@@ -27,7 +29,7 @@ pub(super) struct Meter {
 }
 
 /// The parts of the machine that an instruction on objects works on.
-pub(super) struct View<'a> {
+pub(in crate::machine) struct View<'a> {
     pub program: &'a Program,
     pub registers: &'a mut Registers,
     /// The object registers of all running functions.
@@ -40,13 +42,13 @@ pub(super) struct View<'a> {
 }
 
 /// What copying or moving this many bytes costs.
-pub(super) fn shift(bytes: usize) -> u64 {
+pub(in crate::machine) fn shift(bytes: usize) -> u64 {
     (bytes / 64) as u64
 }
 
 /// The object that an operand names.
 #[inline]
-pub(super) fn object_at<'a>(
+pub(in crate::machine) fn object_at<'a>(
     objects: &'a [Object],
     base: usize,
     state: &'a [Object],
@@ -61,7 +63,7 @@ pub(super) fn object_at<'a>(
 
 /// The place of the object that an operand names.
 #[inline]
-pub(super) fn object_at_mut<'a>(
+pub(in crate::machine) fn object_at_mut<'a>(
     objects: &'a mut [Object],
     base: usize,
     state: &'a mut [Object],

@@ -1,10 +1,10 @@
 //! Writes a program in the machine's text form, which a person can read and
-//! [`assemble`](super::assemble) reads back.
+//! [`assemble`](crate::machine::assemble) reads back.
 
-use super::instruction::Instruction;
-use super::operand::Use;
-use super::program::{Bytecode, Claim, Function, FunctionKind};
-use super::types::Type;
+use crate::machine::instruction::Instruction;
+use crate::machine::operand::Use;
+use crate::machine::program::{Bytecode, Claim, Function, FunctionKind};
+use crate::machine::types::Type;
 use alloc::collections::BTreeSet;
 use alloc::string::String;
 use core::fmt::{self, Write};
@@ -118,7 +118,7 @@ fn function(out: &mut String, bytecode: &Bytecode, function: &Function) -> fmt::
         FunctionKind::Procedure => "procedure",
         FunctionKind::Property => "property",
     };
-    write!(out, "function {} {kind} ", function.name)?;
+    write!(out, "\nfunction {} {kind} ", function.name)?;
     types(out, &function.arguments)?;
     out.write_str(" ")?;
     types(out, &function.results)?;
@@ -189,7 +189,7 @@ fn comment(out: &mut String, bytecode: &Bytecode, instruction: &Instruction) -> 
 fn named(out: &mut String, bytecode: &Bytecode, scalar: u32) -> fmt::Result {
     let mut first = 0;
     for variable in &bytecode.variables {
-        first += super::Layout::of([&variable.kind]).scalars.len();
+        first += crate::machine::Layout::of([&variable.kind]).scalars.len();
         if (scalar as usize) < first {
             return write!(out, " // {}", variable.name);
         }

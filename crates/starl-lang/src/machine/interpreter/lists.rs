@@ -1,13 +1,13 @@
 //! Instructions on lists.
 
-use super::error::Fault;
-use super::list::{self, List};
-use super::object::Object;
-use super::operand::{Block, In, ObjectBlock, ObjectIn, ObjectInOut, Out, PairOut, Type};
-use super::view::{View, object_at, shift};
+use crate::machine::error::Fault;
+use crate::machine::interpreter::view::{View, object_at, shift};
+use crate::machine::operand::{Block, In, ObjectBlock, ObjectIn, ObjectInOut, Out, PairOut, Type};
+use crate::machine::value::list::{self, List};
+use crate::machine::value::object::Object;
 
 /// What sorting costs: moving everything once for each level of a merge.
-pub(super) fn sorting(list: &List) -> u64 {
+pub(in crate::machine) fn sorting(list: &List) -> u64 {
     let levels = u64::from(list.len().next_power_of_two().trailing_zeros());
     (shift(list.bytes()) + 1) * levels
 }
@@ -263,13 +263,17 @@ impl View<'_> {
             .iter()
             .fold(0.0, |sum, &number| sum + f64::from_bits(number));
         let cost = shift(object.bytes());
-        self.registers[to.place()] = super::scalar::bits(sum);
+        self.registers[to.place()] = crate::machine::interpreter::scalar::bits(sum);
         Ok(cost)
     }
 }
 
 /// Inserts a block; gives what it costs.
-pub(super) fn insert(list: &mut List, at: usize, block: list::Block<'_>) -> Result<u64, Fault> {
+pub(in crate::machine) fn insert(
+    list: &mut List,
+    at: usize,
+    block: list::Block<'_>,
+) -> Result<u64, Fault> {
     let held = block.objects.iter().map(Object::bytes).sum::<usize>();
     let cost = shift(list.bytes_from(at) + held);
     if list.insert(at, block) {

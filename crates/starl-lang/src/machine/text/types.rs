@@ -1,6 +1,6 @@
 //! Types in the machine's text form: `Int`, `enum0`, `type2`, `Point?`, `{x: Int, y: Point}`.
 
-use super::types::{ObjectType, Type};
+use crate::machine::types::{ObjectType, Type};
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -55,7 +55,7 @@ impl fmt::Display for ObjectType {
 }
 
 /// A place in a line of text.
-pub(super) struct Cursor<'a> {
+pub(in crate::machine) struct Cursor<'a> {
     rest: &'a str,
 }
 

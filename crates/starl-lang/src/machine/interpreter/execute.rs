@@ -1,26 +1,26 @@
 //! The loop that executes instructions.
 //!
 //! Scalar registers of the running function are a window of 256, so that an operand, a byte, needs no
-//! bounds check. Instructions on objects and calls of the host are in [`collections`](super::collections)
+//! bounds check. Instructions on objects and calls of the host are in [`objects`](super::objects)
 //! and beside it: the loop stays small enough for the processor.
 
-use super::error::{Fault, RuntimeError};
-use super::host::Host;
-use super::instruction::Instruction;
-use super::object::{Body, Object};
-use super::operand::{PointIn, PointOut};
-use super::program::Program;
 use super::scalar;
-use super::state::State;
-use super::view::{Meter, View, object_at, object_at_mut};
-use super::workspace::{Frame, OBJECT_WINDOW, WINDOW, Workspace};
+use crate::machine::error::{Fault, RuntimeError};
+use crate::machine::host::Host;
+use crate::machine::instruction::Instruction;
+use crate::machine::interpreter::view::{Meter, View, object_at, object_at_mut};
+use crate::machine::interpreter::workspace::{Frame, OBJECT_WINDOW, WINDOW, Workspace};
+use crate::machine::operand::{PointIn, PointOut};
+use crate::machine::program::Program;
+use crate::machine::value::object::{Body, Object};
+use crate::machine::value::state::State;
 use starl_core::{Point, RobotId};
 
 /// The scalar registers of a function.
-pub(super) type Registers = [u64; WINDOW];
+pub(in crate::machine) type Registers = [u64; WINDOW];
 
 /// What a run of the machine works on.
-pub(super) struct Execution<'a> {
+pub(in crate::machine) struct Execution<'a> {
     pub program: &'a Program,
     pub state: &'a mut State,
     pub workspace: &'a mut Workspace,

@@ -1,11 +1,11 @@
 //! Instructions on sets.
 
-use super::error::Fault;
-use super::list::List;
-use super::lists::{insert, sorting};
-use super::operand::{Block, ObjectBlock, ObjectIn, ObjectInOut, ObjectOut, Out, Type};
-use super::types::{Layout, Parts};
-use super::view::{View, shift};
+use crate::machine::error::Fault;
+use crate::machine::interpreter::lists::{insert, sorting};
+use crate::machine::interpreter::view::{View, shift};
+use crate::machine::operand::{Block, ObjectBlock, ObjectIn, ObjectInOut, ObjectOut, Out, Type};
+use crate::machine::types::{Layout, Parts};
+use crate::machine::value::list::List;
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 

@@ -1,9 +1,9 @@
 //! Values as a tree with names, for hosts that show, record or send them.
 
-use super::list::List;
-use super::object::{Body, Map, Object};
-use super::program::Program;
-use super::types::{Layout, ObjectType, Type};
+use crate::machine::program::Program;
+use crate::machine::types::{Layout, ObjectType, Type};
+use crate::machine::value::list::List;
+use crate::machine::value::object::{Body, Map, Object};
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -104,7 +104,7 @@ impl Value {
         let scalar = match (self, kind) {
             (Value::Bool(value), Type::Bool) => u64::from(*value),
             (Value::Int(value), Type::Int) => *value as u64,
-            (Value::Float(value), Type::Float) => super::scalar::bits(*value),
+            (Value::Float(value), Type::Float) => crate::machine::interpreter::scalar::bits(*value),
             (Value::Time(value), Type::Time) => value.0.min(i64::MAX as u64),
             (Value::Duration(value), Type::Duration) => value.0.min(i64::MAX as u64),
             (Value::Robot(value), Type::Robot) => u64::from(value.0),
@@ -116,7 +116,9 @@ impl Value {
                 }
             }
             (Value::Point(value), Type::Point) => {
-                scalars.extend([value.x, value.y, value.z].map(super::scalar::bits));
+                scalars.extend(
+                    [value.x, value.y, value.z].map(crate::machine::interpreter::scalar::bits),
+                );
                 return true;
             }
             (Value::None, Type::Optional(_)) => {
@@ -197,7 +199,7 @@ fn list<'a>(
         if !value.write(program, kind, &mut scalars, &mut objects) {
             return None;
         }
-        let block = super::list::Block {
+        let block = crate::machine::value::list::Block {
             scalars: &scalars,
             objects: &objects,
         };

@@ -1,15 +1,15 @@
 //! Registers and calls of a running program. One workspace serves any number of robots, one after
 //! the other: nothing in it outlives an activation.
 
-use super::object::Object;
+use crate::machine::value::object::Object;
 use alloc::vec::Vec;
 
 /// The scalar registers that a function sees.
-pub(super) const WINDOW: usize = 256;
+pub(in crate::machine) const WINDOW: usize = 256;
 /// The object registers that a function sees.
-pub(super) const OBJECT_WINDOW: usize = 128;
+pub(in crate::machine) const OBJECT_WINDOW: usize = 128;
 /// The deepest that calls may be nested.
-pub(super) const DEEPEST_CALL: usize = 1000;
+pub(in crate::machine) const DEEPEST_CALL: usize = 1000;
 /// The most scalar registers, those of all calls together.
 const MOST_SCALARS: usize = 64 * 1024;
 /// The most object registers, those of all calls together.
@@ -17,7 +17,7 @@ const MOST_OBJECTS: usize = 16 * 1024;
 
 /// Where a call came from.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Frame {
+pub(in crate::machine) struct Frame {
     /// The instruction after the call.
     pub position: u32,
     /// Where the caller's scalar registers begin.
@@ -29,11 +29,11 @@ pub(super) struct Frame {
 /// The registers of running functions; grows as calls need it, up to fixed bounds.
 #[derive(Clone, Debug)]
 pub struct Workspace {
-    pub(super) scalars: Vec<u64>,
-    pub(super) objects: Vec<Object>,
-    pub(super) frames: Vec<Frame>,
+    pub(in crate::machine) scalars: Vec<u64>,
+    pub(in crate::machine) objects: Vec<Object>,
+    pub(in crate::machine) frames: Vec<Frame>,
     /// Whether object registers may hold anything.
-    pub(super) used: bool,
+    pub(in crate::machine) used: bool,
 }
 
 impl Default for Workspace {
@@ -54,7 +54,7 @@ impl Workspace {
     }
 
     /// Empties object registers.
-    pub(super) fn clear(&mut self) {
+    pub(in crate::machine) fn clear(&mut self) {
         if core::mem::take(&mut self.used) {
             self.objects.fill(Object::EMPTY);
         }
@@ -63,7 +63,12 @@ impl Workspace {
     /// Makes room for windows that begin at these registers and for so many calls; false if they lie
     /// beyond the bounds.
     #[cold]
-    pub(super) fn grow(&mut self, base: usize, object_base: usize, depth: usize) -> bool {
+    pub(in crate::machine) fn grow(
+        &mut self,
+        base: usize,
+        object_base: usize,
+        depth: usize,
+    ) -> bool {
         let (scalars, objects) = (base + WINDOW, object_base + OBJECT_WINDOW);
         if scalars > MOST_SCALARS || objects > MOST_OBJECTS || depth > DEEPEST_CALL {
             return false;

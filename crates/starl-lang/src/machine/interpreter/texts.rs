@@ -1,10 +1,12 @@
 //! Instructions on texts.
 
-use super::error::Fault;
-use super::list::List;
-use super::object::Object;
-use super::operand::{EnumIndex, Format, In, ObjectIn, ObjectInOut, ObjectOut, Out, PointIn, Text};
-use super::view::{View, shift};
+use crate::machine::error::Fault;
+use crate::machine::interpreter::view::{View, shift};
+use crate::machine::operand::{
+    EnumIndex, Format, In, ObjectIn, ObjectInOut, ObjectOut, Out, PointIn, Text,
+};
+use crate::machine::value::list::List;
+use crate::machine::value::object::Object;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt::Write;
@@ -85,7 +87,11 @@ impl View<'_> {
 }
 
 /// Writes a scalar as a person reads it.
-pub(super) fn format_scalar(out: &mut String, scalar: u64, format: Format) -> core::fmt::Result {
+pub(in crate::machine) fn format_scalar(
+    out: &mut String,
+    scalar: u64,
+    format: Format,
+) -> core::fmt::Result {
     match format {
         Format::Bool => write!(out, "{}", scalar != 0),
         Format::Int => write!(out, "{}", scalar as i64),

@@ -7,10 +7,10 @@
 //!
 //! Bytes may come from anywhere: what is no value of the type is refused.
 
-use super::list::{Block, List};
-use super::object::{Body, Map, Object};
-use super::program::Program;
-use super::types::{Layout, ObjectType, Parts, Type};
+use crate::machine::program::Program;
+use crate::machine::types::{Layout, ObjectType, Parts, Type};
+use crate::machine::value::list::{Block, List};
+use crate::machine::value::object::{Body, Map, Object};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::cmp::Ordering;
@@ -158,7 +158,7 @@ impl<'a> Reader<'a> {
             }
             Type::Float => {
                 let number = f64::from_le_bytes(*self.take(8)?.first_chunk()?);
-                super::scalar::bits(number)
+                crate::machine::interpreter::scalar::bits(number)
             }
             Type::Time | Type::Duration => self.number().filter(|&n| n <= i64::MAX as u64)?,
             Type::Robot => self.number().filter(|&n| n <= u64::from(u32::MAX))?,

@@ -1,4 +1,4 @@
-//! Reads the machine's text form, which [`disassemble`](super::disassemble) writes.
+//! Reads the machine's text form, which [`disassemble`](crate::machine::disassemble) writes.
 //!
 //! A line is a declaration, an instruction, or a label (`name:`); `//` begins a comment. Things are
 //! numbered in the order of their declarations and named by kind and number: `enum0`, `type0` (an
@@ -34,13 +34,13 @@
 //! `span` gives the source of the instructions after it: file, first byte, byte after the last. A
 //! jump names a label of its function with `@` before it.
 
-use super::host::Import;
-use super::instruction::Instruction;
-use super::program::{
+use crate::machine::host::Import;
+use crate::machine::instruction::Instruction;
+use crate::machine::program::{
     Action, Binding, Bytecode, Claim, Enum, Function, FunctionKind, Handler, Property, Span,
     Variable,
 };
-use super::type_text::Cursor;
+use crate::machine::text::types::Cursor;
 use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;

@@ -1,15 +1,15 @@
 //! Arithmetic on scalars that is more than one operation.
 
-use super::error::Fault;
-use super::host::Host;
-use super::operand::{Binary, Rounding, Unary};
+use crate::machine::error::Fault;
+use crate::machine::host::Host;
+use crate::machine::operand::{Binary, Rounding, Unary};
 use alloc::borrow::Cow;
 use starl_core::{RobotId, math};
 
 /// The bits of a Float, those of one certain NaN for all NaN: processors differ in which one they
 /// make.
 #[inline(always)]
-pub(super) fn bits(number: f64) -> u64 {
+pub(in crate::machine) fn bits(number: f64) -> u64 {
     if number.is_nan() {
         f64::NAN.to_bits()
     } else {
@@ -19,7 +19,7 @@ pub(super) fn bits(number: f64) -> u64 {
 
 /// left / right, towards zero.
 #[inline(always)]
-pub(super) fn divide(left: i64, right: i64) -> Result<u64, Fault> {
+pub(in crate::machine) fn divide(left: i64, right: i64) -> Result<u64, Fault> {
     if let (Ok(left), Ok(right)) = (u32::try_from(left), u32::try_from(right))
         && right != 0
     {
@@ -33,7 +33,7 @@ pub(super) fn divide(left: i64, right: i64) -> Result<u64, Fault> {
 
 /// left % right, with the sign of `left`.
 #[inline(always)]
-pub(super) fn remainder(left: i64, right: i64) -> Result<u64, Fault> {
+pub(in crate::machine) fn remainder(left: i64, right: i64) -> Result<u64, Fault> {
     if let (Ok(left), Ok(right)) = (u32::try_from(left), u32::try_from(right))
         && right != 0
     {
@@ -55,12 +55,12 @@ fn division_fault(right: i64) -> Fault {
 }
 
 /// A duration times a number that must not be negative.
-pub(super) fn multiply_span(span: i64, times: i64) -> Option<i64> {
+pub(in crate::machine) fn multiply_span(span: i64, times: i64) -> Option<i64> {
     span.checked_mul(times).filter(|product| *product >= 0)
 }
 
 /// A duration times a factor, to the nearest nanosecond.
-pub(super) fn scale_span(span: i64, factor: f64) -> Result<u64, Fault> {
+pub(in crate::machine) fn scale_span(span: i64, factor: f64) -> Result<u64, Fault> {
     let product = math::round(span as f64 * factor);
     if (0.0..9_223_372_036_854_775_808.0).contains(&product) {
         Ok(product as u64)
@@ -70,7 +70,7 @@ pub(super) fn scale_span(span: i64, factor: f64) -> Result<u64, Fault> {
 }
 
 /// How many times one duration is another.
-pub(super) fn ratio_span(left: i64, right: i64) -> Result<u64, Fault> {
+pub(in crate::machine) fn ratio_span(left: i64, right: i64) -> Result<u64, Fault> {
     if right == 0 {
         return Err(Fault::DivisionByZero);
     }
@@ -78,7 +78,7 @@ pub(super) fn ratio_span(left: i64, right: i64) -> Result<u64, Fault> {
 }
 
 /// The lesser of two; where both are zero, the one with its sign set; the other where one is NaN.
-pub(super) fn minimum(left: f64, right: f64) -> f64 {
+pub(in crate::machine) fn minimum(left: f64, right: f64) -> f64 {
     if left < right || right.is_nan() || (left == right && left.is_sign_negative()) {
         left
     } else {
@@ -87,7 +87,7 @@ pub(super) fn minimum(left: f64, right: f64) -> f64 {
 }
 
 /// The greater of two; where both are zero, one without its sign set; the other where one is NaN.
-pub(super) fn maximum(left: f64, right: f64) -> f64 {
+pub(in crate::machine) fn maximum(left: f64, right: f64) -> f64 {
     if left > right || right.is_nan() || (left == right && left.is_sign_positive()) {
         left
     } else {
@@ -96,7 +96,7 @@ pub(super) fn maximum(left: f64, right: f64) -> f64 {
 }
 
 /// A Float as an Int.
-pub(super) fn int_of_float(number: f64, rounding: Rounding) -> Result<u64, Fault> {
+pub(in crate::machine) fn int_of_float(number: f64, rounding: Rounding) -> Result<u64, Fault> {
     let whole = match rounding {
         Rounding::Truncate => number,
         Rounding::Floor => math::floor(number),
@@ -113,7 +113,7 @@ pub(super) fn int_of_float(number: f64, rounding: Rounding) -> Result<u64, Fault
 
 /// A function of one Float.
 #[inline(never)]
-pub(super) fn unary(function: Unary, number: f64) -> f64 {
+pub(in crate::machine) fn unary(function: Unary, number: f64) -> f64 {
     match function {
         Unary::SquareRoot => math::sqrt(number),
         Unary::Sine => math::sin(number),
@@ -133,7 +133,7 @@ pub(super) fn unary(function: Unary, number: f64) -> f64 {
 
 /// A function of two Floats.
 #[inline(never)]
-pub(super) fn binary(function: Binary, left: f64, right: f64) -> f64 {
+pub(in crate::machine) fn binary(function: Binary, left: f64, right: f64) -> f64 {
     match function {
         Binary::ArcTangent => math::atan2(left, right),
         Binary::Power => math::pow(left, right),
@@ -144,7 +144,11 @@ pub(super) fn binary(function: Binary, left: f64, right: f64) -> f64 {
 
 /// A scalar of the state of another robot.
 #[inline(never)]
-pub(super) fn of_other(host: &dyn Host, robot: RobotId, variable: u32) -> Result<u64, Fault> {
+pub(in crate::machine) fn of_other(
+    host: &dyn Host,
+    robot: RobotId,
+    variable: u32,
+) -> Result<u64, Fault> {
     let state = host.state_of(robot).ok_or_else(unknown_robot)?;
     let scalar = state.scalars.get(variable as usize);
     scalar.copied().ok_or(Fault::Malformed)
@@ -152,7 +156,7 @@ pub(super) fn of_other(host: &dyn Host, robot: RobotId, variable: u32) -> Result
 
 /// Three scalars of the state of another robot.
 #[inline(never)]
-pub(super) fn point_of_other(
+pub(in crate::machine) fn point_of_other(
     host: &dyn Host,
     robot: RobotId,
     variable: u32,
@@ -164,7 +168,7 @@ pub(super) fn point_of_other(
 }
 
 /// What a program is told that asks for the state of a robot that there is not.
-pub(super) fn unknown_robot() -> Fault {
+pub(in crate::machine) fn unknown_robot() -> Fault {
     Fault::Host(Cow::Borrowed(
         "there is no such robot that runs this program",
     ))

@@ -1,10 +1,10 @@
 //! Variables of a state by name: for parameters, and for whoever looks at a state.
 
-use super::object::Object;
-use super::program::Program;
-use super::state::State;
-use super::types::{Layout, Type};
-use super::value::Value;
+use crate::machine::program::Program;
+use crate::machine::types::{Layout, Type};
+use crate::machine::value::object::Object;
+use crate::machine::value::state::State;
+use crate::machine::value::tree::Value;
 use alloc::vec::Vec;
 use core::ops::Range;
 

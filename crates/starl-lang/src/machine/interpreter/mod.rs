@@ -1,20 +1,30 @@
 //! Running parts of a program: what hosts call.
 
-use super::error::{Fault, RuntimeError};
-use super::execute::Execution;
-use super::host::Host;
-use super::object::Object;
-use super::program::Program;
-use super::state::State;
-use super::types::Layout;
-use super::view::Meter;
-use super::workspace::Workspace;
+mod execute;
+mod lists;
+mod maps;
+mod objects;
+pub(in crate::machine) mod scalar;
+mod sets;
+mod texts;
+mod view;
+pub(in crate::machine) mod workspace;
+
+use crate::machine::error::{Fault, RuntimeError};
+use crate::machine::host::Host;
+use crate::machine::interpreter::execute::Execution;
+use crate::machine::interpreter::view::Meter;
+use crate::machine::interpreter::workspace::Workspace;
+use crate::machine::program::Program;
+use crate::machine::types::Layout;
+use crate::machine::value::object::Object;
+use crate::machine::value::state::State;
 use starl_core::RobotId;
 
 /// What one activation may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Units of fuel; see [`Instruction`](super::Instruction) for what costs how many.
+    /// Units of fuel; see [`Instruction`](crate::machine::Instruction) for what costs how many.
     pub fuel: u64,
     /// Bytes that the state's objects and the values worked on may take together, counted as if
     /// nothing were shared.

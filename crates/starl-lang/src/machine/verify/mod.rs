@@ -2,22 +2,26 @@
 //!
 //! It sees that all indices are in range, that functions are called with the registers that they
 //! need, that every register is written before it is read and every object is of the type that the
-//! instruction works on ([`flow`](super::flow)), and that guards and properties change nothing. What
+//! instruction works on ([`flow`]), and that guards and properties change nothing. What
 //! scalars mean is not checked: any 64 bits are an Int, a Float or a Bool.
 
-use super::error::LoadError;
-use super::flow;
-use super::operand::FIRST_STATE_OPERAND;
-use super::program::{Bytecode, Claim, Function, FunctionKind};
-use super::types::{DEEPEST_TYPE, Layout, ObjectType, Parts, Type};
-use super::workspace::{OBJECT_WINDOW, WINDOW};
+mod collections;
+mod flow;
+mod objects;
+mod rules;
+
+use crate::machine::error::LoadError;
+use crate::machine::interpreter::workspace::{OBJECT_WINDOW, WINDOW};
+use crate::machine::operand::FIRST_STATE_OPERAND;
+use crate::machine::program::{Bytecode, Claim, Function, FunctionKind};
+use crate::machine::types::{DEEPEST_TYPE, Layout, ObjectType, Parts, Type};
 use alloc::vec::Vec;
 
 /// The deepest that records and optionals may be nested within a type.
 const DEEPEST_VALUE: u32 = 32;
 
 /// What the verifier works out and the machine needs.
-pub(super) struct Tables {
+pub(in crate::machine) struct Tables {
     pub parts: Vec<Parts>,
     pub state: Layout,
     pub arguments: Vec<Layout>,
@@ -26,7 +30,7 @@ pub(super) struct Tables {
 }
 
 /// A rule that is broken somewhere outside the code.
-pub(super) fn invalid(reason: &'static str) -> LoadError {
+pub(in crate::machine) fn invalid(reason: &'static str) -> LoadError {
     LoadError::Invalid {
         position: None,
         reason,
@@ -38,7 +42,7 @@ fn check(holds: bool, reason: &'static str) -> Result<(), LoadError> {
 }
 
 /// Checks all of a program.
-pub(super) fn verify(bytecode: &Bytecode) -> Result<Tables, LoadError> {
+pub(in crate::machine) fn verify(bytecode: &Bytecode) -> Result<Tables, LoadError> {
     check(
         bytecode.code.len() < u32::MAX as usize,
         "there are too many instructions",

@@ -3,8 +3,9 @@
 //! Invariant: `scalars` holds `length * width` words and `objects` `length * object_width` objects;
 //! `held` is the sum of the sizes of `objects`.
 
-use super::object::{Object, WORD};
-use super::types::{Layout, Order, Parts};
+use crate::machine::interpreter::scalar::bits;
+use crate::machine::types::{Layout, Order, Parts};
+use crate::machine::value::object::{Object, WORD};
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 use serde::{Deserialize, Serialize};
@@ -55,7 +56,7 @@ impl List {
         List {
             length: points.len() as u32,
             width: 3,
-            scalars: coordinates.map(f64::to_bits).collect(),
+            scalars: coordinates.map(bits).collect(),
             ..List::default()
         }
     }

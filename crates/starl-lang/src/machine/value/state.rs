@@ -1,7 +1,7 @@
 //! What a robot's program remembers from one activation to the next: its variables and nothing else.
 
-use super::object::{Object, WORD};
-use super::types::Layout;
+use crate::machine::types::Layout;
+use crate::machine::value::object::{Object, WORD};
 use alloc::boxed::Box;
 use serde::{Deserialize, Serialize};
 use starl_core::Digest;

@@ -6,14 +6,14 @@
 //!
 //! Invariant: facts at an instruction only ever become fewer, so the analysis ends.
 
-use super::error::LoadError;
-use super::instruction::Instruction;
-use super::operand::{FIRST_STATE_OPERAND, Use};
-use super::program::{Bytecode, Function, FunctionKind};
-use super::rules::Rules;
-use super::types::Layout;
-use super::verify::Tables;
-use super::workspace::{OBJECT_WINDOW, WINDOW};
+use crate::machine::error::LoadError;
+use crate::machine::instruction::Instruction;
+use crate::machine::interpreter::workspace::{OBJECT_WINDOW, WINDOW};
+use crate::machine::operand::{FIRST_STATE_OPERAND, Use};
+use crate::machine::program::{Bytecode, Function, FunctionKind};
+use crate::machine::types::Layout;
+use crate::machine::verify::Tables;
+use crate::machine::verify::rules::Rules;
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -21,17 +21,17 @@ use core::ops::Range;
 const UNWRITTEN: u16 = u16::MAX;
 
 /// A rule that is broken.
-pub(super) type Broken = &'static str;
+pub(in crate::machine) type Broken = &'static str;
 
 /// What is known of the registers before an instruction.
 #[derive(Clone, PartialEq, Eq)]
-pub(super) struct Facts {
+pub(in crate::machine) struct Facts {
     scalars: [u64; WINDOW / 64],
     objects: [u16; OBJECT_WINDOW],
 }
 
 /// A function and what it may use.
-pub(super) struct Context<'a> {
+pub(in crate::machine) struct Context<'a> {
     pub bytecode: &'a Bytecode,
     pub tables: &'a Tables,
     pub function: &'a Function,
@@ -213,7 +213,7 @@ impl Context<'_> {
 }
 
 /// Checks the code of one function.
-pub(super) fn check(
+pub(in crate::machine) fn check(
     bytecode: &Bytecode,
     tables: &Tables,
     function: &Function,
@@ -231,7 +231,7 @@ pub(super) fn check(
         facts: Facts::none(),
     };
     let begun = context.writes_block(0, 0, &tables.arguments[index]);
-    begun.map_err(super::verify::invalid)?;
+    begun.map_err(crate::machine::verify::invalid)?;
 
     let joins = joins(code, function);
     let mut open: Vec<(usize, Facts)> = Vec::from([(0, context.facts.clone())]);

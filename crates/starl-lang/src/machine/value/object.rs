@@ -4,8 +4,8 @@
 //! of its own. An object without a body is the empty text or collection, so that a state full of
 //! empty collections needs no memory but its own.
 
-use super::list::List;
-use super::types::{Layout, Parts};
+use crate::machine::types::{Layout, Parts};
+use crate::machine::value::list::List;
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::sync::Arc;

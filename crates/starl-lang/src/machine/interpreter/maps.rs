@@ -1,11 +1,11 @@
 //! Instructions on maps.
 
-use super::error::Fault;
-use super::lists::insert;
-use super::object::Object;
-use super::operand::{Block, In, ObjectBlock, ObjectIn, ObjectInOut, Out, Type};
-use super::types::Layout;
-use super::view::{View, shift};
+use crate::machine::error::Fault;
+use crate::machine::interpreter::lists::insert;
+use crate::machine::interpreter::view::{View, shift};
+use crate::machine::operand::{Block, In, ObjectBlock, ObjectIn, ObjectInOut, Out, Type};
+use crate::machine::types::Layout;
+use crate::machine::value::object::Object;
 
 /// Where a value stands in registers: its first scalar and its first object.
 type Place = (Block, ObjectBlock);
