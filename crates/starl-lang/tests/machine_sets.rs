@@ -38,10 +38,7 @@ fn adding_and_removing() {
     let remove = "set_remove b0 r0 b0 type0";
     assert_eq!(set(remove, 1, [&[1, 3], &[]]), [3]);
     assert_eq!(set(remove, 2, [&[1, 3], &[]]), [1, 3]);
-    assert_eq!(
-        set(&format!("clear_object b0 type0\n {remove}"), 2, [&[1], &[]]),
-        []
-    );
+    assert!(set(&format!("clear_object b0 type0\n {remove}"), 2, [&[1], &[]]).is_empty());
     for element in 0..5 {
         assert_eq!(contains(element, &[1, 3]), [1, 3].contains(&element));
         assert!(!contains(element, &[]));
@@ -72,7 +69,7 @@ fn two_sets() {
         assert_eq!(run(subtract), sorted(&left - &right));
     }
     assert_eq!(set("set_intersect b0 b0 type0", 0, [&[1, 2], &[]]), [1, 2]);
-    assert_eq!(set("set_subtract b0 b0 type0", 0, [&[1, 2], &[]]), []);
+    assert!(set("set_subtract b0 b0 type0", 0, [&[1, 2], &[]]).is_empty());
 }
 
 #[test]
