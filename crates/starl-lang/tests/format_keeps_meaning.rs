@@ -72,3 +72,8 @@ fn of_noise() {
         check(&mutation::noise(seed));
     }
 }
+
+#[test]
+fn of_a_form_feed_at_the_end_of_what_stays_as_it_is() {
+    check("program P\n\nx: = 1 )\u{c}\u{c}\ny: Int\n");
+}

@@ -97,10 +97,128 @@ codes! {
     ClauseOrder = "E0128",
     /// More text than a program may have.
     TooLong = "E0129",
+    /// A name that nothing has.
+    UnknownName = "E0201",
+    /// A name that is declared twice.
+    DuplicateName = "E0202",
+    /// A local name that hides another.
+    HiddenName = "E0203",
+    /// A name that stands for no value.
+    NoValue = "E0204",
+    /// A type that there is not.
+    UnknownType = "E0205",
+    /// A type with too many or too few types in its brackets.
+    TypeArguments = "E0206",
+    /// A type that cannot be a key of a map or an element of a set.
+    InvalidKey = "E0207",
+    /// A record that contains itself.
+    RecursiveType = "E0208",
+    /// A variable that needs a first value.
+    NoDefault = "E0209",
+    /// A library that cannot be found.
+    UnknownLibrary = "E0210",
+    /// Libraries that import each other.
+    ImportCycle = "E0211",
+    /// A library with errors.
+    BrokenLibrary = "E0212",
+    /// A declaration that a library cannot hold.
+    NotInLibrary = "E0213",
+    /// A constant whose value needs itself.
+    ConstantCycle = "E0214",
+    /// A field or method that there is not.
+    UnknownMember = "E0215",
+    /// A variant that the enum does not have.
+    UnknownVariant = "E0216",
+    /// A variant that several enums have.
+    AmbiguousVariant = "E0217",
+    /// A value of another type than the one that is needed.
+    WrongType = "E0220",
+    /// An optional value where a value is needed.
+    MayBeNone = "E0221",
+    /// An operator between values that it does not join.
+    OperatorTypes = "E0222",
+    /// Int and Float mixed.
+    MixedNumbers = "E0223",
+    /// A value whose type cannot be known.
+    UnclearType = "E0224",
+    /// Something that cannot be run over or looked in.
+    NotCollection = "E0225",
+    /// Something that is always there, treated as if it may be none.
+    NotOptional = "E0226",
+    /// Something that cannot be indexed.
+    NotIndexable = "E0227",
+    /// A range that is neither run over nor looked in.
+    MisplacedRange = "E0228",
+    /// Something called that cannot be, or not called that must be.
+    NotCallable = "E0230",
+    /// Too many or too few arguments.
+    ArgumentCount = "E0231",
+    /// An argument with a name that no parameter has.
+    ArgumentName = "E0232",
+    /// A function that may end without a result.
+    MissingReturn = "E0233",
+    /// A `return` with a value too many or too few.
+    ReturnValue = "E0234",
+    /// Something that cannot be written.
+    NotWritable = "E0240",
+    /// A write to another robot's element of a single-writer variable.
+    ForeignElement = "E0241",
+    /// Something with an effect where nothing may happen.
+    Impure = "E0242",
+    /// The state used where it cannot be seen.
+    StateOutOfReach = "E0243",
+    /// A variable used before it has a value.
+    UsedTooEarly = "E0244",
+    /// A primitive that there is not.
+    UnknownPrimitive = "E0245",
+    /// A handler of something that is neither a message nor an event.
+    UnknownEvent = "E0246",
+    /// A handler with other parameters than what it handles.
+    HandlerParameters = "E0247",
+    /// A quantifier outside of a property.
+    MisplacedQuantifier = "E0248",
+    /// Another robot's variable, outside of a property.
+    ForeignVariable = "E0249",
+    /// A property that cannot be checked.
+    InvalidProperty = "E0250",
+    /// A consistency that shared variables do not have.
+    UnknownConsistency = "E0251",
+    /// A second declaration of what there can be only one of.
+    SecondDeclaration = "E0252",
+    /// A literal that its type cannot hold.
+    LiteralRange = "E0253",
     /// A colon at the end of a line that opens a block.
     HeaderColon = "W0101",
     /// An action's name without its brackets.
     KoordAction = "W0102",
+    /// A statement that looks as if a condition decided over it, but it does not.
+    AfterInlineIf = "W0103",
+    /// An action that is never enabled.
+    NeverEnabled = "W0201",
+    /// A state that no action leaves.
+    NoWayOut = "W0202",
+    /// A message that is sent and not handled.
+    MessageNotHandled = "W0203",
+    /// A message that is not sent.
+    MessageNotSent = "W0204",
+    /// A variable that is never read.
+    NeverRead = "W0205",
+    /// A local variable that is never read.
+    UnusedLocal = "W0206",
+    /// A function, constant, parameter or primitive that is not used.
+    UnusedDeclaration = "W0207",
+    /// An import that is not used.
+    UnusedImport = "W0208",
+    /// A value that is computed and dropped.
+    UnusedValue = "W0209",
+    /// Statements that are never reached.
+    Unreachable = "W0210",
+    /// A condition that is always the same.
+    ConstantCondition = "W0211",
+    /// An `atomic` that touches no shared variable.
+    NothingShared = "W0212",
+    /// A text whose `{}` do not match the values after it.
+    FormatValues = "W0213",
 }
 
 impl Code {

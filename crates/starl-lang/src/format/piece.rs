@@ -78,7 +78,10 @@ fn errors(parse: &Parse, root: &SyntaxNode) -> Vec<Span> {
         .filter(|diagnostic| diagnostic.severity() == Severity::Error);
     let errors = errors
         .filter(|error| !known.contains(&error.code))
-        .map(|error| error.span);
+        .map(|error| match error.code {
+            Code::UnevenIndentation => with_line_above(error.span, root),
+            _ => error.span,
+        });
     let skipped = root
         .children()
         .filter(|node| node.kind() == Error)
@@ -97,6 +100,20 @@ fn errors(parse: &Parse, root: &SyntaxNode) -> Vec<Span> {
         joined
     });
     lines
+}
+
+/// To which block the line belongs follows from the indentation of what is above.
+fn with_line_above(span: Span, root: &SyntaxNode) -> Span {
+    let mut above = root.token_at_offset(span.end.into()).right_biased();
+    let matters = |token: &SyntaxToken| !token.kind().is_trivia() && token.kind() != Newline;
+    loop {
+        above = above.and_then(|token| token.prev_token());
+        match &above {
+            Some(token) if matters(token) => return span.to(Span::from(token.text_range())),
+            Some(_) => {}
+            None => return span,
+        }
+    }
 }
 
 fn whole_lines(span: Span, text: &str) -> Span {
@@ -139,6 +156,11 @@ impl Walk {
         else {
             return group.iter().for_each(|element| self.element(element));
         };
+        // What is before it on its line belongs to it.
+        let line = group[..first]
+            .iter()
+            .rposition(|element| element.kind() == LineBreak);
+        let first = line.map_or(0, |line| line + 1);
         group[..first]
             .iter()
             .for_each(|element| self.element(element));
@@ -213,7 +235,7 @@ impl Walk {
 
     /// A declaration as it is; the line ends around it are as everywhere.
     fn verbatim(&mut self, text: &str) {
-        let is_blank = |character: char| character.is_ascii_whitespace();
+        let is_blank = |character: char| character == '\n' || BLANK.contains(&character);
         // Its indentation belongs to it, if it has any.
         let start = text.len() - text.trim_start_matches(['\n', '\r']).len();
         self.breaks += text[..start].matches('\n').count();

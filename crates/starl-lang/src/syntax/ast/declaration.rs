@@ -3,7 +3,7 @@
 use alloc::string::String;
 
 use super::super::{SyntaxKind, SyntaxNode, SyntaxToken};
-use super::node::{after, child, children, nodes, token, tokens, word};
+use super::node::{after, child, children, children_through_errors, nodes, token, tokens, word};
 use super::{Block, Expression, Item, Name, Type, TypeArguments};
 
 nodes! {
@@ -15,18 +15,6 @@ nodes! {
     LibraryHeader
     /// `import name`
     Import
-    /// `enum Name {a, b}`
-    EnumDeclaration
-    /// `{a, b}`, the values of an enum
-    VariantList
-    /// `record Name {x: Int}`
-    RecordDeclaration
-    /// `message Name(x: Int)`
-    MessageDeclaration
-    /// The fields of a record or a message
-    FieldList
-    /// `x: Int` in a record or a message
-    Field
     /// `param name: Type = default`
     ParameterDeclaration
     /// `const name = value`
@@ -76,41 +64,7 @@ impl SourceFile {
 
     /// The declarations, with the header.
     pub fn items(&self) -> impl Iterator<Item = Item> + use<> {
-        children(&self.0)
-    }
-}
-
-impl EnumDeclaration {
-    /// The names of its values.
-    pub fn variants(&self) -> impl Iterator<Item = Name> + use<> {
-        child::<VariantList>(&self.0)
-            .into_iter()
-            .flat_map(|list| list.variants())
-    }
-}
-
-impl VariantList {
-    /// The names.
-    pub fn variants(&self) -> impl Iterator<Item = Name> + use<> {
-        children(&self.0)
-    }
-}
-
-impl RecordDeclaration {
-    /// Its fields.
-    pub fn fields(&self) -> impl Iterator<Item = Field> + use<> {
-        child::<FieldList>(&self.0)
-            .into_iter()
-            .flat_map(|list| children(&list.0))
-    }
-}
-
-impl MessageDeclaration {
-    /// Its fields.
-    pub fn fields(&self) -> impl Iterator<Item = Field> + use<> {
-        child::<FieldList>(&self.0)
-            .into_iter()
-            .flat_map(|list| children(&list.0))
+        children_through_errors(&self.0)
     }
 }
 
@@ -138,7 +92,7 @@ macro_rules! valued {
     )+};
 }
 
-typed! { Field Parameter ParameterDeclaration ConstantDeclaration VariableDeclaration SharedDeclaration }
+typed! { Parameter ParameterDeclaration ConstantDeclaration VariableDeclaration SharedDeclaration }
 valued! {
     ParameterDeclaration ConstantDeclaration VariableDeclaration SharedDeclaration BindingDeclaration
     FunctionDeclaration
@@ -257,7 +211,7 @@ impl RoleDeclaration {
     pub fn items(&self) -> impl Iterator<Item = Item> + use<> {
         child::<RoleBody>(&self.0)
             .into_iter()
-            .flat_map(|body| children(&body.0))
+            .flat_map(|body| children_through_errors(&body.0))
     }
 }
 

@@ -2,13 +2,13 @@
 
 use alloc::string::String;
 
-use super::super::{SyntaxKind, SyntaxToken, literal};
+use super::super::{SyntaxKind, SyntaxToken};
 use super::node::{after, before, child, children, choice, nodes, token, tokens};
-use super::{BinaryOperator, LoopVariables, Name, PrefixOperator};
+use super::{
+    BinaryOperator, BraceExpression, ListExpression, LiteralExpression, Name, PrefixOperator,
+};
 
 nodes! {
-    /// A number, a string, `true`, `false` or `none`
-    LiteralExpression
     /// A name
     NameExpression
     /// `(value)`
@@ -35,14 +35,6 @@ nodes! {
     ConditionalExpression
     /// `forall r, s: condition` or `exists r: condition`
     QuantifierExpression
-    /// `[a, b]` or `[f(x) for x in xs if condition]`
-    ListExpression
-    /// A set or a map: `{a, b}`, `{k: v}`, `{}`, `{:}` or a comprehension
-    BraceExpression
-    /// `k: v`
-    MapEntry
-    /// `for x in xs if condition`
-    ComprehensionClause
 }
 
 choice! {
@@ -76,55 +68,6 @@ choice! {
         List(ListExpression),
         /// `{a, b}` or `{k: v}`
         Brace(BraceExpression),
-    }
-}
-
-/// What a literal is worth.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Literal {
-    /// An Int; 2^63, which is no Int, only where `-` stands before it.
-    Int(u64),
-    /// A Float; a length in metres, an angle in radians.
-    Float(f64),
-    /// A Duration in nanoseconds.
-    Duration(u64),
-    /// A String.
-    String(String),
-    /// `true` or `false`.
-    Bool(bool),
-    /// `none`.
-    None,
-    /// One that is not well written, which is reported.
-    Malformed,
-}
-
-impl LiteralExpression {
-    /// The literal as it is written.
-    #[must_use]
-    pub fn token(&self) -> Option<SyntaxToken> {
-        tokens(&self.0).next()
-    }
-
-    /// What it is worth.
-    #[must_use]
-    pub fn value(&self) -> Literal {
-        let Some(token) = self.token() else {
-            return Literal::Malformed;
-        };
-        let text = token.text();
-        let value = match token.kind() {
-            SyntaxKind::IntegerLiteral => literal::integer(text).map(Literal::Int),
-            SyntaxKind::FloatLiteral | SyntaxKind::LengthLiteral | SyntaxKind::AngleLiteral => {
-                literal::float(text).map(Literal::Float)
-            }
-            SyntaxKind::DurationLiteral => literal::duration(text).map(Literal::Duration),
-            SyntaxKind::StringLiteral => Some(Literal::String(literal::string(text).0)),
-            SyntaxKind::TrueKeyword => Some(Literal::Bool(true)),
-            SyntaxKind::FalseKeyword => Some(Literal::Bool(false)),
-            SyntaxKind::NoneKeyword => Some(Literal::None),
-            _ => None,
-        };
-        value.unwrap_or(Literal::Malformed)
     }
 }
 
@@ -319,77 +262,5 @@ impl QuantifierExpression {
     #[must_use]
     pub fn condition(&self) -> Option<Expression> {
         child(&self.0)
-    }
-}
-
-impl ListExpression {
-    /// The elements; of a comprehension the one that is built.
-    pub fn elements(&self) -> impl Iterator<Item = Expression> + use<> {
-        children(&self.0)
-    }
-
-    /// What it is built from, if it is a comprehension.
-    #[must_use]
-    pub fn comprehension(&self) -> Option<ComprehensionClause> {
-        child(&self.0)
-    }
-}
-
-impl BraceExpression {
-    /// Whether it is a map: it has an entry, or is `{:}`. `{}` is a set.
-    #[must_use]
-    pub fn is_map(&self) -> bool {
-        token(&self.0, SyntaxKind::Colon).is_some() || child::<MapEntry>(&self.0).is_some()
-    }
-
-    /// The elements of a set; of a comprehension the one that is built.
-    pub fn elements(&self) -> impl Iterator<Item = Expression> + use<> {
-        children(&self.0)
-    }
-
-    /// The entries of a map; of a comprehension the one that is built.
-    pub fn entries(&self) -> impl Iterator<Item = MapEntry> + use<> {
-        children(&self.0)
-    }
-
-    /// What it is built from, if it is a comprehension.
-    #[must_use]
-    pub fn comprehension(&self) -> Option<ComprehensionClause> {
-        child(&self.0)
-    }
-}
-
-impl MapEntry {
-    /// The key.
-    #[must_use]
-    pub fn key(&self) -> Option<Expression> {
-        before(&token(&self.0, SyntaxKind::Colon)?)
-    }
-
-    /// The value.
-    #[must_use]
-    pub fn value(&self) -> Option<Expression> {
-        after(&token(&self.0, SyntaxKind::Colon)?)
-    }
-}
-
-impl ComprehensionClause {
-    /// One variable, or two for a map.
-    pub fn variables(&self) -> impl Iterator<Item = Name> + use<> {
-        child::<LoopVariables>(&self.0)
-            .into_iter()
-            .flat_map(|variables| variables.names())
-    }
-
-    /// What it runs over.
-    #[must_use]
-    pub fn collection(&self) -> Option<Expression> {
-        after(&token(&self.0, SyntaxKind::InKeyword)?)
-    }
-
-    /// Which elements are taken, if not all.
-    #[must_use]
-    pub fn condition(&self) -> Option<Expression> {
-        after(&token(&self.0, SyntaxKind::IfKeyword)?)
     }
 }

@@ -1,5 +1,7 @@
 //! What all types of nodes have in common.
 
+use alloc::boxed::Box;
+
 use super::super::{SyntaxKind, SyntaxNode, SyntaxToken};
 use super::Expression;
 use crate::diagnostic::Span;
@@ -111,6 +113,16 @@ pub(super) fn child<N: AstNode>(node: &SyntaxNode) -> Option<N> {
 /// All parts of a type.
 pub(super) fn children<N: AstNode>(node: &SyntaxNode) -> impl Iterator<Item = N> + use<N> {
     node.children().filter_map(N::cast)
+}
+
+/// The same, also those in what was not understood as a whole.
+pub(super) fn children_through_errors<N: AstNode + 'static>(
+    node: &SyntaxNode,
+) -> Box<dyn Iterator<Item = N>> {
+    Box::new(node.children().flat_map(|child| match child.kind() {
+        SyntaxKind::Error => children_through_errors(&child),
+        _ => Box::new(N::cast(child).into_iter()),
+    }))
 }
 
 /// The tokens directly in a node, without trivia.

@@ -1,7 +1,7 @@
 //! Statements.
 
 use super::super::SyntaxToken;
-use super::node::{after, before, child, children, choice, nodes, tokens};
+use super::node::{after, before, child, children, children_through_errors, choice, nodes, tokens};
 use super::{AssignOperator, Expression, Name, Type};
 
 nodes! {
@@ -52,7 +52,7 @@ choice! {
 impl Block {
     /// The statements.
     pub fn statements(&self) -> impl Iterator<Item = Statement> + use<> {
-        children(&self.0)
+        children_through_errors(&self.0)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Actions and handlers: what a robot does, and when.
+//! Actions: what a robot does while a guard holds.
 
 use alloc::format;
 use alloc::vec::Vec;
@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::item::name;
 use super::slips::{self, Colon as HeaderColon};
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*};
-use super::{block, expression, statement, types};
+use super::{block, expression, statement};
 use crate::diagnostic::{Edit, Mend};
 
 /// Whether a name with brackets, which is next, is the header of an action: nothing is between the
@@ -252,43 +252,4 @@ fn put_eff(parser: &Parser<'_>, span: Span, lines: u32) -> Vec<Edit> {
         *edit = Edit::new(start, format!("eff\n{indentation}    "));
     }
     edits
-}
-
-/// `on Message(from, a, b)` or `on primitive.event(a)`, and statements.
-pub(super) fn handler(parser: &mut Parser<'_>) {
-    parser.bump();
-    parser.start(EventPath);
-    if parser.expect(Identifier) && parser.eat(Dot) {
-        parser.expect(Identifier);
-    }
-    parser.finish();
-    let open = parser.span();
-    if parser.at(LeftParen) {
-        parser.start(HandlerParameterList);
-        parser.bump();
-        parser.separated(RightParen, open, handler_parameter);
-        parser.finish();
-    } else {
-        parser.unexpected("the sender and the fields in brackets, as in `(from, x)`");
-    }
-    block::indented(parser, "a handler");
-}
-
-/// A name, whose type is that of the message's field.
-fn handler_parameter(parser: &mut Parser<'_>) {
-    name(parser);
-    if parser.at(Colon) {
-        let colon = parser.span();
-        parser.start(Error);
-        parser.bump();
-        types::any(parser);
-        parser.finish();
-        let span = Span::new(colon.start, parser.end_of_last());
-        let problem = Diagnostic::new(
-            Code::Unexpected,
-            span,
-            "a handler takes its types from the message",
-        );
-        parser.report(problem.replace("remove the type", span, ""));
-    }
 }

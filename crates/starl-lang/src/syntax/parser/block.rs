@@ -24,7 +24,7 @@ pub(super) fn after_word(parser: &mut Parser<'_>, owner: &str, goes_on: bool) {
         return indented(parser, owner);
     }
     parser.start(Block);
-    on_line(parser);
+    on_line(parser, statement::Place::OnLine);
     if goes_on && parser.at(Newline) && parser.nth(1) == Indent {
         lines(parser);
     }
@@ -103,7 +103,7 @@ fn statements(parser: &mut Parser<'_>) {
             Newline | Semicolon => parser.bump(),
             Indent => unexpected_indentation(parser, statements),
             _ => {
-                statement::statement(parser, statement::Place::OwnLine);
+                on_line(parser, statement::Place::OwnLine);
                 parser.end_line();
             }
         }
@@ -111,14 +111,27 @@ fn statements(parser: &mut Parser<'_>) {
 }
 
 /// Statements with semicolons between them, on a line.
-fn on_line(parser: &mut Parser<'_>) {
-    statement::statement(parser, statement::Place::OnLine);
-    while parser.at(Semicolon) {
-        parser.bump();
-        if !parser.at_line_end() {
-            statement::statement(parser, statement::Place::OnLine);
+fn on_line(parser: &mut Parser<'_>, first: statement::Place) {
+    let mut place = first;
+    loop {
+        let is_if = parser.at(IfKeyword);
+        statement::statement(parser, place);
+        place = statement::Place::OnLine;
+        if !parser.eat(Semicolon) || parser.at_line_end() {
+            return;
+        }
+        if is_if && !matches!(parser.current(), ElseKeyword | ElifKeyword) {
+            after_inline_if(parser);
         }
     }
+}
+
+/// Warns of the statement that is next, before which `if` and a semicolon stand on the line.
+fn after_inline_if(parser: &mut Parser<'_>) {
+    let message = "this is done whether the condition holds or not";
+    let problem = Diagnostic::new(Code::AfterInlineIf, parser.span(), message);
+    let note = "`then` takes one statement: put this one on a line of its own, or both in a block";
+    parser.report(problem.note(note));
 }
 
 /// Lines that are indented although nothing opens a block; `inner` parses them.

@@ -5,7 +5,7 @@ use alloc::format;
 use super::item::{self, name};
 use super::slips::{self, Colon as HeaderColon};
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*};
-use super::{action, block, expression, record, types};
+use super::{action, block, expression, form, record, types};
 
 /// Whether the word that is next begins a declaration rather than naming something: another word follows.
 pub(super) fn contextual(parser: &Parser<'_>) -> bool {
@@ -234,7 +234,7 @@ pub(super) fn foreign_word(parser: &mut Parser<'_>) {
     let message = format!("{} begins no declaration", parser.found());
     let problem = Diagnostic::new(Code::ForeignDeclaration, span, message);
     parser.report(problem.replace(format!("did you mean `{meant}`?"), span, meant));
-    if let Some((_, parse)) = item::by_meaning(meant) {
+    if let Some((_, parse)) = form::by_meaning(meant) {
         parse(parser);
     }
 }

@@ -5,27 +5,30 @@
 //! parses something either takes a token or leaves the work to one that does, so that it always ends.
 
 mod action;
+mod assignment;
 mod block;
 mod collection;
 mod declaration;
 mod expression;
+mod form;
+mod handler;
 mod item;
 mod operand;
 mod property;
 mod record;
 mod recovery;
+mod report;
 mod shared;
 mod slips;
 mod statement;
+mod tree;
 mod types;
 
-use alloc::string::String;
 use alloc::vec::Vec;
 
-use rowan::{Checkpoint, GreenNode, GreenNodeBuilder, Language as _};
+use rowan::{GreenNode, GreenNodeBuilder};
 
 use super::SyntaxKind::{self, *};
-use super::kind::Language;
 use super::layout::Lexeme;
 use super::lexer::Tokens;
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -157,147 +160,5 @@ impl<'a> Parser<'a> {
             self.current(),
             Newline | Semicolon | Indent | Dedent | EndOfFile
         )
-    }
-
-    /// Puts the next lexeme into the tree.
-    fn bump(&mut self) {
-        let Some(lexeme) = self.lexemes.get(self.position) else {
-            return;
-        };
-        self.flush(lexeme.index as usize);
-        self.position += 1;
-        if !matches!(lexeme.kind, Indent | Dedent) {
-            self.token(lexeme.kind);
-        }
-    }
-
-    /// Takes the next lexeme if it is of this kind.
-    fn eat(&mut self, kind: SyntaxKind) -> bool {
-        let found = self.at(kind);
-        if found {
-            self.bump();
-        }
-        found
-    }
-
-    /// Takes the next lexeme, or reports that it is missing.
-    fn expect(&mut self, kind: SyntaxKind) -> bool {
-        let found = self.eat(kind);
-        if !found {
-            self.unexpected(kind.name());
-        }
-        found
-    }
-
-    /// Puts tokens into the tree, all trivia, up to the one at `index`.
-    fn flush(&mut self, index: usize) {
-        while self.flushed < index {
-            let kind = self.tokens.kind(self.flushed);
-            self.token(if kind == Newline { LineBreak } else { kind });
-        }
-    }
-
-    fn token(&mut self, kind: SyntaxKind) {
-        let text = self.tokens.span(self.flushed).of(self.text);
-        self.builder.token(Language::kind_to_raw(kind), text);
-        self.flushed += 1;
-    }
-
-    /// Puts the trivia before the next lexeme into the tree.
-    fn flush_trivia(&mut self) {
-        let next = self
-            .lexemes
-            .get(self.position)
-            .map_or(self.tokens.len(), |lexeme| lexeme.index as usize);
-        self.flush(next);
-    }
-
-    /// Starts a node with the next lexeme.
-    fn start(&mut self, kind: SyntaxKind) {
-        self.flush_trivia();
-        self.builder.start_node(Language::kind_to_raw(kind));
-    }
-
-    /// A place before the next lexeme, where a node can be started later.
-    fn checkpoint(&mut self) -> Checkpoint {
-        self.flush_trivia();
-        self.builder.checkpoint()
-    }
-
-    /// A place before the comments that document what comes next.
-    fn checkpoint_with_documentation(&mut self) -> Checkpoint {
-        let next = self
-            .lexemes
-            .get(self.position)
-            .map_or(self.tokens.len(), |lexeme| lexeme.index as usize);
-        let (mut start, mut lines) = (next, 0);
-        for index in (self.flushed..next).rev() {
-            match self.tokens.kind(index) {
-                DocComment => (start, lines) = (index, 0),
-                Newline if lines == 0 => lines = 1,
-                Whitespace => {}
-                _ => break,
-            }
-        }
-        self.flush(start);
-        self.builder.checkpoint()
-    }
-
-    fn start_at(&mut self, checkpoint: Checkpoint, kind: SyntaxKind) {
-        self.builder
-            .start_node_at(checkpoint, Language::kind_to_raw(kind));
-    }
-
-    fn finish(&mut self) {
-        self.builder.finish_node();
-    }
-
-    fn report(&mut self, diagnostic: Diagnostic) {
-        self.last_report = Some(diagnostic.span.end);
-        self.diagnostics.push(diagnostic);
-    }
-
-    /// Reports that something else must stand here; once for each place.
-    fn unexpected(&mut self, expected: &str) {
-        let start = self.span().start;
-        let known = self.unpaired.binary_search(&start).is_ok() && !self.at_line_end();
-        let known = known || self.follows_unknown();
-        if self.last_error.replace(self.position) == Some(self.position) || known {
-            return;
-        }
-        let found = self.found();
-        let (span, message) = if self.at_line_end() {
-            (
-                Span::empty(self.end_of_last()),
-                alloc::format!("{expected} is missing"),
-            )
-        } else {
-            (self.span(), alloc::format!("{found} cannot stand here"))
-        };
-        let code = Code::Unexpected;
-        self.report(
-            Diagnostic::new(code, span, message)
-                .expected(expected)
-                .found(found),
-        );
-    }
-
-    /// Whether a character without meaning, which is reported, is right before what comes next.
-    fn follows_unknown(&self) -> bool {
-        let next = self
-            .lexemes
-            .get(self.position)
-            .map_or(self.tokens.len(), |lexeme| lexeme.index as usize);
-        let mut before = (0..next).rev().map(|index| self.tokens.kind(index));
-        before.find(|kind| *kind != Whitespace) == Some(Unknown)
-    }
-
-    /// What the next lexeme is called where a person is told of it.
-    fn found(&self) -> String {
-        match self.current() {
-            kind if kind.text().is_some() => kind.name().into(),
-            kind @ (Newline | Indent | Dedent | EndOfFile) => kind.name().into(),
-            _ => alloc::format!("`{}`", self.word()),
-        }
     }
 }

@@ -2,10 +2,10 @@
 
 use alloc::format;
 
-use super::expression::{self, Shape, condition, expression as value};
+use super::expression::{condition, expression as value};
 use super::item::name;
 use super::slips::{self, Colon as HeaderColon};
-use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, block, collection, types};
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, assignment, block, collection, types};
 
 /// Where a statement stands.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -44,7 +44,7 @@ pub(super) fn statement(parser: &mut Parser<'_>, place: Place) {
             "stands for something left out",
             "write the statements, or leave the block out",
         ),
-        _ if parser.starts_operand() => expression_or_assignment(parser),
+        _ if parser.starts_operand() => assignment::expression_or_assignment(parser),
         _ => {
             parser.unexpected("a statement");
             nothing(parser);
@@ -53,7 +53,7 @@ pub(super) fn statement(parser: &mut Parser<'_>, place: Place) {
 }
 
 /// Takes the line that holds no statement, at least one token of it.
-fn nothing(parser: &mut Parser<'_>) {
+pub(super) fn nothing(parser: &mut Parser<'_>) {
     if parser.at_line_end() {
         if !matches!(parser.current(), Dedent | EndOfFile | Newline) {
             parser.bump();
@@ -211,107 +211,6 @@ fn from_name(parser: &mut Parser<'_>) {
             local_rest(parser);
             parser.finish();
         }
-        _ => expression_or_assignment(parser),
-    }
-}
-
-/// `x = e`, `x += e`, or a call.
-fn expression_or_assignment(parser: &mut Parser<'_>) {
-    let start = parser.checkpoint();
-    let before = parser.position;
-    let span = parser.span();
-    let shape = value(parser);
-    if parser.position == before {
-        return nothing(parser);
-    }
-    let whole = Span::new(span.start, parser.end_of_last());
-    match parser.current() {
-        kind if kind.is_assignment() => {
-            check_target(parser, shape, whole);
-            assignment(parser, whole);
-            parser.start_at(start, AssignStatement);
-        }
-        PlusPlus => {
-            step(parser, whole, "+");
-            parser.start_at(start, ExpressionStatement);
-        }
-        Minus => {
-            step(parser, whole, "-");
-            parser.start_at(start, ExpressionStatement);
-        }
-        _ => {
-            check_effect(parser, shape, whole);
-            parser.start_at(start, ExpressionStatement);
-        }
-    }
-    parser.finish();
-}
-
-fn assignment(parser: &mut Parser<'_>, target: Span) {
-    let (kind, span) = (parser.current(), parser.span());
-    parser.bump();
-    let from = parser.span().start;
-    let shape = value(parser);
-    if !matches!(kind, SlashEqual | PercentEqual) {
-        return;
-    }
-    let operator = if kind == SlashEqual { "/" } else { "%" };
-    let message = format!("there is no operator {}", kind.name());
-    let problem = Diagnostic::new(Code::ForeignOperator, span, message);
-    let target = target.of(parser.text);
-    let operand = Span::new(from, parser.end_of_last().max(from));
-    let brackets =
-        matches!(shape, Shape::Other | Shape::Equality(_)) && operand.of(parser.text).contains(' ');
-    let operand_text = operand.of(parser.text);
-    let right = if brackets {
-        format!("({operand_text})")
-    } else {
-        operand_text.into()
-    };
-    let mend = format!("= {target} {operator} {right}");
-    let form = format!("write `{target} {mend}`");
-    parser.report(problem.replace(form, span.to(operand), mend));
-}
-
-/// `x++` or `x--`.
-fn step(parser: &mut Parser<'_>, target: Span, sign: &str) {
-    let mut span = parser.span();
-    parser.start(Error);
-    parser.bump();
-    if sign == "-" {
-        span = span.to(parser.span());
-        parser.bump();
-    }
-    parser.finish();
-    let form = format!("write `{} {sign}= 1`", target.of(parser.text));
-    let place = Span::new(target.end, span.end);
-    let message = format!("there is no operator `{sign}{sign}`");
-    slips::foreign_operator(parser, place, &message, (&form, &format!(" {sign}= 1")));
-}
-
-fn check_target(parser: &mut Parser<'_>, shape: Shape, span: Span) {
-    if matches!(shape, Shape::Target | Shape::Broken) {
-        return;
-    }
-    let problem = Diagnostic::new(Code::InvalidTarget, span, "this cannot be assigned to");
-    parser.report(problem.expected("a variable, or a field or an element of one"));
-}
-
-fn check_effect(parser: &mut Parser<'_>, shape: Shape, span: Span) {
-    match shape {
-        expression::Shape::Call | expression::Shape::Broken => {}
-        expression::Shape::Equality(operator) => {
-            let problem = Diagnostic::new(
-                Code::ComparisonAsStatement,
-                operator,
-                "`==` compares, but a statement stands here",
-            );
-            parser.report(problem.replace("assign with `=`", operator, "="));
-        }
-        _ if !parser.at_line_end() => {}
-        _ => {
-            let problem = Diagnostic::new(Code::NoEffect, span, "this has no effect");
-            parser.report(problem.expected("a statement, such as a call or an assignment"));
-        }
+        _ => assignment::expression_or_assignment(parser),
     }
 }

@@ -1,0 +1,43 @@
+//! Handlers: what a robot does when a message arrives or a primitive tells of something.
+
+use super::item::name;
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, block, types};
+
+/// `on Message(from, a, b)` or `on primitive.event(a)`, and statements.
+pub(super) fn handler(parser: &mut Parser<'_>) {
+    parser.bump();
+    parser.start(EventPath);
+    if parser.expect(Identifier) && parser.eat(Dot) {
+        parser.expect(Identifier);
+    }
+    parser.finish();
+    let open = parser.span();
+    if parser.at(LeftParen) {
+        parser.start(HandlerParameterList);
+        parser.bump();
+        parser.separated(RightParen, open, handler_parameter);
+        parser.finish();
+    } else {
+        parser.unexpected("the sender and the fields in brackets, as in `(from, x)`");
+    }
+    block::indented(parser, "a handler");
+}
+
+/// A name, whose type is that of the message's field.
+fn handler_parameter(parser: &mut Parser<'_>) {
+    name(parser);
+    if parser.at(Colon) {
+        let colon = parser.span();
+        parser.start(Error);
+        parser.bump();
+        types::any(parser);
+        parser.finish();
+        let span = Span::new(colon.start, parser.end_of_last());
+        let problem = Diagnostic::new(
+            Code::Unexpected,
+            span,
+            "a handler takes its types from the message",
+        );
+        parser.report(problem.replace("remove the type", span, ""));
+    }
+}

@@ -1,0 +1,56 @@
+//! Reporting what is wrong.
+
+use alloc::string::String;
+
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*};
+
+impl Parser<'_> {
+    pub fn report(&mut self, diagnostic: Diagnostic) {
+        self.last_report = Some(diagnostic.span.end);
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Reports that something else must stand here; once for each place.
+    pub fn unexpected(&mut self, expected: &str) {
+        let start = self.span().start;
+        let known = self.unpaired.binary_search(&start).is_ok() && !self.at_line_end();
+        let known = known || self.follows_unknown();
+        if self.last_error.replace(self.position) == Some(self.position) || known {
+            return;
+        }
+        let found = self.found();
+        let (span, message) = if self.at_line_end() {
+            (
+                Span::empty(self.end_of_last()),
+                alloc::format!("{expected} is missing"),
+            )
+        } else {
+            (self.span(), alloc::format!("{found} cannot stand here"))
+        };
+        let code = Code::Unexpected;
+        self.report(
+            Diagnostic::new(code, span, message)
+                .expected(expected)
+                .found(found),
+        );
+    }
+
+    /// Whether a character without meaning, which is reported, is right before what comes next.
+    pub fn follows_unknown(&self) -> bool {
+        let next = self
+            .lexemes
+            .get(self.position)
+            .map_or(self.tokens.len(), |lexeme| lexeme.index as usize);
+        let mut before = (0..next).rev().map(|index| self.tokens.kind(index));
+        before.find(|kind| *kind != Whitespace) == Some(Unknown)
+    }
+
+    /// What the next lexeme is called where a person is told of it.
+    pub fn found(&self) -> String {
+        match self.current() {
+            kind if kind.text().is_some() => kind.name().into(),
+            kind @ (Newline | Indent | Dedent | EndOfFile) => kind.name().into(),
+            _ => alloc::format!("`{}`", self.word()),
+        }
+    }
+}
