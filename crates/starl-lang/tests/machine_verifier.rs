@@ -367,6 +367,12 @@ fn types_and_headers() {
         let found = reason(text);
         assert!(found.ends_with(expected), "{text}\n{found}");
     }
+    let twice =
+        "function f function () () registers 1 objects 0\n span 0 1 2\n span 0 3 4\n return #0 #0";
+    let after = "function f function () () registers 1 objects 0\n return #0 #0\n span 0 1 2";
+    for text in [twice, after] {
+        assert!(reason(text).ends_with("spans are not in ascending order or beyond the code"));
+    }
     let deep: String = (1..40)
         .map(|index| format!("type List[type{}]\n", index - 1))
         .collect();

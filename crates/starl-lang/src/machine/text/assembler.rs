@@ -133,8 +133,8 @@ impl Assembler {
                 self.end_function().map_err(|error| error.reason)?;
                 self.function(&mut cursor)
             }
-            "span" => self.span(&mut cursor),
             _ if self.bytecode.functions.is_empty() => None,
+            "span" => self.span(&mut cursor),
             _ => {
                 self.pending.push((self.line, line.into()));
                 return Ok(());

@@ -47,6 +47,14 @@ pub(in crate::machine) fn verify(bytecode: &Bytecode) -> Result<Tables, LoadErro
         bytecode.code.len() < u32::MAX as usize,
         "there are too many instructions",
     )?;
+    let starts = bytecode.spans.iter().map(|(first, _)| *first);
+    check(
+        starts.clone().is_sorted_by(|left, right| left < right)
+            && starts
+                .max()
+                .is_none_or(|last| (last as usize) < bytecode.code.len()),
+        "spans are not in ascending order or beyond the code",
+    )?;
     object_types(bytecode)?;
     for variable in &bytecode.variables {
         value_type(bytecode, &variable.kind, bytecode.types.len(), 0)?;
