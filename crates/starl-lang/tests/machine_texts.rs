@@ -85,6 +85,14 @@ fn scalars_in_text_form() {
 }
 
 #[test]
+fn objects_in_text_form() {
+    let list = "split_text b2 b1 b0 type1\n append_object b0 b2 type1";
+    assert_eq!(text(list, 0, [",", "a,b"]), Ok(",[\"a\", \"b\"]".into()));
+    let plain = "append_object b0 b1 type0";
+    assert_eq!(text(plain, 0, ["x = ", "a"]), Ok("x = a".into()));
+}
+
+#[test]
 fn sizes_are_in_characters() {
     assert_eq!(scalar("size r0 b0", ["caf\u{e9}", ""]), 4);
     assert_eq!(scalar("size r0 b1", ["caf\u{e9}", ""]), 0);

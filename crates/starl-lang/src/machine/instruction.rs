@@ -317,6 +317,9 @@ instructions! {
     AppendPoint "append_point" { text: ObjectInOut, from: PointIn }
     /// text = text, the name of the variant. Error: there is no such variant.
     AppendVariant "append_variant" { text: ObjectInOut, from: In, of: EnumIndex }
+    /// text = text, an object of type `kind` as it would be written in a program; a text without its
+    /// quotes. Costs the size of what is added over 8.
+    AppendObject "append_object" { text: ObjectInOut, from: ObjectIn, kind: Type }
     /// to = whether `part` is in the text. Costs the sizes of both over 8.
     ContainsText "contains_text" { to: Out, text: ObjectIn, part: ObjectIn }
     /// to = the parts of the text between separators; all of it if the separator is empty. A shift of

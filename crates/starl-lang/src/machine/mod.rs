@@ -10,6 +10,23 @@
 //! states and equal fuel, on every target; a robot's program is its program and its [`State`], nothing
 //! else is kept from one activation to the next.
 
+//!
+//! What becomes of a program's text:
+//! - A state variable's scalars and objects are at fixed places of the [`State`], in the order of the
+//!   declarations. Scalars are loaded, worked on and stored; objects are worked on where they are.
+//! - A parameter is a variable that nothing assigns; `defaults` gives it its default value.
+//! - `pre` is a guard function: it ends by `return` with true and the bindings of `if some` and the
+//!   like, or by `return_false`. `eff` is a procedure with those bindings as its arguments.
+//! - A primitive's instance number is its place among the [`Binding`]s; the start calls the import
+//!   `Mutex.bind` (or like) with that number and the arguments. `mux.acquire(x)` calls `Mutex.acquire`
+//!   with the number and x; `mux.held` calls the query `Mutex.held` with the number.
+//! - `for x in xs` copies the collection, which is a share, and counts with `loop` through `list_get`
+//!   (also for sets) or `map_entry`.
+//! - `xs[i].f = e` reads the element, changes the register and writes it back.
+//! - `if some p = q` jumps unless the optional's Bool; `q!` is `require`.
+//! - A property's function takes robots and reads their variables by `load_other`; without
+//!   quantifiers it takes one, the robot itself. Inner quantifiers are loops over a query's result.
+
 mod error;
 mod host;
 mod instruction;

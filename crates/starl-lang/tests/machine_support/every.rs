@@ -159,6 +159,7 @@ function start procedure () () registers 40 objects 20
     append_point b2 r1
     int r5 1
     append_variant b2 r5 enum0
+    append_object b2 b1 type0
     contains_text r6 b2 b1
     split_text b4 b0 b1 type4
     equal_object r6 b0 b1 type0

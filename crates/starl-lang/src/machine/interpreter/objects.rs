@@ -69,6 +69,7 @@ impl View<'_> {
             AppendScalar { text, from, format } => self.append_scalar(text, from, format),
             AppendPoint { text, from } => self.append_point(text, from),
             AppendVariant { text, from, of } => self.append_variant(text, from, of),
+            AppendObject { text, from, kind } => self.append_object(text, from, kind),
             ContainsText { to, text, part } => self.contains_text(to, text, part),
             SplitText {
                 to,

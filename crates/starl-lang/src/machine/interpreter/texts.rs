@@ -3,10 +3,12 @@
 use crate::machine::error::Fault;
 use crate::machine::interpreter::view::{View, shift};
 use crate::machine::operand::{
-    EnumIndex, Format, In, ObjectIn, ObjectInOut, ObjectOut, Out, PointIn, Text,
+    self, EnumIndex, Format, In, ObjectIn, ObjectInOut, ObjectOut, Out, PointIn, Text,
 };
+use crate::machine::types::Type;
 use crate::machine::value::list::List;
 use crate::machine::value::object::Object;
+use crate::machine::value::tree::Value;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt::Write;
@@ -53,6 +55,23 @@ impl View<'_> {
         let name = variants.and_then(|e| e.variants.get(number?));
         let name = name.ok_or(Fault::ConversionOutOfRange)?;
         self.append(text, name, shift(name.len()))
+    }
+
+    pub fn append_object(
+        &mut self,
+        text: ObjectInOut,
+        from: ObjectIn,
+        kind: operand::Type,
+    ) -> Result<u64, Fault> {
+        let object = self.read(from)?.clone();
+        let kind = Type::Object(kind.0);
+        let value = Value::read(self.program, &kind, &[], core::slice::from_ref(&object));
+        let words = match value {
+            Some(Value::Text(text)) => text,
+            Some(value) => alloc::format!("{value}"),
+            None => return Err(Fault::ConversionOutOfRange), // there is no such variant of an enum
+        };
+        self.append(text, &words, (words.len() / 8) as u64)
     }
 
     fn append(&mut self, text: ObjectInOut, words: &str, cost: u64) -> Result<u64, Fault> {

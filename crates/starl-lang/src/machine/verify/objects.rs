@@ -52,6 +52,10 @@ impl Context<'_> {
                 self.is_text(text.0)?;
                 self.is_text(from.0)
             }
+            AppendObject { text, from, kind } => {
+                same(self.object(from.0)?, kind.0)?;
+                self.is_text(text.0)
+            }
             AppendScalar { text, .. } | AppendPoint { text, .. } => self.is_text(text.0),
             AppendVariant { text, of, .. } => {
                 let enums = &self.bytecode.enums;
