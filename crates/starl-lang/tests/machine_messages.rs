@@ -225,3 +225,27 @@ fn variables_have_names() {
         ["vicinity = 0.5", "words = []", "last = (1.0, 2.0, 0.0)"]
     );
 }
+
+#[test]
+fn sets_and_maps_are_put_in_order() {
+    let program = program(TYPES);
+    let robot = |number| Value::Robot(RobotId(number));
+    let write = |value: Value, kind: u16| {
+        let (mut scalars, mut objects) = (Vec::new(), Vec::new());
+        let kind = Type::Object(kind);
+        let written = value.write(&program, &kind, &mut scalars, &mut objects);
+        written.then(|| Value::read(&program, &kind, &scalars, &objects).expect("a value"))
+    };
+    let set = Value::Set(vec![robot(3), robot(1), robot(3)]);
+    assert_eq!(write(set, 2), Some(Value::Set(vec![robot(1), robot(3)])));
+    let entry = |key: &str| (Value::Text(key.into()), Value::None);
+    let map = Value::Map(vec![entry("b"), entry("a")]);
+    assert_eq!(
+        write(map, 3),
+        Some(Value::Map(vec![entry("a"), entry("b")]))
+    );
+    let twice = Value::Map(vec![entry("b"), entry("b")]);
+    assert_eq!(write(twice, 3), None);
+    let mixed = Value::List(vec![Value::Int(1), Value::Bool(true)]);
+    assert_eq!(write(mixed, 1), None);
+}
