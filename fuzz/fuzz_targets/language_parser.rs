@@ -4,7 +4,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use starl_lang::diagnostic::{Colour, json, render};
+use starl_lang::diagnostic::{Colour, has_errors, json, render};
 use starl_lang::format::format_parse;
 use starl_lang::syntax::{Parse, SyntaxKind, parse};
 
@@ -30,6 +30,8 @@ fn tokens(parse: &Parse) -> Vec<(SyntaxKind, String)> {
 fuzz_target!(|text: &str| {
     let read = parse(text);
     assert_eq!(read.syntax().text().to_string(), text);
+    let skipped = read.syntax().descendants().any(|node| node.kind() == SyntaxKind::Error);
+    assert!(!skipped || has_errors(read.diagnostics()));
     for diagnostic in read.diagnostics() {
         let spans = diagnostic
             .labels

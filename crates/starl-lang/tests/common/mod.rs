@@ -4,7 +4,7 @@
 pub mod generator;
 pub mod mutation;
 
-use starl_lang::diagnostic::{Code, Severity};
+use starl_lang::diagnostic::{Code, Severity, has_errors};
 use starl_lang::syntax::{Parse, SyntaxKind, SyntaxToken, parse};
 
 /// The thesis's four listings, by name.
@@ -26,8 +26,8 @@ pub fn written() -> impl Iterator<Item = (&'static str, &'static str)> {
     LISTINGS.iter().copied().chain([("every_form", EVERY_FORM)])
 }
 
-/// Reads a text and holds it to what is promised of any: the tree's text is the text, and every
-/// diagnostic lies in it.
+/// Reads a text and holds it to what is promised of any: the tree's text is the text, every diagnostic
+/// lies in it, and nothing is left out without an error.
 pub fn parsed(text: &str) -> Parse {
     let parse = parse(text);
     assert_eq!(
@@ -54,6 +54,15 @@ pub fn parsed(text: &str) -> Parse {
             );
         }
     }
+    let skipped = parse
+        .syntax()
+        .descendants()
+        .any(|node| node.kind() == SyntaxKind::Error);
+    let told = has_errors(parse.diagnostics());
+    assert!(
+        told || !skipped,
+        "something is left out without a word: {text:?}"
+    );
     parse
 }
 

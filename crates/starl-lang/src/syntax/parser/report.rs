@@ -3,10 +3,13 @@
 use alloc::string::String;
 
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*};
+use crate::diagnostic::Severity;
 
 impl Parser<'_> {
     pub fn report(&mut self, diagnostic: Diagnostic) {
-        self.last_report = Some(diagnostic.span.end);
+        if diagnostic.severity() == Severity::Error {
+            self.last_report = Some(diagnostic.span.end);
+        }
         self.diagnostics.push(diagnostic);
     }
 
