@@ -44,7 +44,7 @@ pub(super) const RATES: &[Field] = &[
     ),
     field(
         "restart_after",
-        PERIOD,
+        SPAN,
         Default::Word("never"),
         "A crashed robot restarts after this time.",
     ),
@@ -56,7 +56,7 @@ pub(super) const RATES: &[Field] = &[
     ),
     field(
         "heal_after",
-        PERIOD,
+        SPAN,
         Default::Value("5s"),
         "A partition heals after this time.",
     ),
@@ -74,7 +74,7 @@ pub(super) const RATES: &[Field] = &[
     ),
     field(
         "repair_after",
-        PERIOD,
+        SPAN,
         Default::Value("5s"),
         "Motors and sensors are repaired after this time.",
     ),

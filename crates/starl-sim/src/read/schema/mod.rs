@@ -139,7 +139,9 @@ const CORNERS: &[Field] = &[
     ),
 ];
 
-/// A duration to be spent, or between two events.
+/// A duration above zero.
+const SPAN: Kind = Kind::Quantity(Dimension::Time, Range::Positive);
+/// A duration between two events of the same kind.
 const PERIOD: Kind = Kind::Quantity(Dimension::Time, Range::Period);
 /// A duration.
 const TIME: Kind = Kind::Quantity(Dimension::Time, Range::NotNegative);

@@ -45,13 +45,13 @@ const AVOIDANCE: &[Field] = &[
     ),
     field(
         "patience",
-        PERIOD,
+        SPAN,
         Default::Value("800ms"),
         "Time without progress, while a neighbour is in the way, after which a robot may yield.",
     ),
     field(
         "longest_yield",
-        PERIOD,
+        SPAN,
         Default::Value("6s"),
         "Longest time a robot yields before it tries again.",
     ),

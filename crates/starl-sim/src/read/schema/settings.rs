@@ -24,7 +24,7 @@ pub const SCENARIO: &[Field] = &[
     ),
     field(
         "duration",
-        PERIOD,
+        SPAN,
         Default::Value("120s"),
         "The run ends here at the latest.",
     ),
@@ -138,7 +138,7 @@ const WIND: &[Field] = &[
     ),
     field(
         "gust_period",
-        PERIOD,
+        SPAN,
         Default::Value("10s"),
         "Period of the gust.",
     ),
@@ -159,7 +159,7 @@ const PROPERTIES: &[Field] = &[
     ),
     field(
         "progress_bound",
-        PERIOD,
+        SPAN,
         Default::Value("180s"),
         "Within this time of its start a ReachAvoid is no longer active.",
     ),
@@ -171,7 +171,7 @@ const PROPERTIES: &[Field] = &[
     ),
     field(
         "broadcast_bound",
-        PERIOD,
+        SPAN,
         Default::Value("35s"),
         "Within this time, the thesis's d1.",
     ),
@@ -183,7 +183,7 @@ const PROPERTIES: &[Field] = &[
     ),
     field(
         "geocast_bound",
-        PERIOD,
+        SPAN,
         Default::Value("35s"),
         "Within this time, the thesis's d2.",
     ),

@@ -80,7 +80,7 @@ const OBSTACLE: &[Field] = &[
     ),
     field(
         "expires",
-        PERIOD,
+        SPAN,
         Default::Word("never"),
         "It vanishes at this time.",
     ),
