@@ -1,7 +1,8 @@
 //! The StarL language.
 //!
 //! A program is read by [`syntax`] into a tree that holds every character of the source, and a
-//! problem anywhere is a [`diagnostic`]; reading never fails. [`format`] lays a program out anew. The
+//! problem anywhere is a [`diagnostic`]; reading never fails. [`check`] resolves names and types and
+//! gives the [`ir`], from which programs are compiled. [`format`] lays a program out anew. The
 //! [`machine`] runs what a program was compiled to; it alone is always there and needs no standard
 //! library, so that a microcontroller can run programs which were compiled elsewhere. Everything else
 //! comes with the feature `compiler`, which is on by default.
@@ -13,9 +14,13 @@ extern crate alloc;
 extern crate std;
 
 #[cfg(feature = "compiler")]
+pub mod check;
+#[cfg(feature = "compiler")]
 pub mod diagnostic;
 #[cfg(feature = "compiler")]
 pub mod format;
+#[cfg(feature = "compiler")]
+pub mod ir;
 pub mod machine;
 #[cfg(feature = "compiler")]
 pub mod syntax;

@@ -1,0 +1,134 @@
+//! The body that is being checked: its locals, its scopes, and what may stand in it.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::Purity;
+use crate::diagnostic::{Code, Span};
+use crate::ir::{Local, LocalId, SharedId, Type, VariableId};
+
+/// What a body belongs to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Where {
+    /// The value of a constant or the default of a parameter.
+    #[default]
+    Constant,
+    /// The first value of a variable; those from this one on have none yet.
+    Initial(VariableId),
+    /// The arguments of a primitive's constructor.
+    Binding,
+    Function,
+    Guard,
+    /// `init`, an effect or a handler.
+    Effect,
+    Property,
+}
+
+impl Where {
+    /// Whether something of this purity may stand in it.
+    pub fn allows(self, purity: Purity) -> bool {
+        match self {
+            Self::Constant | Self::Function | Self::Binding => purity == Purity::Pure,
+            Self::Initial(_) | Self::Guard | Self::Property => purity <= Purity::Query,
+            Self::Effect => true,
+        }
+    }
+
+    /// What it is, for messages.
+    pub fn what(self) -> &'static str {
+        match self {
+            Self::Constant => "a constant",
+            Self::Initial(_) => "the first value of a variable",
+            Self::Binding => "what a primitive is bound with",
+            Self::Function => "a function",
+            Self::Guard => "a guard",
+            Self::Effect => "an effect",
+            Self::Property => "a property",
+        }
+    }
+}
+
+/// Whether a local is read, and what is said if it is not.
+struct Unread {
+    warning: Option<Code>,
+    is_read: bool,
+}
+
+/// A body.
+#[derive(Default)]
+pub(super) struct Body {
+    pub place: Where,
+    pub locals: Vec<Local>,
+    /// For each local whether it is read.
+    unread: Vec<Unread>,
+    /// Which locals cannot be assigned to, and what they are instead of variables.
+    pub fixed: Vec<Option<&'static str>>,
+    /// The locals that can be seen, the innermost last.
+    pub names: Vec<(String, LocalId)>,
+    /// The type of the result of a function.
+    pub result: Option<Type>,
+    /// In a property about each robot by itself: the robot.
+    pub robot: Option<LocalId>,
+    /// The shared variables that were touched, in order.
+    pub touched: Vec<SharedId>,
+}
+
+impl Body {
+    pub fn new(place: Where) -> Self {
+        Self {
+            place,
+            ..Self::default()
+        }
+    }
+
+    /// The local that the name stands for.
+    pub fn find(&self, name: &str) -> Option<LocalId> {
+        let found = self.names.iter().rev().find(|(local, _)| local == name)?;
+        Some(found.1)
+    }
+
+    /// Adds a local; `unread` is the warning if nothing reads it.
+    pub fn add(&mut self, name: String, ty: Type, span: Span, unread: Option<Code>) -> LocalId {
+        let id = LocalId(self.locals.len() as u32);
+        self.names.push((name.clone(), id));
+        self.locals.push(Local { name, ty, span });
+        self.unread.push(Unread {
+            warning: unread,
+            is_read: false,
+        });
+        self.fixed.push(None);
+        id
+    }
+
+    /// Notes that a local is read.
+    pub fn read(&mut self, local: LocalId) {
+        self.unread[local.index()].is_read = true;
+    }
+
+    /// Whether a local is read, as far as is known.
+    pub fn is_read(&self, local: LocalId) -> bool {
+        self.unread[local.index()].is_read
+    }
+
+    /// Takes back that a local is read.
+    pub fn forget_read(&mut self, local: LocalId) {
+        self.unread[local.index()].is_read = false;
+    }
+
+    /// Where the present scope begins, to be given to [`Self::leave`].
+    pub fn enter(&self) -> usize {
+        self.names.len()
+    }
+
+    /// Forgets the names since [`Self::enter`].
+    pub fn leave(&mut self, mark: usize) {
+        self.names.truncate(mark);
+    }
+
+    /// The locals that nothing reads.
+    pub fn unread(&self) -> impl Iterator<Item = (Code, &Local)> {
+        let pairs = self.unread.iter().zip(&self.locals);
+        let unread = pairs.filter(|(unread, _)| !unread.is_read);
+        unread.filter_map(|(unread, local)| Some((unread.warning?, local)))
+    }
+}

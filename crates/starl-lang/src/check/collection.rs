@@ -1,0 +1,250 @@
+//! Lists, sets and maps as they are written, comprehensions, and indexing.
+
+use alloc::boxed::Box;
+use alloc::format;
+use alloc::vec::Vec;
+
+use super::report::{broken, made};
+use super::state::Checker;
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::ir::{Comprehension, Element, Expression, ExpressionKind, LoopVariables, Type};
+use crate::syntax::ast;
+
+impl Checker {
+    /// `[a, b]` or `[f(x) for x in xs]`.
+    pub fn list(
+        &mut self,
+        node: &ast::ListExpression,
+        span: Span,
+        expected: Option<&Type>,
+    ) -> Expression {
+        let hint = match expected {
+            Some(Type::List(element)) => Some(&**element),
+            _ => None,
+        };
+        if let Some(clause) = node.comprehension() {
+            return self.comprehension(&clause, span, |checker| {
+                let element = checker.value(node.elements().next(), hint, "an element");
+                (Type::list(element.ty.clone()), Element::One(element))
+            });
+        }
+        let elements: Vec<_> = node.elements().collect();
+        if elements.is_empty() && hint.is_none() {
+            return self.unclear(span, expected, "list", "let x: List[Int] = []");
+        }
+        let (elements, element) = self.elements(elements, hint);
+        made(ExpressionKind::List(elements), Type::list(element), span)
+    }
+
+    /// `{a, b}`, `{k: v}` or a comprehension with braces.
+    pub fn brace(
+        &mut self,
+        node: &ast::BraceExpression,
+        span: Span,
+        expected: Option<&Type>,
+    ) -> Expression {
+        if node.is_map() {
+            return self.map(node, span, expected);
+        }
+        let hint = match expected {
+            Some(Type::Set(element)) => Some(&**element),
+            _ => None,
+        };
+        if let Some(clause) = node.comprehension() {
+            return self.comprehension(&clause, span, |checker| {
+                let element = checker.value(node.elements().next(), hint, "an element");
+                let ty = checker.key_type(&element);
+                (Type::set(ty), Element::One(element))
+            });
+        }
+        let elements: Vec<_> = node.elements().collect();
+        if elements.is_empty() && hint.is_none() {
+            if let Some(Type::Map(..)) = expected {
+                let problem = Diagnostic::new(Code::WrongType, span, "`{}` is the empty set");
+                self.report(problem.replace("write `{:}`, the empty map", span, "{:}"));
+                return broken(span);
+            }
+            return self.unclear(span, expected, "set", "let x: Set[Int] = {}");
+        }
+        let (elements, element) = self.elements(elements, hint);
+        let fits = self.check_key(&element, span);
+        let element = if fits { element } else { Type::Error };
+        made(ExpressionKind::Set(elements), Type::set(element), span)
+    }
+
+    fn map(
+        &mut self,
+        node: &ast::BraceExpression,
+        span: Span,
+        expected: Option<&Type>,
+    ) -> Expression {
+        let (mut key, mut value) = match expected {
+            Some(Type::Map(key, value)) => (Some((**key).clone()), Some((**value).clone())),
+            _ => (None, None),
+        };
+        if let Some(clause) = node.comprehension() {
+            return self.comprehension(&clause, span, |checker| {
+                let entry = node.entries().next();
+                let entry = entry.as_ref();
+                let at = checker.value(entry.and_then(|e| e.key()), key.as_ref(), "a key");
+                let is = checker.value(entry.and_then(|e| e.value()), value.as_ref(), "a value");
+                let ty = Type::map(checker.key_type(&at), is.ty.clone());
+                (ty, Element::Entry(at, is))
+            });
+        }
+        let mut entries = Vec::new();
+        for entry in node.entries() {
+            let at = match &key {
+                Some(ty) => self.expect(entry.key(), ty, "the key"),
+                None => self.value(entry.key(), None, "the key"),
+            };
+            let is = match &value {
+                Some(ty) => self.expect(entry.value(), ty, "the value"),
+                None => self.value(entry.value(), None, "the value"),
+            };
+            if key.is_none() {
+                key = Some(self.key_type(&at));
+            }
+            value.get_or_insert_with(|| is.ty.clone());
+            entries.push((at, is));
+        }
+        match (key, value) {
+            (Some(key), Some(value)) => {
+                made(ExpressionKind::Map(entries), Type::map(key, value), span)
+            }
+            _ => self.unclear(span, expected, "map", "let x: Map[String, Int] = {:}"),
+        }
+    }
+
+    /// The type of a key, if it can be one.
+    fn key_type(&mut self, key: &Expression) -> Type {
+        if self.check_key(&key.ty, key.span) {
+            key.ty.clone()
+        } else {
+            Type::Error
+        }
+    }
+
+    /// An empty collection of which nothing is known.
+    fn unclear(
+        &mut self,
+        span: Span,
+        expected: Option<&Type>,
+        what: &str,
+        form: &str,
+    ) -> Expression {
+        let problem = if let Some(ty) = expected {
+            let problem = Diagnostic::new(
+                Code::WrongType,
+                span,
+                format!("a {what} has the wrong type here"),
+            );
+            problem
+                .expected(self.name_of(ty))
+                .found(format!("an empty {what}"))
+        } else {
+            let message = format!("it cannot be known what this {what} holds");
+            let problem = Diagnostic::new(Code::UnclearType, span, message);
+            problem.note(format!("say it with a type, as in `{form}`"))
+        };
+        self.report(problem);
+        broken(span)
+    }
+
+    /// Elements of one type: the one that is expected, else that of the first that has one.
+    fn elements(
+        &mut self,
+        nodes: Vec<ast::Expression>,
+        hint: Option<&Type>,
+    ) -> (Vec<Expression>, Type) {
+        let mut known = hint.cloned();
+        let mut elements: Vec<Option<Expression>> = nodes.iter().map(|_| None).collect();
+        // Those that say nothing of their own type come last.
+        for late in [false, true] {
+            for (node, element) in nodes.iter().zip(&mut elements) {
+                if element.is_some() || !late && known.is_none() && self.needs_hint(node) {
+                    continue;
+                }
+                let node = Some(node.clone());
+                let value = match &known {
+                    Some(ty) => self.expect(node, ty, "the element"),
+                    None => self.value(node, None, "the element"),
+                };
+                if known.is_none() && value.ty != Type::Error {
+                    known = Some(value.ty.clone());
+                }
+                *element = Some(value);
+            }
+        }
+        let elements = elements.into_iter().flatten().collect();
+        (elements, known.unwrap_or(Type::Error))
+    }
+
+    fn comprehension(
+        &mut self,
+        clause: &ast::ComprehensionClause,
+        span: Span,
+        element: impl FnOnce(&mut Self) -> (Type, Element),
+    ) -> Expression {
+        let mark = self.body.enter();
+        let collection = self.infer(clause.collection(), None);
+        let variables: LoopVariables = self.loop_variables(clause.variables(), &collection);
+        let condition = clause
+            .condition()
+            .map(|condition| self.expect(Some(condition), &Type::Bool, "the condition"));
+        let (ty, element) = element(self);
+        self.body.leave(mark);
+        let comprehension = Comprehension {
+            element,
+            variables,
+            collection,
+            condition,
+        };
+        made(
+            ExpressionKind::Comprehension(Box::new(comprehension)),
+            ty,
+            span,
+        )
+    }
+
+    /// `base[index]`.
+    pub fn index(&mut self, node: &ast::IndexExpression, span: Span) -> Expression {
+        let base = self.infer(node.base(), None);
+        match base.ty.clone() {
+            Type::List(element) => {
+                let index = self.expect(node.index(), &Type::Int, "the index");
+                let (base, index) = (Box::new(base), Box::new(index));
+                made(ExpressionKind::Index { base, index }, *element, span)
+            }
+            Type::Map(key, value) => {
+                let key = Box::new(self.expect(node.index(), &key, "the key"));
+                if let ExpressionKind::SharedMap(shared) = base.kind {
+                    let kind = ExpressionKind::SharedElement { shared, robot: key };
+                    return made(kind, Type::optional(*value), span);
+                }
+                let base = Box::new(base);
+                made(ExpressionKind::Lookup { base, key }, *value, span)
+            }
+            Type::Error => {
+                self.infer(node.index(), None);
+                broken(span)
+            }
+            _ => {
+                self.not_indexable(&base);
+                broken(span)
+            }
+        }
+    }
+
+    /// Reports what has no elements by index or key.
+    pub fn not_indexable(&mut self, base: &Expression) {
+        let found = self.name_of(&base.ty);
+        let message = format!("`[...]` does not apply to {found}");
+        let problem = Diagnostic::new(Code::NotIndexable, base.span, message);
+        self.report(match base.ty {
+            Type::Optional(_) => problem.note("it may be none; ask first with `if some x = ...`"),
+            Type::Set(_) => problem.note("a set has no order to count by; ask with `in`"),
+            _ => problem.note("it applies to lists and maps"),
+        });
+    }
+}

@@ -1,0 +1,142 @@
+//! Local names, and `some x = optional`.
+
+use alloc::boxed::Box;
+use alloc::format;
+use alloc::string::ToString;
+
+use super::body::Where;
+use super::report::{broken, made};
+use super::scope::Entity;
+use super::state::Checker;
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::ir::{Expression, ExpressionKind, LocalId, Type};
+use crate::syntax::ast::{self, AstNode, Named};
+
+impl Checker {
+    /// `some x = optional`: the name is known from here on.
+    pub fn some(&mut self, node: &ast::SomeExpression, span: Span) -> Expression {
+        let value = self.value(node.value(), None, "what may be none");
+        let inner = match &value.ty {
+            Type::Optional(inner) => (**inner).clone(),
+            Type::Error => Type::Error,
+            _ => {
+                let message = "`some` needs an optional, and this is always there";
+                let problem = Diagnostic::new(Code::NotOptional, value.span, message);
+                let problem = problem.found(self.name_of(&value.ty));
+                self.report(problem.note("a name for a value is given with `let x = ...`"));
+                value.ty.clone()
+            }
+        };
+        let Some(name) = node.name() else {
+            return broken(span);
+        };
+        let Some(local) = self.declare_local(&name, inner, Some(Code::UnusedLocal)) else {
+            let is_none = made(ExpressionKind::IsNone(Box::new(value)), Type::Bool, span);
+            return made(ExpressionKind::Not(Box::new(is_none)), Type::Bool, span);
+        };
+        self.body.fixed[local.index()] = Some("the value of an optional");
+        let value = Box::new(value);
+        made(ExpressionKind::Bind { local, value }, Type::Bool, span)
+    }
+
+    /// Declares a local; none for `_`. `unread` is the warning if nothing reads it.
+    pub fn declare_local(
+        &mut self,
+        name: &ast::Name,
+        ty: Type,
+        unread: Option<Code>,
+    ) -> Option<LocalId> {
+        let token = name.token()?;
+        let (text, span) = (token.text().to_string(), Span::from(token.text_range()));
+        if text == "_" {
+            return None;
+        }
+        self.check_hiding(&text, span);
+        Some(self.body.add(text, ty, span, unread))
+    }
+
+    fn check_hiding(&mut self, name: &str, span: Span) {
+        let found = if let Some(local) = self.body.find(name) {
+            Some((self.body.locals[local.index()].span, "a local variable"))
+        } else if matches!(self.body.place, Where::Function | Where::Constant) {
+            // A function does not see the state, so nothing is hidden from it.
+            None
+        } else {
+            let declared = self.files[self.file as usize].scope.get(name);
+            declared
+                .filter(|declared| {
+                    matches!(
+                        declared.entity,
+                        Entity::Variable(_)
+                            | Entity::Shared(_)
+                            | Entity::Binding(_)
+                            | Entity::Parameter(_)
+                            | Entity::Constant(_)
+                    )
+                })
+                .map(|declared| (declared.span, declared.entity.what()))
+        };
+        if let Some((first, what)) = found {
+            let message = format!("the name `{name}` is taken");
+            let problem = Diagnostic::new(Code::HiddenName, span, message);
+            let problem = problem.label(first, format!("it is {what} here"));
+            self.report(problem.note("choose another name, so that both can be told apart"));
+        }
+    }
+
+    /// The names of a loop or a comprehension, and the types of what they get.
+    pub fn loop_variables(
+        &mut self,
+        names: impl Iterator<Item = ast::Name>,
+        collection: &Expression,
+    ) -> crate::ir::LoopVariables {
+        use crate::ir::LoopVariables;
+        let (one, two) = match &collection.ty {
+            Type::List(element) | Type::Set(element) => ((**element).clone(), None),
+            Type::Map(key, value) => ((**key).clone(), Some((**value).clone())),
+            Type::Range => (Type::Int, None),
+            Type::Error => (Type::Error, Some(Type::Error)),
+            _ => {
+                self.not_a_collection(collection);
+                (Type::Error, Some(Type::Error))
+            }
+        };
+        let mut names = names;
+        let (first, second) = (names.next(), names.next());
+        let first = first.and_then(|name| self.loop_variable(&name, one));
+        let Some(second) = second else {
+            return LoopVariables::One(first);
+        };
+        let two = two.unwrap_or_else(|| {
+            let message = format!("a {} has one thing at a time", self.name_of(&collection.ty));
+            let problem = Diagnostic::new(Code::NotCollection, second.span(), message);
+            self.report(problem.note("two names are for the keys and values of a map"));
+            Type::Error
+        });
+        LoopVariables::Two(first, self.loop_variable(&second, two))
+    }
+
+    fn loop_variable(&mut self, name: &ast::Name, ty: Type) -> Option<LocalId> {
+        let local = self.declare_local(name, ty, None)?;
+        self.body.fixed[local.index()] = Some("what a loop is at");
+        Some(local)
+    }
+
+    /// Reports what cannot be run over.
+    pub fn not_a_collection(&mut self, collection: &Expression) {
+        let found = self.name_of(&collection.ty);
+        let message = "this cannot be run over";
+        let problem = Diagnostic::new(Code::NotCollection, collection.span, message);
+        let problem = problem
+            .expected("a list, a set, a map or a range")
+            .found(found);
+        self.report(match collection.ty {
+            Type::Int => {
+                let span = Span::empty(collection.span.start);
+                problem.replace("write `0..` before it to count up to it", span, "0..")
+            }
+            Type::Optional(_) => problem.note("ask first with `if some x = ...`"),
+            _ => problem,
+        });
+    }
+}

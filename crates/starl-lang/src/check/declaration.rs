@@ -1,0 +1,343 @@
+//! Declarations: their values, bodies and effects.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use super::body::{Body, Where};
+use super::call::Parameters;
+use super::collect::{first_word, name_of};
+use super::report::did_you_mean;
+use super::returns::always_returns;
+use super::scope::Entity;
+use super::shape::Letters;
+use super::state::{Behaviour, Checker, Needed, Progress};
+use super::tables::{PRIMITIVES, Primitive, Signature};
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::ir::*;
+use crate::syntax::ast::{self, AstNode, Documented, Item};
+
+/// The word that names a primitive where one is bound, and its place.
+pub(super) fn constructor(node: &ast::BindingDeclaration) -> Option<(String, Span)> {
+    let callee = match node.value()? {
+        ast::Expression::Call(call) => call.callee()?,
+        other => other,
+    };
+    match callee {
+        ast::Expression::Name(name) => Some((name.text(), name.span())),
+        _ => None,
+    }
+}
+
+impl Checker {
+    /// Checks what is in declarations.
+    pub fn check_declarations(&mut self) {
+        for number in 0..self.nodes.constants.len() {
+            self.check_constant(ConstantId(number as u32));
+        }
+        for number in 0..self.nodes.functions.len() {
+            self.check_function(FunctionId(number as u32));
+        }
+        self.file = 0;
+        self.check_parameters();
+        self.check_variables();
+        self.check_shared();
+        self.check_bindings();
+        let behaviour = core::mem::take(&mut self.nodes.behaviour);
+        for part in &behaviour {
+            match part {
+                Behaviour::Init(role, node) => self.check_init(*role, node),
+                Behaviour::Action(role, node) => self.check_action(*role, node),
+                Behaviour::Handler(role, node) => self.check_handler(*role, node),
+                Behaviour::Property(node) => self.check_property(node),
+            }
+        }
+        self.nodes.behaviour = behaviour;
+        self.check_keys();
+    }
+
+    /// Checks something in a body of its own; gives its locals too.
+    pub fn in_body<T>(
+        &mut self,
+        place: Where,
+        check: impl FnOnce(&mut Self) -> T,
+    ) -> (T, Vec<Local>) {
+        let outer = core::mem::replace(&mut self.body, Body::new(place));
+        let result = check(self);
+        let body = core::mem::replace(&mut self.body, outer);
+        if self.file == 0 {
+            let unread = body.unread();
+            self.unused_locals
+                .extend(unread.map(|(code, local)| (code, local.span, local.name.clone())));
+        }
+        (result, body.locals)
+    }
+
+    /// Checks a constant, unless that is done or under way.
+    pub fn check_constant(&mut self, id: ConstantId) {
+        if self.constants[id.index()] != Progress::Untouched {
+            return;
+        }
+        self.constants[id.index()] = Progress::UnderWay;
+        let (file, node) = self.nodes.constants[id.index()].clone();
+        let outer_file = core::mem::replace(&mut self.file, file);
+        let outer_user = self.user.replace(Needed::Constant(id));
+        let (value, locals) = self.in_body(Where::Constant, |checker| match node.ty() {
+            Some(ty) => {
+                let ty = checker.written(&ty);
+                checker.expect(node.value(), &ty, "the value")
+            }
+            None => checker.value(node.value(), None, "the value"),
+        });
+        let constant = &mut self.program[id];
+        constant.ty = value.ty.clone();
+        constant.value = value;
+        constant.locals = locals;
+        self.constants[id.index()] = Progress::Done;
+        self.user = outer_user;
+        self.file = outer_file;
+    }
+
+    fn check_function(&mut self, id: FunctionId) {
+        let (file, node) = self.nodes.functions[id.index()].clone();
+        self.file = file;
+        self.user = Some(Needed::Function(id));
+        let parameters = core::mem::take(&mut self.program[id].locals);
+        let result = self.program[id].result.clone();
+        let (body, locals) = self.in_body(Where::Function, |checker| {
+            checker.body.result = Some(result.clone());
+            // Calls of the function itself look its parameters up.
+            checker.program[id].locals.clone_from(&parameters);
+            for parameter in parameters {
+                let local = checker
+                    .body
+                    .add(parameter.name, parameter.ty, parameter.span, None);
+                checker.body.fixed[local.index()] = Some("a parameter");
+            }
+            match node.value() {
+                Some(value) => {
+                    let span = value.span();
+                    let value = checker.expect(Some(value), &result, "the result");
+                    let kind = StatementKind::Return(Some(value));
+                    Vec::from([Statement { kind, span }])
+                }
+                None => {
+                    let body = checker.block(node.body());
+                    if node.body().is_some() && !always_returns(&body) {
+                        checker.report_missing_return(id);
+                    }
+                    body
+                }
+            }
+        });
+        self.program[id].locals = locals;
+        self.program[id].body = body;
+        self.user = None;
+    }
+
+    fn report_missing_return(&mut self, id: FunctionId) {
+        let function = &self.program[id];
+        let message = format!("`{}` may end without a result", function.name);
+        let problem = Diagnostic::new(Code::MissingReturn, function.site.span, message);
+        let expected = self.name_of(&function.result);
+        let note =
+            "every way through a function ends with `return`; the last statement is a good place";
+        self.report(problem.expected(format!("a {expected}")).note(note));
+    }
+
+    fn check_parameters(&mut self) {
+        for number in 0..self.nodes.parameters.len() {
+            let node = self.nodes.parameters[number].clone();
+            let ty = self.program.parameters[number].ty.clone();
+            let (default, locals) = self.in_body(Where::Constant, |checker| {
+                let value = node.value()?;
+                Some(checker.expect(Some(value), &ty, "the default"))
+            });
+            let parameter = &mut self.program.parameters[number];
+            parameter.default = default;
+            parameter.locals = locals;
+        }
+    }
+
+    fn check_variables(&mut self) {
+        for number in 0..self.nodes.variables.len() {
+            let Some(node) = self.nodes.variables[number].clone() else {
+                continue;
+            };
+            let id = VariableId(number as u32);
+            let ty = self.program[id].ty.clone();
+            let (initial, locals) = self.in_body(Where::Initial(id), |checker| {
+                let value = node.value()?;
+                Some(checker.expect(Some(value), &ty, "the first value"))
+            });
+            if initial.is_none() && !self.program.has_default(&ty) && ty != Type::Error {
+                let name = self.program[id].name.clone();
+                let message = format!("`{name}` needs a first value");
+                let problem = Diagnostic::new(Code::NoDefault, self.program[id].site.span, message);
+                let of = self.name_of(&ty);
+                let note =
+                    format!("there is no {of} to begin with; or let it be `{of}?`, none at first");
+                self.report(problem.note(note));
+            }
+            let variable = &mut self.program[id];
+            variable.initial = initial;
+            variable.locals = locals;
+        }
+    }
+
+    fn check_shared(&mut self) {
+        for number in 0..self.nodes.shared.len() {
+            let node = self.nodes.shared[number].clone();
+            let ty = self.program.shared[number].ty.clone();
+            let (initial, locals) = self.in_body(Where::Constant, |checker| {
+                let value = node.value()?;
+                Some(checker.expect(Some(value), &ty, "the first value"))
+            });
+            if let Some(value) = initial.as_ref().filter(|_| node.is_single_writer()) {
+                let message = "a single-writer variable has no first value";
+                let problem = Diagnostic::new(Code::WrongType, value.span, message);
+                self.report(
+                    problem.note("an element is none until its robot has written it, as in `init`"),
+                );
+            }
+            let shared = &mut self.program.shared[number];
+            shared.initial = initial;
+            shared.locals = locals;
+        }
+    }
+
+    fn check_bindings(&mut self) {
+        for number in 0..self.nodes.bindings.len() {
+            let node = self.nodes.bindings[number].clone();
+            let Some(ast::Expression::Call(call)) = node.value() else {
+                continue;
+            };
+            let arguments: Vec<ast::Argument> = call.arguments().collect();
+            let Some(primitive) = self.program.bindings[number].primitive else {
+                self.unknown_primitive(&node);
+                continue;
+            };
+            let signature = Signature::read(primitive.constructor);
+            let (values, locals) = self.in_body(Where::Binding, |checker| {
+                let arranged =
+                    checker.arrange(&Parameters::of(&signature), &arguments, call.span());
+                let mut letters = Letters::new();
+                checker.shaped_arguments(&signature, arranged.values, &mut letters, call.span())
+            });
+            let binding = &mut self.program.bindings[number];
+            binding.arguments = values;
+            binding.locals = locals;
+        }
+    }
+
+    fn unknown_primitive(&mut self, node: &ast::BindingDeclaration) {
+        let Some((word, span)) = constructor(node) else {
+            return;
+        };
+        let message = format!("there is no primitive `{word}`");
+        let problem = Diagnostic::new(Code::UnknownPrimitive, span, message);
+        let names = || PRIMITIVES.iter().map(Primitive::name);
+        let scope = &self.files[0].scope;
+        let problem = match scope.get(&word).map(|declared| declared.entity) {
+            Some(Entity::Function(_) | Entity::Record(_)) => {
+                problem.note("a variable is declared with its type: `name: Type = value`")
+            }
+            _ => did_you_mean(problem, span, &word, names()),
+        };
+        self.report(problem.note(format!("there are {}", super::report::listed(names()))));
+    }
+
+    fn check_init(&mut self, role: Option<u16>, node: &ast::InitDeclaration) {
+        let (body, locals) = self.in_body(Where::Effect, |checker| checker.block(node.body()));
+        let procedure = Procedure { locals, body };
+        let roles = self.program.roles.as_mut();
+        let place = match role {
+            None => &mut self.program.init,
+            Some(number) => match roles.and_then(|roles| roles.roles.get_mut(number as usize)) {
+                Some(role) => &mut role.entry,
+                None => return,
+            },
+        };
+        if place.is_some() {
+            let span = first_word(node.syntax());
+            let problem =
+                Diagnostic::new(Code::SecondDeclaration, span, "there is an `init` already");
+            self.report(problem.note("put the statements into the first one"));
+        } else {
+            *place = Some(procedure);
+        }
+    }
+
+    fn check_action(&mut self, role: Option<u16>, node: &ast::ActionDeclaration) {
+        let Some(name) = name_of(node) else { return };
+        let actions = &self.program.actions;
+        let same = actions
+            .iter()
+            .find(|other| other.role == role && other.name == name.text);
+        if let Some(first) = same {
+            let message = format!("there are two actions `{}`", name.text);
+            let problem = Diagnostic::new(Code::DuplicateName, name.span, message);
+            let problem = problem.label(first.site.span, "the first one");
+            self.report(problem);
+        }
+        let ((guard, bindings, effect), locals) = self.in_body(Where::Guard, |checker| {
+            let guard = match node.pre() {
+                Some(pre) => checker.expect(pre.condition(), &Type::Bool, "the guard"),
+                None => Expression {
+                    kind: ExpressionKind::Bool(true),
+                    ty: Type::Bool,
+                    span: name.span,
+                },
+            };
+            let bindings = checker.body.names.iter().map(|(_, local)| *local).collect();
+            checker.body.place = Where::Effect;
+            let effect = checker.block(node.eff().and_then(|eff| eff.body()));
+            (guard, bindings, effect)
+        });
+        let guard = match self.in_role(role, name.span) {
+            Some(in_role) => Expression {
+                span: guard.span,
+                ty: Type::Bool,
+                kind: ExpressionKind::Binary {
+                    operator: Operator::And,
+                    left: alloc::boxed::Box::new(in_role),
+                    right: alloc::boxed::Box::new(guard),
+                },
+            },
+            None => guard,
+        };
+        let site = self.site(name.span);
+        self.program.actions.push(Action {
+            name: name.text,
+            role,
+            locals,
+            guard,
+            bindings,
+            effect,
+            site,
+            documentation: Item::Action(node.clone()).documentation().to_string(),
+        });
+    }
+
+    /// `role == ...`, for what belongs to a role.
+    pub fn in_role(&self, role: Option<u16>, span: Span) -> Option<Expression> {
+        let variable = self.program.roles.as_ref()?.variable;
+        let ty = self.program[variable].ty.clone();
+        let part = |kind| {
+            alloc::boxed::Box::new(Expression {
+                kind,
+                ty: ty.clone(),
+                span,
+            })
+        };
+        Some(Expression {
+            kind: ExpressionKind::Binary {
+                operator: Operator::Equal,
+                left: part(ExpressionKind::Variable(variable)),
+                right: part(ExpressionKind::Variant(role?)),
+            },
+            ty: Type::Bool,
+            span,
+        })
+    }
+}

@@ -1,0 +1,202 @@
+//! Handlers: of messages, and of what primitives report.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use super::body::Where;
+use super::report::{counted, did_you_mean, listed};
+use super::scope::Entity;
+use super::shape::Letters;
+use super::state::Checker;
+use super::tables::Event as EventSignature;
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::ir::{Event, Handler, Statement, StatementKind, Type};
+use crate::syntax::SyntaxToken;
+use crate::syntax::ast;
+
+/// What a handler gets: the names of the parts, and their types.
+type Parts = Vec<(String, Type)>;
+
+impl Checker {
+    /// `on Message(from, a)` or `on primitive.event(a)`.
+    pub fn check_handler(&mut self, role: Option<u16>, node: &ast::HandlerDeclaration) {
+        let words: Vec<SyntaxToken> = node
+            .event()
+            .iter()
+            .flat_map(ast::EventPath::words)
+            .collect();
+        let Some(first) = words.first() else { return };
+        let start = Span::from(first.text_range());
+        let span = words
+            .last()
+            .map_or(start, |last| start.to(last.text_range().into()));
+        let (event, parts) = match words.get(1) {
+            Some(name) => self.primitive_event(first, name),
+            None => self.message_event(first),
+        };
+        let names: Vec<ast::Name> = node.parameters().collect();
+        if let Some(parts) = &parts {
+            self.check_parts(&event, parts, names.len(), span, first.text());
+        }
+        let ((parameters, body), locals) = self.in_body(Where::Effect, |checker| {
+            let mut parameters = Vec::new();
+            for (number, name) in names.iter().enumerate() {
+                let part = parts.as_ref().and_then(|parts| parts.get(number));
+                let ty = part.map_or(Type::Error, |(_, ty)| ty.clone());
+                let local = checker.declare_local(name, ty, None);
+                if let Some(local) = local {
+                    checker.body.fixed[local.index()] = Some("what the handler was given");
+                }
+                parameters.push(local);
+            }
+            (parameters, checker.block(node.body()))
+        });
+        let body = match self.in_role(role, span) {
+            Some(condition) => {
+                let kind = StatementKind::If {
+                    condition,
+                    then: body,
+                    otherwise: Vec::new(),
+                };
+                Vec::from([Statement { kind, span }])
+            }
+            None => body,
+        };
+        let site = self.site(span);
+        self.program.handlers.push(Handler {
+            event,
+            role,
+            parameters,
+            locals,
+            body,
+            site,
+        });
+    }
+
+    fn message_event(&mut self, word: &SyntaxToken) -> (Event, Option<Parts>) {
+        let (name, span) = (word.text(), Span::from(word.text_range()));
+        let scope = &self.files[0].scope;
+        let entity = scope.get(name).map(|declared| declared.entity);
+        if let Some(Entity::Record(id)) = entity
+            && self.program[id].is_message
+        {
+            self.usage.handled.insert(id.0);
+            self.usage.used.insert(Entity::Record(id));
+            let fields = self.program[id].fields.iter();
+            let fields = fields.map(|field| (field.name.clone(), field.ty.clone()));
+            let sender = ("from".to_string(), Type::Robot);
+            return (
+                Event::Message(id),
+                Some([sender].into_iter().chain(fields).collect()),
+            );
+        }
+        if entity == Some(Entity::Broken) || self.may_be_unread(name) {
+            return (Event::Error, None);
+        }
+        let message = match entity {
+            Some(entity) => format!("`{name}` is {}, not a message", entity.what()),
+            None => format!("there is no message `{name}`"),
+        };
+        let problem = Diagnostic::new(Code::UnknownEvent, span, message);
+        let messages = self
+            .program
+            .records
+            .iter()
+            .filter(|record| record.is_message);
+        let names = messages.map(|record| record.name.as_str());
+        let problem = did_you_mean(problem, span, name, names);
+        self.report(match (entity, &problem.mend) {
+            (Some(Entity::Binding(_)), _) => {
+                problem.note("what a primitive reports is named too: `on name.event(...)`")
+            }
+            (None, None) => {
+                problem.note(format!("a message is declared: `message {name}(x: Int)`"))
+            }
+            _ => problem,
+        });
+        (Event::Error, None)
+    }
+
+    fn primitive_event(
+        &mut self,
+        primitive: &SyntaxToken,
+        name: &SyntaxToken,
+    ) -> (Event, Option<Parts>) {
+        let span = Span::from(primitive.text_range());
+        let scope = &self.files[0].scope;
+        let entity = scope.get(primitive.text()).map(|declared| declared.entity);
+        let Some(Entity::Binding(id)) = entity else {
+            if entity != Some(Entity::Broken) && !self.may_be_unread(primitive.text()) {
+                let message = format!("there is no primitive `{}`", primitive.text());
+                let problem = Diagnostic::new(Code::UnknownEvent, span, message);
+                let names = self
+                    .program
+                    .bindings
+                    .iter()
+                    .map(|binding| binding.name.as_str());
+                let problem = did_you_mean(problem, span, primitive.text(), names);
+                self.report(problem);
+            }
+            return (Event::Error, None);
+        };
+        self.usage.used.insert(Entity::Binding(id));
+        let Some(kind) = self.program[id].primitive else {
+            return (Event::Error, None);
+        };
+        let Some(event) = kind.event(name.text()) else {
+            let at = Span::from(name.text_range());
+            let message = format!("{} reports no `{}`", kind.name(), name.text());
+            let problem = Diagnostic::new(Code::UnknownEvent, at, message);
+            let names = || kind.events.iter().map(EventSignature::name);
+            let problem = did_you_mean(problem, at, name.text(), names());
+            let is_flag = kind.member(name.text()).is_some();
+            self.report(if is_flag {
+                let form = format!(
+                    "ask for it in a guard: `pre {}.{}`",
+                    primitive.text(),
+                    name.text()
+                );
+                problem.note(form)
+            } else if kind.events.is_empty() {
+                problem.note("it reports nothing by itself; its flags are asked for in guards")
+            } else {
+                problem.note(format!("it reports {}", listed(names())))
+            });
+            return (Event::Error, None);
+        };
+        let signature = event.signature();
+        let parts = (signature.parameters.iter())
+            .map(|part| {
+                let ty = self.shape_type(&part.shape, &Letters::new());
+                (part.name.to_string(), ty.unwrap_or(Type::Error))
+            })
+            .collect();
+        (Event::Primitive { binding: id, event }, Some(parts))
+    }
+
+    /// Reports too many or too few names. Of what a primitive reports the last parts may be left out.
+    fn check_parts(&mut self, event: &Event, parts: &Parts, given: usize, span: Span, name: &str) {
+        let may_be_fewer = matches!(event, Event::Primitive { .. });
+        if given == parts.len() || may_be_fewer && given < parts.len() {
+            return;
+        }
+        let names: Vec<&str> = parts.iter().map(|(name, _)| name.as_str()).collect();
+        let message = format!(
+            "a handler of `{}` has {}",
+            self.text(span),
+            counted(parts.len(), "name")
+        );
+        let problem = Diagnostic::new(Code::HandlerParameters, span, message);
+        let problem = problem.expected(format!("`on {}({})`", self.text(span), names.join(", ")));
+        let problem = problem.found(counted(given, "name"));
+        self.report(match event {
+            Event::Message(_) if given + 1 == parts.len() => {
+                problem.note("the first is the sender; what is not wanted is `_`")
+            }
+            _ => problem.note(format!(
+                "for a part of `{name}` that is not wanted write `_`"
+            )),
+        });
+    }
+}

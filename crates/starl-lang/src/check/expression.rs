@@ -1,0 +1,276 @@
+//! Expressions: what each is, and of which type.
+
+use alloc::boxed::Box;
+use alloc::format;
+
+use super::body::Where;
+use super::fit::same;
+use super::report::{broken, made};
+use super::state::Checker;
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::ir::{Expression, ExpressionKind, Type};
+use crate::syntax::ast::{self, AstNode, Literal, PrefixOperator};
+
+impl Checker {
+    /// Checks an expression; `expected` is the type that would fit, where that is known. It need not
+    /// be of that type: see [`Checker::expect`]. One that is missing was reported by the parser.
+    pub fn infer(
+        &mut self,
+        expression: Option<ast::Expression>,
+        expected: Option<&Type>,
+    ) -> Expression {
+        let Some(expression) = expression else {
+            return broken(Span::empty(0));
+        };
+        let span = expression.span();
+        // An error that was reported says nothing of what is expected.
+        let expected = expected.filter(|ty| !matches!(ty, Type::Error));
+        match expression {
+            ast::Expression::Literal(node) => self.literal(node.value(), span, expected),
+            ast::Expression::Name(node) => self.name(&node.text(), span, expected),
+            ast::Expression::Parenthesized(node) => self.infer(node.inner(), expected),
+            ast::Expression::Field(node) => self.member(&node, span),
+            ast::Expression::Call(node) => self.call(&node, span),
+            ast::Expression::Index(node) => self.index(&node, span),
+            ast::Expression::Unwrap(node) => self.unwrap(&node, span, expected),
+            ast::Expression::Prefix(node) => self.prefix(&node, span, expected),
+            ast::Expression::Binary(node) => self.binary(&node, span, expected),
+            ast::Expression::Some(node) => self.some(&node, span),
+            ast::Expression::Conditional(node) => self.conditional(&node, span, expected),
+            ast::Expression::Quantifier(node) => self.quantifier(&node, span),
+            ast::Expression::List(node) => self.list(&node, span, expected),
+            ast::Expression::Brace(node) => self.brace(&node, span, expected),
+        }
+    }
+
+    /// Checks an expression that must have a value.
+    pub fn value(
+        &mut self,
+        expression: Option<ast::Expression>,
+        expected: Option<&Type>,
+        role: &str,
+    ) -> Expression {
+        let value = self.infer(expression, expected);
+        match value.ty {
+            Type::Nothing => {
+                let message = format!("{role} is a call that gives nothing");
+                self.error(Code::WrongType, value.span, message);
+                broken(value.span)
+            }
+            Type::Range => self.misplaced_range(value.span),
+            _ => value,
+        }
+    }
+
+    /// Whether the expression's type is that of its surroundings.
+    pub fn needs_hint(&self, expression: &ast::Expression) -> bool {
+        match expression {
+            ast::Expression::Literal(node) => node.value() == Literal::None,
+            ast::Expression::Name(node) => self.needs_context(&node.text()),
+            ast::Expression::Parenthesized(node) => {
+                node.inner().is_some_and(|inner| self.needs_hint(&inner))
+            }
+            ast::Expression::List(node) => {
+                node.comprehension().is_none()
+                    && node.elements().all(|element| self.needs_hint(&element))
+            }
+            ast::Expression::Brace(node) => {
+                node.comprehension().is_none()
+                    && node.entries().next().is_none()
+                    && node.elements().all(|element| self.needs_hint(&element))
+            }
+            _ => false,
+        }
+    }
+
+    fn literal(&mut self, literal: Literal, span: Span, expected: Option<&Type>) -> Expression {
+        match literal {
+            Literal::Int(value) => match i64::try_from(value) {
+                Ok(value) => made(ExpressionKind::Int(value), Type::Int, span),
+                Err(_) => {
+                    let message = "no Int is as great as this";
+                    let problem = Diagnostic::new(Code::LiteralRange, span, message);
+                    self.report(problem.note(format!("the greatest is {}", i64::MAX)));
+                    broken(span)
+                }
+            },
+            Literal::Float(value) => made(ExpressionKind::Float(value), Type::Float, span),
+            Literal::Duration(value) => made(ExpressionKind::Duration(value), Type::Duration, span),
+            Literal::String(value) => made(ExpressionKind::String(value), Type::String, span),
+            Literal::Bool(value) => made(ExpressionKind::Bool(value), Type::Bool, span),
+            Literal::None => self.none(span, expected),
+            Literal::Malformed => broken(span),
+        }
+    }
+
+    fn none(&mut self, span: Span, expected: Option<&Type>) -> Expression {
+        match expected {
+            Some(ty @ Type::Optional(_)) => made(ExpressionKind::None, ty.clone(), span),
+            Some(ty) => {
+                let problem =
+                    Diagnostic::new(Code::WrongType, span, "`none` is no value of this type");
+                let name = self.name_of(ty);
+                let note = format!("only an optional, `{name}?`, may be none");
+                self.report(problem.expected(name).found("none").note(note));
+                broken(span)
+            }
+            None => {
+                let message = "it cannot be known what is none here";
+                let problem = Diagnostic::new(Code::UnclearType, span, message);
+                self.report(problem.note("say it with a type, as in `let x: Point? = none`"));
+                broken(span)
+            }
+        }
+    }
+
+    fn unwrap(
+        &mut self,
+        node: &ast::UnwrapExpression,
+        span: Span,
+        expected: Option<&Type>,
+    ) -> Expression {
+        let hint = expected.cloned().map(Type::optional);
+        let base = self.value(node.base(), hint.as_ref(), "this");
+        match base.ty.clone() {
+            Type::Optional(inner) => made(ExpressionKind::Unwrap(Box::new(base)), *inner, span),
+            Type::Error => broken(span),
+            _ => {
+                let mark = Span::new(base.span.end, span.end);
+                let problem = Diagnostic::new(Code::NotOptional, mark, "`!` needs an optional");
+                let problem = problem.found(self.name_of(&base.ty));
+                self.report(problem.replace("remove `!`", mark, ""));
+                base
+            }
+        }
+    }
+
+    fn prefix(
+        &mut self,
+        node: &ast::PrefixExpression,
+        span: Span,
+        expected: Option<&Type>,
+    ) -> Expression {
+        match node.operator() {
+            Some(PrefixOperator::Not) => {
+                let operand = self.expect(node.operand(), &Type::Bool, "what `not` turns round");
+                made(ExpressionKind::Not(Box::new(operand)), Type::Bool, span)
+            }
+            Some(PrefixOperator::Negate) => self.negate(node, span, expected),
+            None => broken(span),
+        }
+    }
+
+    fn negate(
+        &mut self,
+        node: &ast::PrefixExpression,
+        span: Span,
+        expected: Option<&Type>,
+    ) -> Expression {
+        if let Some(ast::Expression::Literal(literal)) = node.operand()
+            && let Literal::Int(value) = literal.value()
+        {
+            // The parser lets no more than 2^63 through, whose negative is the least Int.
+            let value = 0_i64.wrapping_sub_unsigned(value);
+            return made(ExpressionKind::Int(value), Type::Int, span);
+        }
+        let operand = self.value(node.operand(), expected, "what is negated");
+        match operand.ty {
+            Type::Int | Type::Point => {
+                let ty = operand.ty.clone();
+                made(ExpressionKind::Negate(Box::new(operand)), ty, span)
+            }
+            Type::Float => match operand.kind {
+                ExpressionKind::Float(value) => {
+                    made(ExpressionKind::Float(-value), Type::Float, span)
+                }
+                _ => made(ExpressionKind::Negate(Box::new(operand)), Type::Float, span),
+            },
+            Type::Error => broken(span),
+            Type::Duration => {
+                let message = "there are no negative durations";
+                self.error(Code::OperatorTypes, span, message);
+                broken(span)
+            }
+            _ => {
+                let message = format!("`-` does not apply to {}", self.name_of(&operand.ty));
+                self.error(Code::OperatorTypes, span, message);
+                broken(span)
+            }
+        }
+    }
+
+    fn conditional(
+        &mut self,
+        node: &ast::ConditionalExpression,
+        span: Span,
+        expected: Option<&Type>,
+    ) -> Expression {
+        let mark = self.body.enter();
+        let condition = self.expect(node.condition(), &Type::Bool, "the condition");
+        let then_first =
+            expected.is_some() || !node.then().is_some_and(|then| self.needs_hint(&then));
+        let (then, otherwise) = if then_first {
+            let then = self.value(node.then(), expected, "the value");
+            self.body.leave(mark);
+            let hint = expected.cloned().unwrap_or_else(|| then.ty.clone());
+            let otherwise = self.value(node.otherwise(), Some(&hint), "the value after `else`");
+            (then, otherwise)
+        } else {
+            let names = self.body.names.split_off(mark);
+            let otherwise = self.value(node.otherwise(), None, "the value after `else`");
+            self.body.names.extend(names);
+            let hint = otherwise.ty.clone();
+            let then = self.value(node.then(), Some(&hint), "the value after `then`");
+            self.body.leave(mark);
+            (then, otherwise)
+        };
+        let ty = match expected {
+            Some(ty) if same(&then.ty, ty) || same(&Type::optional(then.ty.clone()), ty) => {
+                ty.clone()
+            }
+            // One may be none, so both may.
+            _ if matches!(&otherwise.ty, Type::Optional(inner) if same(inner, &then.ty)) => {
+                otherwise.ty.clone()
+            }
+            _ if then.ty == Type::Error => otherwise.ty.clone(),
+            _ => then.ty.clone(),
+        };
+        let then = self.fit(then, &ty, "the value after `then`");
+        let otherwise = self.fit(otherwise, &ty, "the value after `else`");
+        let kind = ExpressionKind::Conditional {
+            condition: Box::new(condition),
+            then: Box::new(then),
+            otherwise: Box::new(otherwise),
+        };
+        made(kind, ty, span)
+    }
+
+    fn quantifier(&mut self, node: &ast::QuantifierExpression, span: Span) -> Expression {
+        if self.body.place != Where::Property {
+            let word = if node.is_universal() {
+                "forall"
+            } else {
+                "exists"
+            };
+            let message = format!("`{word}` cannot stand here");
+            let problem = Diagnostic::new(Code::MisplacedQuantifier, span, message);
+            let note = "it stands in properties: a robot knows of others only what they tell it";
+            self.report(problem.note(note));
+            return broken(span);
+        }
+        let mark = self.body.enter();
+        let robots = (node.variables())
+            .filter_map(|name| self.declare_local(&name, Type::Robot, None))
+            .collect();
+        let robot = self.body.robot.take();
+        let condition = self.expect(node.condition(), &Type::Bool, "what is said of the robots");
+        self.body.robot = robot;
+        self.body.leave(mark);
+        let kind = ExpressionKind::Quantifier {
+            is_universal: node.is_universal(),
+            robots,
+            condition: Box::new(condition),
+        };
+        made(kind, Type::Bool, span)
+    }
+}

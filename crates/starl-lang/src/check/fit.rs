@@ -1,0 +1,126 @@
+//! Whether a value fits where it stands, and what to say if it does not.
+
+use alloc::boxed::Box;
+use alloc::format;
+
+use super::report::{around, broken};
+use super::state::Checker;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::{Expression, ExpressionKind, Type};
+use crate::syntax::ast;
+
+/// Whether the types are one, errors aside.
+pub(super) fn same(a: &Type, b: &Type) -> bool {
+    match (a, b) {
+        (Type::Error, _) | (_, Type::Error) => true,
+        (Type::List(a), Type::List(b))
+        | (Type::Set(a), Type::Set(b))
+        | (Type::Optional(a), Type::Optional(b)) => same(a, b),
+        (Type::Map(k, v), Type::Map(l, w)) => same(k, l) && same(v, w),
+        _ => a == b,
+    }
+}
+
+impl Checker {
+    /// Checks an expression whose type must be `expected`; `role` says what it is, such as "the
+    /// condition".
+    pub fn expect(
+        &mut self,
+        expression: Option<ast::Expression>,
+        expected: &Type,
+        role: &str,
+    ) -> Expression {
+        let value = self.infer(expression, Some(expected));
+        self.fit(value, expected, role)
+    }
+
+    /// The value as one of the expected type.
+    pub fn fit(&mut self, value: Expression, expected: &Type, role: &str) -> Expression {
+        if same(&value.ty, expected) {
+            return value;
+        }
+        if let Type::Optional(inner) = expected
+            && same(&value.ty, inner)
+        {
+            let span = value.span;
+            return Expression {
+                kind: ExpressionKind::Present(Box::new(value)),
+                ty: expected.clone(),
+                span,
+            };
+        }
+        if value.ty == Type::Range {
+            return self.misplaced_range(value.span);
+        }
+        let problem = self.misfit(&value, expected, role);
+        self.report(problem);
+        Expression {
+            ty: Type::Error,
+            ..value
+        }
+    }
+
+    /// A range where a value must stand.
+    pub fn misplaced_range(&mut self, span: crate::diagnostic::Span) -> Expression {
+        let problem = Diagnostic::new(Code::MisplacedRange, span, "a range is no value");
+        self.report(problem.note("it stands after `in`: in `for i in 0..n` or `x in 0..n`"));
+        broken(span)
+    }
+
+    fn misfit(&self, value: &Expression, expected: &Type, role: &str) -> Diagnostic {
+        let (span, found) = (value.span, &value.ty);
+        let problem = |code, message| {
+            Diagnostic::new(code, span, message)
+                .expected(self.name_of(expected))
+                .found(self.name_of(found))
+        };
+        match (found, expected) {
+            (Type::Nothing, _) => problem(
+                Code::WrongType,
+                format!("{role} is a call that gives nothing"),
+            ),
+            (Type::Optional(inner), _) if same(inner, expected) => {
+                let problem = problem(Code::MayBeNone, format!("{role} may be none"));
+                if *expected == Type::Bool {
+                    return problem.note("ask with `some x = ...`, or with `!= none`");
+                }
+                problem.note("ask first with `if some x = ...`, say what it is then with `?? ...`, or end it here with `!` if it cannot be")
+            }
+            (Type::Int, Type::Float) => {
+                let problem = problem(Code::MixedNumbers, format!("{role} is an Int, not a Float"));
+                match value.kind {
+                    ExpressionKind::Int(_) => {
+                        let float = format!("{}.0", self.text(span));
+                        problem.replace(format!("write `{float}`"), span, float)
+                    }
+                    _ => problem.mend(around("convert it with `Float(...)`", span, "Float(", ")")),
+                }
+            }
+            (Type::Float, Type::Int) => {
+                let problem = problem(Code::MixedNumbers, format!("{role} is a Float, not an Int"));
+                let note =
+                    "`Int(...)` drops the fraction; `round`, `floor` and `ceil` give an Int too";
+                problem.note(note)
+            }
+            (Type::Int | Type::Float, Type::Duration)
+                if matches!(
+                    value.kind,
+                    ExpressionKind::Int(_) | ExpressionKind::Float(_)
+                ) =>
+            {
+                let problem = problem(Code::WrongType, format!("{role} is a time without a unit"));
+                let text = self.text(span);
+                if text.ends_with(|last: char| last.is_ascii_digit()) {
+                    let seconds = format!("{text}s");
+                    return problem.replace(
+                        format!("write `{seconds}` if these are seconds"),
+                        span,
+                        seconds,
+                    );
+                }
+                problem
+            }
+            _ => problem(Code::WrongType, format!("{role} has the wrong type")),
+        }
+    }
+}

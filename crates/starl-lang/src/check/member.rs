@@ -1,0 +1,354 @@
+//! What stands after a dot: fields, coordinates, flags, variants, and what libraries have.
+
+use alloc::boxed::Box;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::body::Where;
+use super::name::robot_member;
+use super::report::{broken, did_you_mean, listed, made};
+use super::scope::Entity;
+use super::state::Checker;
+use super::tables::{Member, Method, Signature};
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::ir::{BindingId, EnumId, Expression, ExpressionKind, RobotMember, Type};
+use crate::syntax::ast;
+
+/// What people write who know other languages.
+const FOREIGN: &[(&str, &str)] = &[
+    ("length", "size"),
+    ("len", "size"),
+    ("count", "size"),
+    ("push", "add"),
+    ("append", "add"),
+    ("insert_at", "insert"),
+    ("includes", "contains"),
+    ("has", "contains"),
+    ("doneFlag", "done"),
+    ("activeFlag", "active"),
+    ("failFlag", "failed"),
+    ("doReachAvoid", "reach_avoid"),
+    ("do_reach_avoid", "reach_avoid"),
+    ("do_mutex", "acquire"),
+    ("crit", "held"),
+    ("do_register", "register"),
+    ("undo_register", "unregister"),
+    ("rList", "members"),
+    ("do_election", "elect"),
+];
+
+impl Checker {
+    /// What the expression names, if that is something with parts rather than a value: a library, a
+    /// primitive or an enum.
+    pub fn namespace(&mut self, base: &ast::Expression) -> Option<Entity> {
+        match base {
+            ast::Expression::Name(node) => {
+                let name = node.text();
+                if self.body.find(&name).is_some() {
+                    return None;
+                }
+                let own = self.files[self.file as usize].scope.get(&name);
+                let common = &self.files[super::prelude::FILE as usize].scope;
+                let entity = own.or_else(|| common.get(&name))?.entity;
+                if let Entity::Library(file) = entity {
+                    self.usage.imports.insert((self.file, file));
+                }
+                self.usage.used.insert(entity);
+                matches!(
+                    entity,
+                    Entity::Library(_) | Entity::Binding(_) | Entity::Enum(_) | Entity::Broken
+                )
+                .then_some(entity)
+            }
+            ast::Expression::Field(node) => {
+                let Entity::Library(file) = self.namespace(&node.base()?)? else {
+                    return None;
+                };
+                let name = node.field()?;
+                let entity = self.files[file as usize].scope.get(name.text())?.entity;
+                matches!(entity, Entity::Enum(_)).then_some(entity)
+            }
+            _ => None,
+        }
+    }
+
+    /// `base.name`
+    pub fn member(&mut self, node: &ast::FieldExpression, span: Span) -> Expression {
+        let Some(word) = node.field() else {
+            self.infer(node.base(), None);
+            return broken(span);
+        };
+        let (name, at) = (word.text(), Span::from(word.text_range()));
+        match node.base().and_then(|base| self.namespace(&base)) {
+            Some(Entity::Library(file)) => match self.library_entity(file, name, at) {
+                Some(entity) => self.entity_value(entity, name, span),
+                None => broken(span),
+            },
+            Some(Entity::Binding(id)) => self.flag(id, name, at, span),
+            Some(Entity::Enum(id)) => self.qualified_variant(id, name, span),
+            Some(_) => broken(span),
+            None => {
+                let base = self.infer(node.base(), None);
+                self.field(base, name, at, span)
+            }
+        }
+    }
+
+    /// What a library declares under a name, for others to use.
+    pub fn library_entity(&mut self, file: u32, name: &str, at: Span) -> Option<Entity> {
+        let library = &self.files[file as usize];
+        let entity = library.scope.get(name).map(|declared| declared.entity);
+        match entity {
+            Some(Entity::Library(_)) | None => {
+                if library.unread.contains(name) {
+                    return None;
+                }
+                let message = format!("the library `{}` has no `{name}`", library.checked.name);
+                let problem = Diagnostic::new(Code::UnknownName, at, message);
+                let names = library.scope.keys().map(String::as_str);
+                let problem = did_you_mean(problem, at, name, names);
+                self.report(problem);
+                None
+            }
+            Some(entity) => Some(entity),
+        }
+    }
+
+    /// `Enum.variant`
+    pub fn qualified_variant(&mut self, id: EnumId, name: &str, span: Span) -> Expression {
+        let variants = &self.program[id].variants;
+        match variants.iter().position(|variant| variant.name == name) {
+            Some(number) => {
+                let kind = ExpressionKind::Variant(number as u16);
+                made(kind, Type::Enum(id), span)
+            }
+            None => {
+                let at = Span::new(span.end.saturating_sub(name.len() as u32), span.end);
+                self.unknown_variant(id, name, at)
+            }
+        }
+    }
+
+    /// A method or flag of a primitive by its name.
+    pub fn primitive_member(
+        &mut self,
+        id: BindingId,
+        name: &str,
+        at: Span,
+    ) -> Option<&'static Member> {
+        let primitive = self.program[id].primitive?;
+        if let Some(member) = primitive.member(name) {
+            return Some(member);
+        }
+        let message = format!("{} has no `{name}`", primitive.name());
+        let problem = Diagnostic::new(Code::UnknownMember, at, message);
+        let names = || primitive.members.iter().map(Member::name);
+        let foreign = FOREIGN.iter().find(|(word, _)| *word == name);
+        let foreign = foreign.filter(|(_, meant)| names().any(|own| own == *meant));
+        let problem = match foreign {
+            Some((_, meant)) => problem.replace(format!("did you mean `{meant}`?"), at, *meant),
+            None => did_you_mean(problem, at, name, names()),
+        };
+        self.report(problem.note(format!("it has {}", listed(names()))));
+        None
+    }
+
+    fn flag(&mut self, id: BindingId, name: &str, at: Span, span: Span) -> Expression {
+        let Some(member) = self.primitive_member(id, name, at) else {
+            return broken(span);
+        };
+        let signature = member.signature();
+        if signature.is_call {
+            let message = format!("`{name}` is called");
+            let problem = Diagnostic::new(Code::NotCallable, at, message);
+            self.report(problem.note(member.text));
+            return broken(span);
+        }
+        self.primitive_value(id, member, Vec::new(), &signature, at, span)
+    }
+
+    /// A method or flag of a primitive, with its arguments.
+    pub fn primitive_value(
+        &mut self,
+        id: BindingId,
+        member: &'static Member,
+        arguments: Vec<Option<Expression>>,
+        signature: &Signature,
+        at: Span,
+        span: Span,
+    ) -> Expression {
+        let ty = self.shape_type(&signature.result, &super::shape::Letters::new());
+        let ty = ty.unwrap_or(Type::Error);
+        let place = self.body.place;
+        if matches!(place, Where::Initial(_) | Where::Property) {
+            let what = place.what();
+            let message = format!(
+                "{what} cannot ask the primitive `{}`",
+                self.program[id].name
+            );
+            self.error(Code::StateOutOfReach, at, message);
+            return made(ExpressionKind::Error, ty, span);
+        }
+        if !self.allowed(member.purity, member.name(), at) {
+            return made(ExpressionKind::Error, ty, span);
+        }
+        let kind = ExpressionKind::Primitive {
+            binding: id,
+            member,
+            arguments,
+        };
+        made(kind, ty, span)
+    }
+
+    /// A field of a value.
+    fn field(&mut self, base: Expression, name: &str, at: Span, span: Span) -> Expression {
+        match &base.ty {
+            Type::Error => return broken(span),
+            Type::Record(id) => {
+                let fields = &self.program[*id].fields;
+                if let Some(number) = fields.iter().position(|field| field.name == name) {
+                    let ty = fields[number].ty.clone();
+                    let kind = ExpressionKind::Field {
+                        base: Box::new(base),
+                        field: number as u32,
+                    };
+                    return made(kind, ty, span);
+                }
+            }
+            Type::Point => {
+                if let Some(axis) = ["x", "y", "z"].iter().position(|axis| *axis == name) {
+                    let kind = ExpressionKind::Coordinate {
+                        base: Box::new(base),
+                        axis: axis as u8,
+                    };
+                    return made(kind, Type::Float, span);
+                }
+            }
+            Type::Robot => return self.robot_field(base, name, at, span),
+            _ => {}
+        }
+        if let Some(method) = Method::of(self.receiver_name(&base.ty)).find(|m| m.name() == name) {
+            let message = format!("`{name}` is called");
+            let problem = Diagnostic::new(Code::NotCallable, at, message);
+            let no_arguments = method.signature().parameters.is_empty();
+            self.report(if no_arguments {
+                problem.replace(format!("write `{name}()`"), Span::empty(at.end), "()")
+            } else {
+                problem.note(method.text())
+            });
+            return broken(span);
+        }
+        self.unknown_member(&base, name, at);
+        broken(span)
+    }
+
+    /// `r.variable` in a property.
+    fn robot_field(&mut self, robot: Expression, name: &str, at: Span, span: Span) -> Expression {
+        let scope = &self.files[self.file as usize].scope;
+        let entity = scope.get(name).map(|declared| declared.entity);
+        let role = (self.program.roles.as_ref()).filter(|_| name == "role");
+        let member = match (entity, role) {
+            (_, Some(roles)) => Some(RobotMember::Variable(roles.variable)),
+            (Some(Entity::Variable(id)), _) => Some(RobotMember::Variable(id)),
+            (Some(Entity::Parameter(id)), _) => Some(RobotMember::Parameter(id)),
+            _ => robot_member(name),
+        };
+        if self.body.place != Where::Property {
+            let message = format!("`{name}` of another robot is not known here");
+            let problem = Diagnostic::new(Code::ForeignVariable, at, message);
+            let note =
+                "robots know of each other what they tell: by messages, or by `allread` variables";
+            self.report(problem.note(note));
+            return broken(span);
+        }
+        let Some(member) = member else {
+            let message = format!("a robot has no `{name}`");
+            let problem = Diagnostic::new(Code::UnknownMember, at, message);
+            let known = ["position", "heading", "velocity", "finished", "up", "id"];
+            let variables = self
+                .program
+                .variables
+                .iter()
+                .map(|variable| variable.name.as_str());
+            let problem = did_you_mean(problem, at, name, variables.chain(known));
+            let list = format!("it has the variables of the program, and {}", listed(known));
+            self.report(problem.note(list));
+            return broken(span);
+        };
+        match member {
+            RobotMember::Variable(id) => self.usage.used.insert(Entity::Variable(id)),
+            RobotMember::Parameter(id) => self.usage.used.insert(Entity::Parameter(id)),
+            _ => false,
+        };
+        self.of_robot(robot, member, span)
+    }
+
+    /// A method of a value by its name.
+    pub fn method(&mut self, receiver: &Expression, name: &str, at: Span) -> Option<Method> {
+        if receiver.ty == Type::Error {
+            return None;
+        }
+        let of = self.receiver_name(&receiver.ty);
+        let found = Method::of(of).find(|method| method.name() == name);
+        if found.is_none() {
+            self.unknown_member(receiver, name, at);
+        }
+        found
+    }
+
+    fn unknown_member(&mut self, base: &Expression, name: &str, at: Span) {
+        let found = self.name_of(&base.ty);
+        if let Type::Optional(inner) = &base.ty {
+            let message = format!("this may be none, and none has no `{name}`");
+            let problem = Diagnostic::new(Code::MayBeNone, base.span, message);
+            let inner = self.name_of(inner);
+            let problem = problem.expected(inner).found(found);
+            self.report(
+                problem
+                    .note("ask first with `if some x = ...`, or say what it is then with `?? ...`"),
+            );
+            return;
+        }
+        let message = format!("{found} has no `{name}`");
+        let problem = Diagnostic::new(Code::UnknownMember, at, message);
+        let mut names: Vec<&str> = Method::of(self.receiver_name(&base.ty))
+            .map(Method::name)
+            .collect();
+        match &base.ty {
+            Type::Record(id) => {
+                names.extend(
+                    self.program[*id]
+                        .fields
+                        .iter()
+                        .map(|field| field.name.as_str()),
+                );
+            }
+            Type::Point => names.extend(["x", "y", "z"]),
+            _ => {}
+        }
+        let foreign = FOREIGN.iter().find(|(word, _)| *word == name);
+        let foreign = foreign.filter(|(_, meant)| names.contains(meant));
+        let problem = match foreign {
+            Some((_, meant)) => problem.replace(format!("did you mean `{meant}`?"), at, *meant),
+            None => did_you_mean(problem, at, name, names.iter().copied()),
+        };
+        self.report(if names.is_empty() {
+            problem
+        } else {
+            problem.note(format!("it has {}", listed(names)))
+        });
+    }
+
+    /// The name under which the methods of a type are listed.
+    fn receiver_name(&self, ty: &Type) -> &'static str {
+        match ty {
+            Type::List(_) => "List",
+            Type::Set(_) => "Set",
+            Type::Map(..) => "Map",
+            Type::String => "String",
+            Type::Area => "Area",
+            _ => "",
+        }
+    }
+}

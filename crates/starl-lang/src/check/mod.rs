@@ -1,0 +1,115 @@
+//! The static checker: from a tree to a resolved, typed program, and all that is wrong with it.
+//!
+//! [`check`] never fails: it gives a program, perhaps with errors in it, and diagnostics of each file.
+//! What has an error gets the type [`Type::Error`](crate::ir::Type::Error), which fits everywhere, so
+//! that one mistake is reported once.
+//!
+//! The way is: load the files (`load`), note what is declared (`collect`), give declarations their types
+//! (`types`), check what is in them (`declaration`, `statement`, `expression`, `property`), then look at
+//! the whole for what cannot be meant (`usage`, `control`). Types flow down as well as up: an expression is
+//! checked with the type that is expected of it, where that is known, and gives its type.
+
+mod body;
+mod call;
+mod collect;
+mod collection;
+mod condition;
+mod constants;
+mod control;
+mod declaration;
+mod event;
+mod expression;
+mod feasible;
+mod fit;
+mod libraries;
+mod load;
+mod member;
+mod name;
+mod operator;
+mod place;
+mod prelude;
+mod property;
+mod report;
+mod returns;
+mod scope;
+mod shape;
+mod state;
+mod statement;
+mod tables;
+mod types;
+mod usage;
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::diagnostic::{Diagnostic, has_errors};
+use crate::ir::Program;
+use crate::syntax::{Parse, parse};
+
+pub use libraries::{Libraries, NoLibraries};
+pub use prelude::PRELUDE;
+pub use tables::{
+    BUILTINS, Builtin, Event, METHODS, Member, Method, PRIMITIVES, Parameter, Primitive, Purity,
+    Shape, Signature,
+};
+
+/// A file that was checked.
+#[derive(Clone, Debug)]
+pub struct CheckedFile {
+    /// Its name: that of the library; of the program the name that it gives itself.
+    pub name: String,
+    /// Its text.
+    pub source: String,
+    /// Its tree.
+    pub parse: Parse,
+    /// What is wrong with it, reading included, by rising place.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// A program that was checked.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// The program, with errors in it if there are any.
+    pub program: Program,
+    /// The files, by the numbers that [`crate::ir::Site`] uses: 0 is the program, 1 the prelude.
+    pub files: Vec<CheckedFile>,
+}
+
+impl Checked {
+    /// What is wrong with the program itself, by rising place.
+    #[must_use]
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.files[0].diagnostics
+    }
+
+    /// Whether errors, of any file, keep the program from running.
+    #[must_use]
+    pub fn has_errors(&self) -> bool {
+        self.files.iter().any(|file| has_errors(&file.diagnostics))
+    }
+
+    /// The program, if it has no errors.
+    #[must_use]
+    pub fn correct(&self) -> Option<&Program> {
+        (!self.has_errors()).then_some(&self.program)
+    }
+}
+
+/// Reads and checks a program or a library.
+#[must_use]
+pub fn check(source: &str, libraries: &dyn Libraries) -> Checked {
+    check_parsed(source, parse(source), libraries)
+}
+
+/// Checks a program or a library that was read from `source`.
+#[must_use]
+pub fn check_parsed(source: &str, parse: Parse, libraries: &dyn Libraries) -> Checked {
+    let mut checker = load::load(source, parse, libraries);
+    checker.collect();
+    checker.resolve_types();
+    checker.check_declarations();
+    checker.order_constants();
+    checker.warn_of_use();
+    checker.warn_of_control();
+    checker.finish()
+}

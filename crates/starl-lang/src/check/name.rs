@@ -1,0 +1,479 @@
+//! What a bare name stands for, as a value.
+//!
+//! A local hides everything. Then, where an enum is expected, its variants come first; then what the
+//! file declares, the variant of the one enum that has it, and what every program has.
+
+use alloc::boxed::Box;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::body::Where;
+use super::prelude;
+use super::report::{broken, did_you_mean, made};
+use super::scope::Entity;
+use super::state::{Checker, Needed, Progress};
+use super::tables::{BUILTINS, Builtin, Primitive, Purity};
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::ir::{EnumId, Expression, ExpressionKind, RobotMember, Type};
+
+/// What a name stands for.
+pub(super) enum Meaning {
+    Local(crate::ir::LocalId),
+    Entity(Entity),
+    Variant(EnumId, u16),
+    Builtin(Builtin),
+    Primitive(&'static Primitive),
+    /// The variable of the roles.
+    Role,
+    /// Variants of several enums.
+    Variants(Vec<(EnumId, u16)>),
+    Unknown,
+}
+
+impl Checker {
+    /// What the name stands for, where `expected` is expected.
+    pub fn meaning(&self, name: &str, expected: Option<&Type>) -> Meaning {
+        if let Some(local) = self.body.find(name) {
+            return Meaning::Local(local);
+        }
+        if let Some((id, variant)) = self.expected_variant(name, expected) {
+            return Meaning::Variant(id, variant);
+        }
+        if name == "role" && self.program.roles.is_some() && self.file == 0 {
+            return Meaning::Role;
+        }
+        let scope = &self.files[self.file as usize].scope;
+        if let Some(declared) = scope.get(name) {
+            return Meaning::Entity(declared.entity);
+        }
+        let visible: Vec<(EnumId, u16)> = self.visible_variants(name).collect();
+        match visible[..] {
+            [] => {}
+            [(id, variant)] => return Meaning::Variant(id, variant),
+            _ => return Meaning::Variants(visible),
+        }
+        if let Some(builtin) = Builtin::named(name) {
+            return Meaning::Builtin(builtin);
+        }
+        let common = &self.files[prelude::FILE as usize].scope;
+        if let Some(declared) = common.get(name) {
+            return Meaning::Entity(declared.entity);
+        }
+        Primitive::named(name).map_or(Meaning::Unknown, Meaning::Primitive)
+    }
+
+    /// The variant with this name of the enum that is expected.
+    fn expected_variant(&self, name: &str, expected: Option<&Type>) -> Option<(EnumId, u16)> {
+        let id = match expected? {
+            Type::Enum(id) => *id,
+            Type::Optional(inner) => match **inner {
+                Type::Enum(id) => id,
+                _ => return None,
+            },
+            _ => return None,
+        };
+        let those = self.variants.get(name)?;
+        those.iter().copied().find(|(of, _)| *of == id)
+    }
+
+    /// The variants with this name of the enums that the present file can name.
+    fn visible_variants(&self, name: &str) -> impl Iterator<Item = (EnumId, u16)> {
+        let those = self.variants.get(name).into_iter().flatten().copied();
+        let role = self.program.roles.as_ref().map(|roles| roles.variable);
+        let roles = role.map(|variable| &self.program[variable].ty);
+        those.filter(move |(id, _)| {
+            let file = self.program[*id].site.file;
+            (file == self.file || file == prelude::FILE)
+                && (self.file == 0 || Some(&Type::Enum(*id)) != roles)
+        })
+    }
+
+    /// Whether the name means something only where a type is expected.
+    pub fn needs_context(&self, name: &str) -> bool {
+        matches!(
+            self.meaning(name, None),
+            Meaning::Variant(..) | Meaning::Variants(_) | Meaning::Unknown | Meaning::Builtin(_)
+        )
+    }
+
+    /// A name as a value.
+    pub fn name(&mut self, name: &str, span: Span, expected: Option<&Type>) -> Expression {
+        match self.meaning(name, expected) {
+            Meaning::Local(local) => self.local_value(local, span),
+            Meaning::Entity(entity) => self.entity_value(entity, name, span),
+            Meaning::Variant(id, variant) => {
+                self.usage.used.insert(Entity::Enum(id));
+                made(ExpressionKind::Variant(variant), Type::Enum(id), span)
+            }
+            Meaning::Builtin(builtin) => self.builtin_name(builtin, span),
+            Meaning::Primitive(primitive) => {
+                let message = format!("`{}` is a kind of primitive, not a value", primitive.name());
+                let problem = Diagnostic::new(Code::NoValue, span, message);
+                let form = format!("bind one to a name: `name = {}`", primitive.constructor);
+                self.report(problem.note(form));
+                broken(span)
+            }
+            Meaning::Role => {
+                let Some(variable) = self.program.roles.as_ref().map(|roles| roles.variable) else {
+                    return broken(span);
+                };
+                self.entity_value(Entity::Variable(variable), name, span)
+            }
+            Meaning::Variants(those) => self.ambiguous(name, &those, span),
+            Meaning::Unknown => self.unknown(name, span, expected),
+        }
+    }
+
+    fn local_value(&mut self, local: crate::ir::LocalId, span: Span) -> Expression {
+        self.body.read(local);
+        let ty = self.body.locals[local.index()].ty.clone();
+        made(ExpressionKind::Local(local), ty, span)
+    }
+
+    /// A declaration, of this file or of a library, as a value.
+    pub fn entity_value(&mut self, entity: Entity, name: &str, span: Span) -> Expression {
+        self.usage.used.insert(entity);
+        match entity {
+            Entity::Parameter(id) => self.parameter_value(id, name, span),
+            Entity::Constant(id) => {
+                self.need(Needed::Constant(id));
+                let ty = self.constant_type(id);
+                made(ExpressionKind::Constant(id), ty, span)
+            }
+            Entity::Variable(id) => self.variable_value(id, name, span),
+            Entity::Shared(id) => self.shared_value(id, name, span),
+            Entity::Broken => broken(span),
+            Entity::Enum(id) => {
+                let message = format!("`{name}` is an enum, not a value");
+                let problem = Diagnostic::new(Code::NoValue, span, message);
+                let first = self.program[id].variants.first();
+                let form =
+                    first.map(|variant| format!("a value is written `{}.{}`", name, variant.name));
+                self.report(match form {
+                    Some(form) => problem.note(form),
+                    None => problem,
+                });
+                broken(span)
+            }
+            Entity::Function(_) | Entity::Record(_) => {
+                let message = format!("`{name}` is {}, not a value", entity.what());
+                let problem = Diagnostic::new(Code::NoValue, span, message);
+                self.report(problem.note(format!("it is called: `{name}(...)`")));
+                broken(span)
+            }
+            Entity::Binding(_) | Entity::Library(_) => {
+                let message = format!("`{name}` is {}, not a value", entity.what());
+                let problem = Diagnostic::new(Code::NoValue, span, message);
+                self.report(problem.note(format!("what it has is named `{name}.something`")));
+                broken(span)
+            }
+        }
+    }
+
+    fn parameter_value(
+        &mut self,
+        id: crate::ir::ParameterId,
+        name: &str,
+        span: Span,
+    ) -> Expression {
+        match self.body.place {
+            Where::Constant | Where::Function => {
+                self.state_out_of_reach(name, span);
+                broken(span)
+            }
+            Where::Property => {
+                // A parameter may differ between robots; where nothing else is said it is that of the
+                // robot named last.
+                let robot = self.body.names.last().map(|(_, robot)| *robot);
+                let Some(robot) = robot.or(self.body.robot) else {
+                    return self.of_no_robot(name, span);
+                };
+                let robot = self.local_value(robot, span);
+                self.of_robot(robot, RobotMember::Parameter(id), span)
+            }
+            _ => {
+                let ty = self.program[id].ty.clone();
+                made(ExpressionKind::Parameter(id), ty, span)
+            }
+        }
+    }
+
+    /// Notes that what is being checked needs a constant or a function.
+    pub fn need(&mut self, needed: Needed) {
+        if let Some(user) = self.user {
+            self.needs.insert((user, needed));
+        }
+    }
+
+    fn constant_type(&mut self, id: crate::ir::ConstantId) -> Type {
+        if self.constants[id.index()] == Progress::Untouched {
+            self.check_constant(id);
+        }
+        // One that is under way needs itself, which is reported when constants are ordered.
+        self.program[id].ty.clone()
+    }
+
+    fn variable_value(&mut self, id: crate::ir::VariableId, name: &str, span: Span) -> Expression {
+        let ty = self.program[id].ty.clone();
+        let kind = match self.body.place {
+            Where::Guard | Where::Effect => ExpressionKind::Variable(id),
+            Where::Initial(own) if id < own => ExpressionKind::Variable(id),
+            Where::Initial(_) => {
+                let message = format!("`{name}` has no value yet");
+                let problem = Diagnostic::new(Code::UsedTooEarly, span, message);
+                let note = "variables get their first values in the order of the text";
+                self.report(problem.note(note));
+                return broken(span);
+            }
+            Where::Property => return self.property_variable(id, name, span),
+            Where::Constant | Where::Function | Where::Binding => {
+                self.state_out_of_reach(name, span);
+                return broken(span);
+            }
+        };
+        made(kind, ty, span)
+    }
+
+    /// In a property a variable is one of a robot.
+    fn property_variable(
+        &mut self,
+        id: crate::ir::VariableId,
+        name: &str,
+        span: Span,
+    ) -> Expression {
+        if let Some(robot) = self.robot_of_property(span) {
+            return self.of_robot(robot, RobotMember::Variable(id), span);
+        }
+        self.of_no_robot(name, span)
+    }
+
+    fn of_no_robot(&mut self, name: &str, span: Span) -> Expression {
+        let message = format!("it is not said of which robot `{name}` is");
+        let problem = Diagnostic::new(Code::InvalidProperty, span, message);
+        let robot = (self.body.names.last()).map_or("r", |(robot, _)| robot.as_str());
+        let meant = format!("{robot}.{name}");
+        self.report(problem.replace(format!("did you mean `{meant}`?"), span, meant));
+        broken(span)
+    }
+
+    /// The robot that a property without quantifier is about.
+    fn robot_of_property(&mut self, span: Span) -> Option<Expression> {
+        let robot = self.body.robot?;
+        Some(self.local_value(robot, span))
+    }
+
+    /// What a property says of a robot.
+    pub fn of_robot(&self, robot: Expression, member: RobotMember, span: Span) -> Expression {
+        let ty = match member {
+            RobotMember::Variable(id) => self.program[id].ty.clone(),
+            RobotMember::Parameter(id) => self.program[id].ty.clone(),
+            RobotMember::Position | RobotMember::Velocity => Type::Point,
+            RobotMember::Heading => Type::Float,
+            RobotMember::Finished | RobotMember::Up => Type::Bool,
+            RobotMember::Id => Type::Robot,
+        };
+        let robot = Box::new(robot);
+        made(ExpressionKind::OfRobot { robot, member }, ty, span)
+    }
+
+    /// Reports state where it cannot be seen.
+    pub fn state_out_of_reach(&mut self, name: &str, span: Span) {
+        let what = self.body.place.what();
+        let message = format!("{what} cannot read `{name}`");
+        let problem = Diagnostic::new(Code::StateOutOfReach, span, message);
+        let note = match self.body.place {
+            Where::Function => {
+                "a function depends on its arguments and on constants; hand the value to it"
+            }
+            Where::Binding => "it is made of constants, parameters, `me` and `peers`",
+            _ => "it is the same for all robots and all runs",
+        };
+        self.report(problem.note(note));
+    }
+
+    fn shared_value(&mut self, id: crate::ir::SharedId, name: &str, span: Span) -> Expression {
+        match self.body.place {
+            Where::Guard | Where::Effect => {}
+            Where::Property => {
+                let message = format!("a property cannot read the shared variable `{name}`");
+                let problem = Diagnostic::new(Code::InvalidProperty, span, message);
+                let note = "robots may see different values of it; say it of their own variables";
+                self.report(problem.note(note));
+                return broken(span);
+            }
+            _ => {
+                self.state_out_of_reach(name, span);
+                return broken(span);
+            }
+        }
+        self.body.touched.push(id);
+        let shared = &self.program[id];
+        let ty = shared.ty.clone();
+        if shared.is_single_writer {
+            let ty = Type::map(Type::Robot, ty);
+            return made(ExpressionKind::SharedMap(id), ty, span);
+        }
+        let has_value = self.nodes.shared[id.index()].value().is_some();
+        let ty = if has_value { ty } else { Type::optional(ty) };
+        made(ExpressionKind::Shared(id), ty, span)
+    }
+
+    fn builtin_name(&mut self, builtin: Builtin, span: Span) -> Expression {
+        let name = builtin.name();
+        let signature = builtin.signature();
+        if signature.is_call {
+            let message = format!("`{name}` is called");
+            let problem = Diagnostic::new(Code::NotCallable, span, message);
+            let problem = problem.note(builtin.text());
+            let end = Span::empty(span.end);
+            self.report(if signature.parameters.is_empty() {
+                problem.replace(format!("write `{name}()`"), end, "()")
+            } else {
+                problem
+            });
+            return broken(span);
+        }
+        if self.body.place == Where::Property
+            && let Some(member) = robot_member(name)
+            && let Some(robot) = self.robot_of_property(span)
+        {
+            return self.of_robot(robot, member, span);
+        }
+        if !self.allowed(builtin.purity(), builtin.name(), span) {
+            return broken(span);
+        }
+        let ty = self.shape_type(&signature.result, &super::shape::Letters::new());
+        let kind = ExpressionKind::Builtin {
+            builtin,
+            arguments: Vec::new(),
+            rest: Vec::new(),
+        };
+        made(kind, ty.unwrap_or(Type::Error), span)
+    }
+
+    /// Whether something of this purity may stand here; reports it if not.
+    pub fn allowed(&mut self, purity: Purity, name: &str, span: Span) -> bool {
+        let place = self.body.place;
+        let fixed = place == Where::Binding && matches!(name, "me" | "peers");
+        if place.allows(purity) || fixed {
+            return true;
+        }
+        let what = place.what();
+        if purity == Purity::Query {
+            let message = format!("{what} cannot ask for `{name}`");
+            let problem = Diagnostic::new(Code::StateOutOfReach, span, message);
+            self.report(match place {
+                Where::Function => problem.note(
+                    "a function depends on its arguments and on constants; hand the value to it",
+                ),
+                Where::Binding => {
+                    problem.note("it is made of constants, parameters, `me` and `peers`")
+                }
+                _ => problem.note("it is the same for all robots and all runs"),
+            });
+        } else {
+            let message = format!("{what} cannot call `{name}`, which does something");
+            let problem = Diagnostic::new(Code::Impure, span, message);
+            self.report(problem.note("only `init`, effects and handlers do something"));
+        }
+        false
+    }
+
+    fn ambiguous(&mut self, name: &str, those: &[(EnumId, u16)], span: Span) -> Expression {
+        let enums: Vec<String> = (those.iter())
+            .map(|(id, _)| self.name_of(&Type::Enum(*id)))
+            .collect();
+        let message = format!("several enums have a variant `{name}`");
+        let problem = Diagnostic::new(Code::AmbiguousVariant, span, message);
+        let problem = problem.note(format!("it is one of {}", enums.join(" and of ")));
+        let named = those
+            .iter()
+            .find_map(|(id, _)| self.program[*id].name.as_ref());
+        self.report(match named {
+            Some(of) => {
+                let full = format!("{of}.{name}");
+                problem.replace(format!("write `{full}` if that is meant"), span, full)
+            }
+            None => problem,
+        });
+        broken(span)
+    }
+
+    fn unknown(&mut self, name: &str, span: Span, expected: Option<&Type>) -> Expression {
+        if self.may_be_unread(name) {
+            return broken(span);
+        }
+        if let Some(Type::Enum(id)) = expected {
+            return self.unknown_variant(*id, name, span);
+        }
+        let message = format!("there is no `{name}`");
+        let problem = Diagnostic::new(Code::UnknownName, span, message);
+        let problem = self.suggest(problem, name, span);
+        self.report(problem);
+        broken(span)
+    }
+
+    /// Reports a variant that an enum does not have.
+    pub fn unknown_variant(&mut self, id: EnumId, name: &str, span: Span) -> Expression {
+        let message = format!("{} has no variant `{name}`", self.name_of(&Type::Enum(id)));
+        let problem = Diagnostic::new(Code::UnknownVariant, span, message);
+        let names = || {
+            self.program[id]
+                .variants
+                .iter()
+                .map(|variant| variant.name.as_str())
+        };
+        let problem = did_you_mean(problem, span, name, names());
+        let list = format!("it has {}", super::report::listed(names()));
+        self.report(problem.note(list));
+        broken(span)
+    }
+
+    /// Adds the name that was probably meant, among all that can be seen here.
+    pub fn suggest(&self, problem: Diagnostic, name: &str, span: Span) -> Diagnostic {
+        if let Some((_, meant)) = FOREIGN.iter().find(|(word, _)| *word == name) {
+            return problem.replace(format!("did you mean `{meant}`?"), span, *meant);
+        }
+        let locals = self.body.names.iter().map(|(name, _)| name.as_str());
+        let declared = self.files[self.file as usize].scope.keys();
+        let variants = self.variants.keys();
+        let builtins = BUILTINS.iter().map(|builtin| builtin.name());
+        let candidates = locals
+            .chain(declared.map(String::as_str))
+            .chain(builtins)
+            .chain(variants.map(String::as_str));
+        did_you_mean(problem, span, name, candidates)
+    }
+}
+
+/// What people write who know the thesis, Koord or other languages.
+const FOREIGN: &[(&str, &str)] = &[
+    ("pid", "me"),
+    ("self", "me"),
+    ("getId", "me"),
+    ("getPos", "position"),
+    ("getpos", "position"),
+    ("getObstacles", "obstacles"),
+    ("getInput", "way_points"),
+    ("null", "none"),
+    ("nil", "none"),
+    ("None", "none"),
+    ("True", "true"),
+    ("False", "false"),
+    ("print", "log"),
+    ("println", "log"),
+];
+
+/// What a property may say of a robot besides its variables.
+pub(super) fn robot_member(name: &str) -> Option<RobotMember> {
+    Some(match name {
+        "position" => RobotMember::Position,
+        "heading" => RobotMember::Heading,
+        "velocity" => RobotMember::Velocity,
+        "finished" => RobotMember::Finished,
+        "up" => RobotMember::Up,
+        "id" | "me" => RobotMember::Id,
+        _ => return None,
+    })
+}

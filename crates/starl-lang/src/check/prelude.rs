@@ -1,0 +1,7 @@
+//! What every program has without importing it, written in the language itself.
+
+/// The text of the prelude, a library whose declarations need no `prelude.` before them.
+pub const PRELUDE: &str = include_str!("prelude.starl");
+
+/// The number of its file.
+pub(super) const FILE: u32 = 1;

@@ -1,0 +1,129 @@
+//! Properties.
+
+use alloc::format;
+use alloc::vec::Vec;
+
+use super::body::Where;
+use super::collect::{first_word, name_of};
+use super::state::Checker;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::ir::{Claim, Expression, ExpressionKind, LocalId, Property, Type};
+use crate::syntax::ast::{self, AstNode, Documented, Item};
+
+impl Checker {
+    /// `invariant name: condition` and the like.
+    pub fn check_property(&mut self, node: &ast::PropertyDeclaration) {
+        let name = name_of(node);
+        let word = first_word(node.syntax());
+        let site = self.site(name.as_ref().map_or(word, |name| name.span));
+        if let Some(name) = &name {
+            let properties = self.program.properties.iter();
+            let same = properties
+                .filter(|other| other.name.as_ref() == Some(&name.text))
+                .map(|other| other.site.span)
+                .next();
+            if let Some(first) = same {
+                let message = format!("there are two properties `{}`", name.text);
+                let problem = Diagnostic::new(Code::DuplicateName, name.span, message);
+                self.report(problem.label(first, "the first one"));
+            }
+        }
+        let about_robot = !(mentions_robots(node.condition().as_ref())
+            || mentions_robots(node.consequence().as_ref()));
+        let ((claim, robots), locals) = self.in_body(Where::Property, |checker| {
+            let mut robots = Vec::new();
+            if about_robot {
+                let robot = checker
+                    .body
+                    .add("this robot".into(), Type::Robot, word, None);
+                checker.body.names.clear();
+                checker.body.robot = Some(robot);
+                robots.push(robot);
+            }
+            let condition = checker.expect(node.condition(), &Type::Bool, "the property");
+            let consequence = node
+                .consequence()
+                .map(|then| checker.expect(Some(then), &Type::Bool, "what it leads to"));
+            (
+                checker.claim(node, condition, consequence, &mut robots),
+                robots,
+            )
+        });
+        self.program.properties.push(Property {
+            name: name.map(|name| name.text),
+            robots,
+            locals,
+            claim,
+            site,
+            documentation: Item::Property(node.clone()).documentation(),
+        });
+    }
+
+    fn claim(
+        &mut self,
+        node: &ast::PropertyDeclaration,
+        condition: Expression,
+        consequence: Option<Expression>,
+        robots: &mut Vec<LocalId>,
+    ) -> Claim {
+        self.body.place = Where::Constant;
+        let within = node
+            .deadline()
+            .map(|deadline| self.expect(Some(deadline), &Type::Duration, "the deadline"));
+        match (node.is_eventual(), consequence) {
+            (false, Some(consequence)) => Claim::LeadsTo {
+                cause: condition,
+                consequence,
+                within,
+            },
+            (true, consequence) => {
+                if let Some(consequence) = consequence {
+                    let message = "`leads_to` stands after `always`";
+                    let problem = Diagnostic::new(Code::InvalidProperty, consequence.span, message);
+                    let note = "`eventually` says that something happens once; `always a leads_to b`, that it does each time";
+                    self.report(problem.note(note));
+                }
+                Claim::Eventually {
+                    holds: condition,
+                    within,
+                }
+            }
+            (false, None) => {
+                if let Some(within) = within {
+                    let message = "what is always true has no deadline";
+                    let problem = Diagnostic::new(Code::InvalidProperty, within.span, message);
+                    let word = node.word();
+                    let note = format!(
+                        "`eventually ... within` or `always ... leads_to ... within` has; `{word}` alone has not"
+                    );
+                    self.report(problem.note(note));
+                }
+                Claim::Always(of_each_robot(condition, robots))
+            }
+        }
+    }
+}
+
+/// What is always true of all robots is always true of each: the robots of a `forall` that the
+/// property begins with.
+fn of_each_robot(condition: Expression, robots: &mut Vec<LocalId>) -> Expression {
+    match condition.kind {
+        ExpressionKind::Quantifier {
+            is_universal: true,
+            robots: all,
+            condition,
+        } => {
+            robots.extend(all);
+            of_each_robot(*condition, robots)
+        }
+        _ => condition,
+    }
+}
+
+/// Whether there is a quantifier in the expression.
+fn mentions_robots(expression: Option<&ast::Expression>) -> bool {
+    expression.is_some_and(|expression| {
+        let mut nodes = expression.syntax().descendants();
+        nodes.any(|node| node.kind() == crate::syntax::SyntaxKind::QuantifierExpression)
+    })
+}

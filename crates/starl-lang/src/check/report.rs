@@ -1,0 +1,92 @@
+//! How the checker tells of problems: whatever concerns an error that was reported is not told.
+
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::state::Checker;
+use crate::diagnostic::{Code, Diagnostic, Edit, Mend, Span, closest};
+use crate::ir::{Expression, ExpressionKind, Type};
+
+impl Checker {
+    /// Tells of a problem of the present file.
+    pub fn report(&mut self, problem: Diagnostic) {
+        let file = &mut self.files[self.file as usize];
+        file.checked.diagnostics.push(problem);
+    }
+
+    /// Tells of a problem in a few words.
+    pub fn error(&mut self, code: Code, span: Span, message: impl Into<String>) {
+        self.report(Diagnostic::new(code, span, message));
+    }
+
+    /// A type as a person writes it.
+    pub fn name_of(&self, of: &Type) -> String {
+        self.program.type_name(of)
+    }
+
+    /// The text of the present file at a place.
+    pub fn text(&self, span: Span) -> &str {
+        span.of(&self.files[self.file as usize].checked.source)
+    }
+
+    /// Whether the word stands in a part of the file that could not be read, so that it may be
+    /// declared there.
+    pub fn may_be_unread(&self, word: &str) -> bool {
+        self.files[self.file as usize].unread.contains(word)
+    }
+}
+
+/// An expression with an error that was reported.
+pub(super) fn broken(span: Span) -> Expression {
+    Expression {
+        kind: ExpressionKind::Error,
+        ty: Type::Error,
+        span,
+    }
+}
+
+/// An expression.
+pub(super) fn made(kind: ExpressionKind, ty: Type, span: Span) -> Expression {
+    Expression { kind, ty, span }
+}
+
+/// Adds the name that was probably meant as a mend.
+pub(super) fn did_you_mean<'a>(
+    problem: Diagnostic,
+    span: Span,
+    word: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Diagnostic {
+    match closest(word, candidates) {
+        Some(meant) => problem.replace(format!("did you mean `{meant}`?"), span, meant),
+        None => problem,
+    }
+}
+
+/// A mend that puts text before and after a place.
+pub(super) fn around(message: impl Into<String>, span: Span, before: &str, after: &str) -> Mend {
+    let edits = [(span.start, before), (span.end, after)];
+    Mend {
+        message: message.into(),
+        edits: (edits.into_iter())
+            .filter(|(_, text)| !text.is_empty())
+            .map(|(at, text)| Edit::new(Span::empty(at), text))
+            .collect(),
+    }
+}
+
+/// `one` or `many` by number: "1 argument", "2 arguments".
+pub(super) fn counted(number: usize, one: &str) -> String {
+    if number == 1 {
+        format!("1 {one}")
+    } else {
+        format!("{number} {one}s")
+    }
+}
+
+/// Words as code, joined by commas.
+pub(super) fn listed<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
+    let words: Vec<String> = words.into_iter().map(|word| format!("`{word}`")).collect();
+    words.join(", ")
+}

@@ -1,0 +1,15 @@
+//! Whether statements come to their end.
+
+use crate::ir::{Statement, StatementKind};
+
+/// Whether every way through the statements returns.
+pub(super) fn always_returns(statements: &[Statement]) -> bool {
+    statements.iter().any(|statement| match &statement.kind {
+        StatementKind::Return(_) => true,
+        StatementKind::If {
+            then, otherwise, ..
+        } => always_returns(then) && always_returns(otherwise),
+        StatementKind::Atomic { body, .. } => always_returns(body),
+        _ => false,
+    })
+}

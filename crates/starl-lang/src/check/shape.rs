@@ -1,0 +1,125 @@
+//! Signatures of the tables, met with the types of a program.
+
+use alloc::boxed::Box;
+use alloc::collections::BTreeMap;
+
+use super::prelude;
+use super::scope::Entity;
+use super::state::Checker;
+use super::tables::Shape;
+use crate::ir::Type;
+
+/// What the letters of a signature stand for.
+pub(super) type Letters = BTreeMap<u8, Type>;
+
+impl Checker {
+    /// The type that a shape stands for; none while a letter is open, and of `Any` and `Message`.
+    pub fn shape_type(&self, shape: &Shape, letters: &Letters) -> Option<Type> {
+        let part = |part: &Shape| self.shape_type(part, letters);
+        Some(match shape {
+            Shape::Nothing => Type::Nothing,
+            Shape::Any | Shape::Message => return None,
+            Shape::Letter(letter) => letters.get(letter)?.clone(),
+            Shape::Named(name) => self
+                .built_in_type(name)
+                .or_else(|| self.prelude_type(name))?,
+            Shape::List(element) => Type::list(part(element)?),
+            Shape::Set(element) => Type::set(part(element)?),
+            Shape::Map(key, value) => Type::map(part(key)?, part(value)?),
+            Shape::Optional(inner) => Type::optional(part(inner)?),
+        })
+    }
+
+    /// Whether a type is one that the shape stands for; then the letters are what they must be.
+    pub fn shape_matches(&self, shape: &Shape, of: &Type, letters: &mut Letters) -> bool {
+        match (shape, of) {
+            (_, Type::Error) => true,
+            (Shape::Any, _) => !matches!(of, Type::Nothing | Type::Range),
+            (Shape::Message, Type::Record(record)) => self.program[*record].is_message,
+            (Shape::Letter(letter), _) => match letters.get(letter) {
+                Some(known) => super::fit::same(known, of),
+                None => {
+                    letters.insert(*letter, of.clone());
+                    letter_allows(*letter, of)
+                }
+            },
+            (Shape::List(part), Type::List(of))
+            | (Shape::Set(part), Type::Set(of))
+            | (Shape::Optional(part), Type::Optional(of)) => self.shape_matches(part, of, letters),
+            (Shape::Map(key, value), Type::Map(k, v)) => {
+                self.shape_matches(key, k, letters) && self.shape_matches(value, v, letters)
+            }
+            _ => self
+                .shape_type(shape, letters)
+                .is_some_and(|known| known == *of),
+        }
+    }
+
+    /// The type with this name that every program has.
+    pub fn built_in_type(&self, name: &str) -> Option<Type> {
+        Some(match name {
+            "Bool" => Type::Bool,
+            "Int" => Type::Int,
+            "Float" => Type::Float,
+            "String" => Type::String,
+            "Point" => Type::Point,
+            "Time" => Type::Time,
+            "Duration" => Type::Duration,
+            "RobotId" => Type::Robot,
+            "Area" => Type::Area,
+            "Obstacles" => Type::Obstacles,
+            _ => return None,
+        })
+    }
+
+    fn prelude_type(&self, name: &str) -> Option<Type> {
+        match self.files[prelude::FILE as usize].scope.get(name)?.entity {
+            Entity::Enum(id) => Some(Type::Enum(id)),
+            Entity::Record(id) => Some(Type::Record(id)),
+            _ => None,
+        }
+    }
+
+    /// A shape as a person reads it, as far as the letters are known.
+    pub fn shape_name(&self, shape: &Shape, letters: &Letters) -> alloc::string::String {
+        use alloc::format;
+        if let Some(known) = self.shape_type(shape, letters) {
+            return self.name_of(&known);
+        }
+        let part = |part: &Box<Shape>| self.shape_name(part, letters);
+        match shape {
+            Shape::Letter(b'N') => "Int or Float".into(),
+            Shape::Letter(b'M') => "Int, Float, Duration or Time".into(),
+            Shape::Letter(b'O') => "what `<` compares".into(),
+            Shape::Message => "a message".into(),
+            Shape::List(element) => format!("List[{}]", part(element)),
+            Shape::Set(element) => format!("Set[{}]", part(element)),
+            Shape::Map(key, value) => format!("Map[{}, {}]", part(key), part(value)),
+            Shape::Optional(inner) => format!("{}?", part(inner)),
+            _ => "a value".into(),
+        }
+    }
+}
+
+fn letter_allows(letter: u8, of: &Type) -> bool {
+    match letter {
+        b'N' => matches!(of, Type::Int | Type::Float),
+        b'M' => matches!(of, Type::Int | Type::Float | Type::Duration | Type::Time),
+        b'O' => is_ordered(of),
+        _ => !matches!(of, Type::Nothing | Type::Range),
+    }
+}
+
+/// Whether `<` compares values of the type.
+pub(super) fn is_ordered(of: &Type) -> bool {
+    matches!(
+        of,
+        Type::Int
+            | Type::Float
+            | Type::String
+            | Type::Time
+            | Type::Duration
+            | Type::Robot
+            | Type::Error
+    )
+}

@@ -1,0 +1,176 @@
+//! What the checker holds while it works.
+
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::body::Body;
+use super::scope::{Entity, Scope};
+use super::{Checked, CheckedFile};
+use crate::diagnostic::{Code, Span, has_errors};
+use crate::ir::{ConstantId, EnumId, FunctionId, Program, Site, Type};
+use crate::syntax::ast;
+
+/// A file with what it declares.
+pub(super) struct File {
+    pub checked: CheckedFile,
+    pub scope: Scope,
+    /// Words of parts that could not be read: they may have been declarations.
+    pub unread: BTreeSet<String>,
+    /// The imports that were found, by name, with the numbers of their files.
+    pub imports: BTreeMap<String, u32>,
+}
+
+/// The declarations as they are written, with their files, each list in the order of the program's
+/// table of the same name.
+#[derive(Default)]
+pub(super) struct Nodes {
+    pub enums: Vec<Option<ast::EnumDeclaration>>,
+    pub records: Vec<RecordNode>,
+    pub parameters: Vec<ast::ParameterDeclaration>,
+    pub constants: Vec<(u32, ast::ConstantDeclaration)>,
+    /// The variable `role` has none.
+    pub variables: Vec<Option<ast::VariableDeclaration>>,
+    pub shared: Vec<ast::SharedDeclaration>,
+    pub bindings: Vec<ast::BindingDeclaration>,
+    pub functions: Vec<(u32, ast::FunctionDeclaration)>,
+    /// What has no name that others use, in the order of the text.
+    pub behaviour: Vec<Behaviour>,
+    pub roles: Vec<ast::RoleDeclaration>,
+}
+
+pub(super) enum RecordNode {
+    Record(ast::RecordDeclaration),
+    Message(ast::MessageDeclaration),
+}
+
+/// What a program does, with the role that it belongs to.
+pub(super) enum Behaviour {
+    Init(Option<u16>, ast::InitDeclaration),
+    Action(Option<u16>, ast::ActionDeclaration),
+    Handler(Option<u16>, ast::HandlerDeclaration),
+    Property(ast::PropertyDeclaration),
+}
+
+/// How far a constant was checked.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Progress {
+    Untouched,
+    UnderWay,
+    Done,
+}
+
+/// What depends on what, among constants and functions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Needed {
+    Constant(ConstantId),
+    Function(FunctionId),
+}
+
+/// What is done with declarations, for the warnings.
+#[derive(Default)]
+pub(super) struct Usage {
+    /// What is read, called or named.
+    pub used: BTreeSet<Entity>,
+    /// Variables that are written.
+    pub written: BTreeSet<Entity>,
+    /// Messages that are made.
+    pub sent: BTreeSet<u32>,
+    /// Messages that are handled.
+    pub handled: BTreeSet<u32>,
+    /// Libraries that are used, by the file that imports and the file of the library.
+    pub imports: BTreeSet<(u32, u32)>,
+}
+
+/// The checker.
+pub(super) struct Checker {
+    pub program: Program,
+    pub files: Vec<File>,
+    pub nodes: Nodes,
+    /// The file that is being checked.
+    pub file: u32,
+    /// The body that is being checked.
+    pub body: Body,
+    pub usage: Usage,
+    pub constants: Vec<Progress>,
+    /// What uses what: the user first.
+    pub needs: BTreeSet<(Needed, Needed)>,
+    /// What is being checked, if that is a constant or a function.
+    pub user: Option<Needed>,
+    /// Types whose keys are to be looked at when all types are known: where, in which file.
+    pub keys: Vec<(Site, Type)>,
+    /// Which enums have a variant with this name.
+    pub variants: BTreeMap<String, Vec<(EnumId, u16)>>,
+    /// Locals that are declared to be read and are not, in the program itself.
+    pub unused_locals: Vec<(Code, Span, String)>,
+}
+
+impl Checker {
+    pub fn new(files: Vec<File>) -> Self {
+        Self {
+            program: Program::default(),
+            files,
+            nodes: Nodes::default(),
+            file: 0,
+            body: Body::default(),
+            usage: Usage::default(),
+            constants: Vec::new(),
+            needs: BTreeSet::new(),
+            user: None,
+            keys: Vec::new(),
+            variants: BTreeMap::new(),
+            unused_locals: Vec::new(),
+        }
+    }
+
+    /// Whether the program's own text could be read.
+    pub fn is_readable(&self) -> bool {
+        let checked = &self.files[0].checked;
+        !has_errors(checked.parse.diagnostics())
+    }
+
+    /// The result.
+    pub fn finish(mut self) -> Checked {
+        self.report_broken_libraries();
+        for file in &mut self.files {
+            let diagnostics = &mut file.checked.diagnostics;
+            diagnostics.extend(file.checked.parse.diagnostics().iter().cloned());
+            diagnostics.sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
+            diagnostics.dedup();
+        }
+        self.program.files = self
+            .files
+            .iter()
+            .map(|file| file.checked.name.clone())
+            .collect();
+        Checked {
+            program: self.program,
+            files: self.files.into_iter().map(|file| file.checked).collect(),
+        }
+    }
+
+    /// At each import of a library that has errors.
+    fn report_broken_libraries(&mut self) {
+        for number in 0..self.files.len() {
+            let broken: Vec<(Span, String)> = (self.files[number].scope.iter())
+                .filter_map(|(name, declared)| match declared.entity {
+                    Entity::Library(file) => Some((declared.span, name.clone(), file)),
+                    _ => None,
+                })
+                .filter(|(_, _, file)| {
+                    let library = &self.files[*file as usize].checked;
+                    has_errors(&library.diagnostics) || has_errors(library.parse.diagnostics())
+                })
+                .map(|(span, name, _)| (span, name))
+                .collect();
+            self.file = number as u32;
+            for (span, name) in broken {
+                self.report(crate::diagnostic::Diagnostic::new(
+                    Code::BrokenLibrary,
+                    span,
+                    alloc::format!("the library `{name}` has errors"),
+                ));
+            }
+        }
+    }
+}

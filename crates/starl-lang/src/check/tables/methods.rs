@@ -1,0 +1,105 @@
+//! Methods of built-in types.
+
+use super::Signature;
+
+macro_rules! methods {
+    ($($name:ident = $signature:literal $changes:ident $doc:literal)+) => {
+        /// A method of a built-in type.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Method {
+            $(#[doc = $doc] $name,)+
+        }
+
+        /// All methods.
+        pub const METHODS: &[Method] = &[$(Method::$name,)+];
+
+        impl Method {
+            /// Its signature, as text.
+            #[must_use]
+            pub const fn text(self) -> &'static str {
+                match self {
+                    $(Self::$name => $signature,)+
+                }
+            }
+
+            /// Whether it changes what it is called on.
+            #[must_use]
+            pub const fn changes(self) -> bool {
+                match self {
+                    $(Self::$name => $changes,)+
+                }
+            }
+
+            /// What it does, as one tells a person.
+            #[must_use]
+            pub const fn documentation(self) -> &'static str {
+                match self {
+                    $(Self::$name => $doc,)+
+                }
+            }
+        }
+    };
+}
+
+methods! {
+    ListSize = "List[T].size() -> Int" false "How many elements there are."
+    ListAdd = "List[T].add(element: T)" true "Adds an element at the end."
+    ListInsert = "List[T].insert(index: Int, element: T)" true "Inserts an element before the one at the index; outside of the list it is a run-time error."
+    ListRemoveAt = "List[T].remove_at(index: Int)" true "Removes the element at the index; outside of the list it is a run-time error."
+    ListRemove = "List[T].remove(element: T)" true "Removes the first element that is equal, if there is one."
+    ListContains = "List[T].contains(element: T) -> Bool" false "Whether an element is equal."
+    ListFirst = "List[T].first() -> T?" false "The first element; none of an empty list."
+    ListLast = "List[T].last() -> T?" false "The last element; none of an empty list."
+    ListIndexOf = "List[T].index_of(element: T) -> Int?" false "The index of the first element that is equal."
+    ListReversed = "List[T].reversed() -> List[T]" false "The elements in reverse order."
+    ListSorted = "List[O].sorted() -> List[O]" false "The elements in rising order."
+    ListSlice = "List[T].slice(start: Int, end: Int) -> List[T]" false "The elements from `start` to before `end`; outside of the list it is a run-time error."
+    ListSum = "List[N].sum() -> N" false "The sum of the elements."
+    SetSize = "Set[T].size() -> Int" false "How many elements there are."
+    SetAdd = "Set[T].add(element: T)" true "Adds an element if it is not there."
+    SetRemove = "Set[T].remove(element: T)" true "Removes an element if it is there."
+    SetContains = "Set[T].contains(element: T) -> Bool" false "Whether the element is there."
+    SetUnion = "Set[T].union(other: Set[T]) -> Set[T]" false "What is in one of the two."
+    SetIntersection = "Set[T].intersection(other: Set[T]) -> Set[T]" false "What is in both."
+    SetDifference = "Set[T].difference(other: Set[T]) -> Set[T]" false "What is not in the other."
+    SetMin = "Set[T].min() -> T?" false "The least element; none of an empty set."
+    SetMax = "Set[T].max() -> T?" false "The greatest element; none of an empty set."
+    MapSize = "Map[K, V].size() -> Int" false "How many keys there are."
+    MapGet = "Map[K, V].get(key: K) -> V?" false "The value of the key, if it is there."
+    MapKeys = "Map[K, V].keys() -> Set[K]" false "The keys."
+    MapValues = "Map[K, V].values() -> List[V]" false "The values, in the order of the keys."
+    MapRemove = "Map[K, V].remove(key: K)" true "Removes the key and its value if they are there."
+    MapContains = "Map[K, V].contains(key: K) -> Bool" false "Whether the key is there."
+    StringSize = "String.size() -> Int" false "How many characters there are."
+    StringContains = "String.contains(part: String) -> Bool" false "Whether the part occurs."
+    StringSplit = "String.split(separator: String) -> List[String]" false "The parts between separators."
+    AreaContains = "Area.contains(point: Point) -> Bool" false "Whether the point is in the area or on its boundary."
+}
+
+impl Method {
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        let text = self.text();
+        let start = text.find('.').map_or(0, |dot| dot + 1);
+        Signature::name_of(&text[start..])
+    }
+
+    /// The name of the type that it is a method of, without what that holds.
+    #[must_use]
+    pub fn receiver_name(self) -> &'static str {
+        let text = self.text();
+        &text[..text.find(['[', '.']).unwrap_or(0)]
+    }
+
+    /// The methods of a type, by the type's name without what it holds.
+    pub fn of(receiver: &str) -> impl Iterator<Item = Self> {
+        (METHODS.iter().copied()).filter(move |method| method.receiver_name() == receiver)
+    }
+
+    /// Its signature.
+    #[must_use]
+    pub fn signature(self) -> Signature {
+        Signature::read(self.text())
+    }
+}

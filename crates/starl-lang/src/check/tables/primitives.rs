@@ -1,0 +1,287 @@
+//! Primitives (thesis, chapter 3): how they are bound, asked and told, and what they report.
+//!
+//! A primitive is one entry here and its implementation at the host; the checker and the compiler know
+//! no primitive by name. The compiler calls a member as `Primitive.member` with the instance's number.
+
+use super::Purity::{self, Effect, Query};
+use super::Signature;
+
+/// A kind of primitive.
+#[derive(Debug, PartialEq)]
+pub struct Primitive {
+    /// How it is bound: its name and the parameters of its constructor.
+    pub constructor: &'static str,
+    /// Its methods and status flags.
+    pub members: &'static [Member],
+    /// What it reports by itself, for handlers.
+    pub events: &'static [Event],
+    /// Whether hosts have it. Programs that use one that they do not have can be checked only.
+    pub is_available: bool,
+    /// What it is, as one tells a person.
+    pub documentation: &'static str,
+}
+
+/// A method or a status flag of a primitive.
+#[derive(Debug, PartialEq)]
+pub struct Member {
+    /// Its signature.
+    pub text: &'static str,
+    /// Whether it does something or only tells.
+    pub purity: Purity,
+    /// What it does, as one tells a person.
+    pub documentation: &'static str,
+}
+
+/// Something that a primitive reports.
+#[derive(Debug, PartialEq)]
+pub struct Event {
+    /// Its name and what it carries.
+    pub text: &'static str,
+    /// When it comes, as one tells a person.
+    pub documentation: &'static str,
+}
+
+const fn member(text: &'static str, purity: Purity, documentation: &'static str) -> Member {
+    Member {
+        text,
+        purity,
+        documentation,
+    }
+}
+
+const FAILED: &[Event] = &[Event {
+    text: "failed(number: Int, unreached: List[RobotId])",
+    documentation: "Some robots did not acknowledge the message with this number.",
+}];
+
+/// All primitives.
+pub const PRIMITIVES: &[Primitive] = &[
+    Primitive {
+        constructor: "ReachAvoid(vicinity?: Float, pass_radius?: Float, off_path?: Float, stuck_after?: Duration, most_replans?: Int)",
+        members: &[
+            member(
+                "reach_avoid(target: Point, unsafe: Obstacles)",
+                Effect,
+                "Goes to the target and keeps out of the unsafe set.",
+            ),
+            member("stop()", Effect, "Stops and stays; all flags become false."),
+            member("active: Bool", Query, "Whether a command is under way."),
+            member(
+                "done: Bool",
+                Query,
+                "Whether the last command brought the robot to its target.",
+            ),
+            member(
+                "failed: Bool",
+                Query,
+                "Whether the robot entered the unsafe set.",
+            ),
+        ],
+        events: &[],
+        is_available: true,
+        documentation: "Goes to targets, around unsafe sets (thesis, section 3.2).",
+    },
+    Primitive {
+        constructor: "Broadcast(name?: String)",
+        members: &[
+            member(
+                "broadcast(message: Message) -> Int",
+                Effect,
+                "Sends a message to every other robot; gives the message's number.",
+            ),
+            member(
+                "outstanding(number: Int) -> Bool",
+                Query,
+                "Whether some robot has neither acknowledged the message nor been given up.",
+            ),
+        ],
+        events: FAILED,
+        is_available: true,
+        documentation: "Messages to all other robots (thesis, section 3.3.1).",
+    },
+    Primitive {
+        constructor: "Geocast(name?: String)",
+        members: &[
+            member(
+                "geocast(message: Message, area: Area) -> Int",
+                Effect,
+                "Sends a message to the robots in an area; gives the message's number.",
+            ),
+            member(
+                "outstanding(number: Int) -> Bool",
+                Query,
+                "Whether some robot has neither acknowledged the message nor been given up.",
+            ),
+        ],
+        events: FAILED,
+        is_available: true,
+        documentation: "Messages to the robots in an area (thesis, section 3.3.1).",
+    },
+    Primitive {
+        constructor: "Unicast(name?: String)",
+        members: &[
+            member(
+                "send(to: RobotId, message: Message) -> Int",
+                Effect,
+                "Sends a message to one robot; gives the message's number.",
+            ),
+            member(
+                "outstanding(number: Int) -> Bool",
+                Query,
+                "Whether the message has neither been acknowledged nor given up.",
+            ),
+        ],
+        events: FAILED,
+        is_available: true,
+        documentation: "Messages to single robots (thesis, section 3.3.1).",
+    },
+    Primitive {
+        constructor: "Mutex(id: String, participants?: Set[RobotId])",
+        members: &[
+            member(
+                "acquire(resources: Set[String], participants?: Set[RobotId])",
+                Effect,
+                "Asks for all resources at once (the thesis's do_mutex).",
+            ),
+            member(
+                "release(resources: Set[String])",
+                Effect,
+                "Gives back resources, all or some.",
+            ),
+            member(
+                "held(resources: Set[String]) -> Bool",
+                Query,
+                "Whether this robot alone holds them (the thesis's crit).",
+            ),
+            member(
+                "failed: Bool",
+                Query,
+                "Whether the resources could not be had.",
+            ),
+        ],
+        events: &[],
+        is_available: false,
+        documentation: "Mutual exclusion on named resources (thesis, section 3.4.3).",
+    },
+    Primitive {
+        constructor: "Registration(id: String)",
+        members: &[
+            member("register()", Effect, "Joins (the thesis's do_register)."),
+            member(
+                "unregister()",
+                Effect,
+                "Leaves (the thesis's undo_register).",
+            ),
+            member(
+                "members: Set[RobotId]?",
+                Query,
+                "Those who agreed on taking part (the thesis's rList); none while that is open.",
+            ),
+            member(
+                "agreed_at: Time?",
+                Query,
+                "When they agreed (the thesis's ts).",
+            ),
+            member(
+                "failed: Bool",
+                Query,
+                "Whether no agreement could be reached.",
+            ),
+        ],
+        events: &[],
+        is_available: false,
+        documentation: "Agreement on who takes part (thesis, section 3.4.1).",
+    },
+    Primitive {
+        constructor: "LeaderElection(id: String, participants?: Set[RobotId])",
+        members: &[
+            member(
+                "elect()",
+                Effect,
+                "Starts or joins an election (the thesis's do_election).",
+            ),
+            member(
+                "leader: RobotId?",
+                Query,
+                "Who was elected; none while that is open and if it failed.",
+            ),
+            member("failed: Bool", Query, "Whether the election failed."),
+        ],
+        events: &[],
+        is_available: false,
+        documentation: "Election of one robot (thesis, section 3.4.2).",
+    },
+    Primitive {
+        constructor: "Barrier(id: String, participants?: Set[RobotId])",
+        members: &[
+            member(
+                "arrive()",
+                Effect,
+                "Says that this robot has come to the barrier.",
+            ),
+            member(
+                "passed: Bool",
+                Query,
+                "Whether all have come since this robot did.",
+            ),
+            member("failed: Bool", Query, "Whether some robot cannot come."),
+        ],
+        events: &[],
+        is_available: false,
+        documentation: "Waits until all robots have come to the same point.",
+    },
+];
+
+impl Primitive {
+    /// The one with this name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static Self> {
+        PRIMITIVES.iter().find(|primitive| primitive.name() == name)
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        Signature::name_of(self.constructor)
+    }
+
+    /// Its method or flag with this name.
+    #[must_use]
+    pub fn member(&self, name: &str) -> Option<&'static Member> {
+        self.members.iter().find(|member| member.name() == name)
+    }
+
+    /// Its event with this name.
+    #[must_use]
+    pub fn event(&self, name: &str) -> Option<&'static Event> {
+        self.events.iter().find(|event| event.name() == name)
+    }
+}
+
+impl Member {
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        Signature::name_of(self.text)
+    }
+
+    /// Its signature.
+    #[must_use]
+    pub fn signature(&self) -> Signature {
+        Signature::read(self.text)
+    }
+}
+
+impl Event {
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        Signature::name_of(self.text)
+    }
+
+    /// Its signature.
+    #[must_use]
+    pub fn signature(&self) -> Signature {
+        Signature::read(self.text)
+    }
+}

@@ -1,0 +1,270 @@
+//! What a program declares, types aside.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::{Expression, LocalId, RecordId, Statement, Type, VariableId};
+use crate::check::{Event as EventSignature, Primitive};
+use crate::diagnostic::Span;
+
+/// Where something is declared: the file, and the name in it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Site {
+    /// The number of the file.
+    pub file: u32,
+    /// The name, or the word that begins the declaration if it has none.
+    pub span: Span,
+}
+
+/// `param name: Type = default`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub ty: Type,
+    /// Its value where the scenario gives none; none if the scenario must give it. It reads
+    /// constants only.
+    pub default: Option<Expression>,
+    /// Locals of the default (of its comprehensions).
+    pub locals: Vec<Local>,
+    /// Where it is declared.
+    pub site: Site,
+    /// What the comments above it say.
+    pub documentation: String,
+}
+
+/// `const name = value`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Constant {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub ty: Type,
+    /// Its value, of constants and functions.
+    pub value: Expression,
+    /// Locals of the value (of its comprehensions).
+    pub locals: Vec<Local>,
+    /// Where it is declared.
+    pub site: Site,
+    /// What the comments above it say.
+    pub documentation: String,
+}
+
+/// A state variable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variable {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub ty: Type,
+    /// Its first value; none for the type's default, which is all zeros and nothing. It may read the
+    /// variables above it, parameters, constants and what queries give.
+    pub initial: Option<Expression>,
+    /// Locals of the initial value (of its comprehensions).
+    pub locals: Vec<Local>,
+    /// The role that it is declared in, by the role's variant: it gets its first value again whenever
+    /// the robot enters the role, as part of [`Role::entry`]. None outside of roles.
+    pub role: Option<u16>,
+    /// Where it is declared.
+    pub site: Site,
+    /// What the comments above it say.
+    pub documentation: String,
+}
+
+/// A shared variable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shared {
+    /// Its name, which all robots know it by.
+    pub name: String,
+    /// Whether each robot writes an element of its own (`allread`), rather than all the one value.
+    pub is_single_writer: bool,
+    /// The consistency that is asked for by name; none for eventual consistency.
+    pub consistency: Option<String>,
+    /// The type of the value, or of an element.
+    pub ty: Type,
+    /// The value that all robots read before any was written; without it they read none.
+    pub initial: Option<Expression>,
+    /// Locals of the initial value (of its comprehensions).
+    pub locals: Vec<Local>,
+    /// Where it is declared.
+    pub site: Site,
+    /// What the comments above it say.
+    pub documentation: String,
+}
+
+/// `name = Primitive(arguments)`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Binding {
+    /// Its name, by which the instances on different robots find each other.
+    pub name: String,
+    /// The kind of primitive; none if there is no such kind, which is an error.
+    pub primitive: Option<&'static Primitive>,
+    /// The arguments in the order of the constructor's parameters; none where one is left out. They
+    /// are made of constants, parameters, `me` and `peers`.
+    pub arguments: Vec<Option<Expression>>,
+    /// Locals of the arguments (of their comprehensions).
+    pub locals: Vec<Local>,
+    /// Where it is declared.
+    pub site: Site,
+    /// What the comments above it say.
+    pub documentation: String,
+}
+
+/// A local variable of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Local {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub ty: Type,
+    /// Where it is named.
+    pub span: Span,
+}
+
+/// Statements that run as one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Procedure {
+    /// The local variables.
+    pub locals: Vec<Local>,
+    /// The statements.
+    pub body: Vec<Statement>,
+}
+
+/// A function.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Function {
+    /// Its name.
+    pub name: String,
+    /// How many parameters it has: its first locals.
+    pub parameters: u32,
+    /// The parameters, then the other local variables.
+    pub locals: Vec<Local>,
+    /// The type of its result.
+    pub result: Type,
+    /// The statements; every way through them returns.
+    pub body: Vec<Statement>,
+    /// Where it is declared.
+    pub site: Site,
+    /// What the comments above it say.
+    pub documentation: String,
+}
+
+/// The roles of a program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Roles {
+    /// The variable `role`, an enum of the roles. Its first value is the scenario's parameter `role`,
+    /// else the first role.
+    pub variable: VariableId,
+    /// The roles, by their variants.
+    pub roles: Vec<Role>,
+}
+
+/// A role.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Role {
+    /// Its name.
+    pub name: String,
+    /// What a robot does on entering the role, at the start too (after [`super::Program::init`]): the
+    /// role's variables get their first values ([`Variable::role`]), then this runs.
+    pub entry: Option<Procedure>,
+    /// Where it is declared.
+    pub site: Site,
+    /// What the comments above it say.
+    pub documentation: String,
+}
+
+/// An action.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Action {
+    /// Its name.
+    pub name: String,
+    /// The role whose robots do it, by its variant; the guard says so too.
+    pub role: Option<u16>,
+    /// The local variables of the guard and the effect.
+    pub locals: Vec<Local>,
+    /// When it may fire, a Bool; it has no side effects but to set the bindings.
+    pub guard: Expression,
+    /// The locals that the guard sets, if it holds, and the effect reads.
+    pub bindings: Vec<LocalId>,
+    /// What it does.
+    pub effect: Vec<Statement>,
+    /// Where it is declared.
+    pub site: Site,
+    /// What the comments above it say.
+    pub documentation: String,
+}
+
+/// What is done when a message arrives, or a primitive reports something.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Handler {
+    /// What it handles.
+    pub event: Event,
+    /// The role whose robots do it, by its variant; the body says so too.
+    pub role: Option<u16>,
+    /// The locals that get the sender and the fields, or what the event carries; none for `_`.
+    pub parameters: Vec<Option<LocalId>>,
+    /// The local variables.
+    pub locals: Vec<Local>,
+    /// What it does.
+    pub body: Vec<Statement>,
+    /// Where it is declared: the name of the message or event.
+    pub site: Site,
+}
+
+/// What a handler handles.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Event {
+    /// One that is not known, which is an error.
+    Error,
+    /// A message; the handler's parameters are the sender, a robot, and the message's fields.
+    Message(RecordId),
+    /// What a primitive reports.
+    Primitive {
+        /// Which primitive.
+        binding: super::BindingId,
+        /// What it reports.
+        event: &'static EventSignature,
+    },
+}
+
+/// A property.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Property {
+    /// Its name, if it has one.
+    pub name: Option<String>,
+    /// The locals, all RobotIds, for which it must be true each by itself: an `always` that begins
+    /// with `forall`, or one robot for a property without quantifier. With none it is about the fleet.
+    pub robots: Vec<LocalId>,
+    /// The local variables.
+    pub locals: Vec<Local>,
+    /// What is claimed.
+    pub claim: Claim,
+    /// Where it is declared.
+    pub site: Site,
+    /// What the comments above it say.
+    pub documentation: String,
+}
+
+/// What a property claims; all expressions are Bools without side effects.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Claim {
+    /// It is true at all times.
+    Always(Expression),
+    /// It is true at some time.
+    Eventually {
+        /// What.
+        holds: Expression,
+        /// When at the latest, since the start: a constant Duration.
+        within: Option<Expression>,
+    },
+    /// Whenever the cause is true, the consequence is true at some time from then on.
+    LeadsTo {
+        /// The cause.
+        cause: Expression,
+        /// The consequence.
+        consequence: Expression,
+        /// How much later at the latest: a constant Duration.
+        within: Option<Expression>,
+    },
+}

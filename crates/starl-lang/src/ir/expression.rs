@@ -1,0 +1,294 @@
+//! Expressions.
+
+use alloc::boxed::Box;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::{
+    BindingId, ConstantId, FunctionId, LocalId, LoopVariables, ParameterId, Place, SharedId, Type,
+    VariableId,
+};
+use crate::check::{Builtin, Member, Method};
+use crate::diagnostic::Span;
+
+/// An expression.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expression {
+    /// What it is.
+    pub kind: ExpressionKind,
+    /// The type of its value.
+    pub ty: Type,
+    /// Where it is, in the file of the declaration that it belongs to.
+    pub span: Span,
+}
+
+/// What an expression is. Parts are evaluated from left to right.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ExpressionKind {
+    /// One with an error that was reported.
+    Error,
+    /// `true` or `false`
+    Bool(bool),
+    /// An Int.
+    Int(i64),
+    /// A Float; lengths are in metres, angles in radians.
+    Float(f64),
+    /// A Duration in nanoseconds.
+    Duration(u64),
+    /// A String.
+    String(String),
+    /// `none`, of an optional type.
+    None,
+    /// A value as an optional that has it.
+    Present(Box<Expression>),
+    /// The variant with this number of the enum that is its type.
+    Variant(u16),
+    /// A local variable.
+    Local(LocalId),
+    /// A parameter.
+    Parameter(ParameterId),
+    /// A constant.
+    Constant(ConstantId),
+    /// A state variable.
+    Variable(VariableId),
+    /// `name[r]` of a single-writer variable: an optional, none until the robot's value is known.
+    SharedElement {
+        /// The variable.
+        shared: SharedId,
+        /// The robot.
+        robot: Box<Expression>,
+    },
+    /// All of a single-writer variable that is known: a map by RobotId.
+    SharedMap(SharedId),
+    /// A multi-writer variable; an optional unless it has an initial value.
+    Shared(SharedId),
+    /// A call of a function.
+    Call {
+        /// Which.
+        function: FunctionId,
+        /// An argument for each parameter.
+        arguments: Vec<Expression>,
+    },
+    /// A call of a built-in function, or the use of a built-in name.
+    Builtin {
+        /// Which.
+        builtin: Builtin,
+        /// An argument for each parameter; none where an optional one is left out.
+        arguments: Vec<Option<Expression>>,
+        /// Further arguments, of those that take any number, with their names if they have names.
+        rest: Vec<(Option<String>, Expression)>,
+    },
+    /// A call of a method that changes nothing.
+    Method {
+        /// The value that it is called on.
+        receiver: Box<Expression>,
+        /// Which.
+        method: Method,
+        /// An argument for each parameter.
+        arguments: Vec<Expression>,
+    },
+    /// A call of a method that changes what it is called on. It gives nothing.
+    Change {
+        /// What is changed.
+        place: Box<Place>,
+        /// Which.
+        method: Method,
+        /// An argument for each parameter.
+        arguments: Vec<Expression>,
+    },
+    /// A call of a method of a bound primitive, or the use of a status flag.
+    Primitive {
+        /// The primitive.
+        binding: BindingId,
+        /// Which method or flag.
+        member: &'static Member,
+        /// An argument for each parameter; none where an optional one is left out.
+        arguments: Vec<Option<Expression>>,
+    },
+    /// A record or a message, with a value for each field. Its type says which.
+    Record(Vec<Expression>),
+    /// A field of a record.
+    Field {
+        /// The record.
+        base: Box<Expression>,
+        /// The number of the field.
+        field: u32,
+    },
+    /// A coordinate of a point.
+    Coordinate {
+        /// The point.
+        base: Box<Expression>,
+        /// 0 for x, 1 for y, 2 for z.
+        axis: u8,
+    },
+    /// `list[index]`; outside of the list it is a run-time error.
+    Index {
+        /// The list.
+        base: Box<Expression>,
+        /// An Int.
+        index: Box<Expression>,
+    },
+    /// `map[key]`; a key that is not there is a run-time error.
+    Lookup {
+        /// The map.
+        base: Box<Expression>,
+        /// A key.
+        key: Box<Expression>,
+    },
+    /// `optional!`; none is a run-time error.
+    Unwrap(Box<Expression>),
+    /// `optional == none`
+    IsNone(Box<Expression>),
+    /// `optional ?? default`; the default is evaluated only if it is needed.
+    Default {
+        /// The optional.
+        optional: Box<Expression>,
+        /// What it is if that is none: a value, or an optional again.
+        default: Box<Expression>,
+    },
+    /// `-x` of an Int, a Float or a Point.
+    Negate(Box<Expression>),
+    /// `not x`
+    Not(Box<Expression>),
+    /// An operator between two values; the types of the operands say which one exactly.
+    Binary {
+        /// The operator.
+        operator: Operator,
+        /// The value before it.
+        left: Box<Expression>,
+        /// The value after it; of `and` and `or` evaluated only if it decides.
+        right: Box<Expression>,
+    },
+    /// `item in collection`: a list, set, map (its keys), range, or a text in a text.
+    In {
+        /// What is looked for.
+        item: Box<Expression>,
+        /// Where.
+        collection: Box<Expression>,
+    },
+    /// `start..end`, the end excluded; only where it is run over or looked in.
+    Range {
+        /// The first Int.
+        start: Box<Expression>,
+        /// The Int after the last.
+        end: Box<Expression>,
+    },
+    /// `if condition then a else b`
+    Conditional {
+        /// What decides.
+        condition: Box<Expression>,
+        /// The value if it holds.
+        then: Box<Expression>,
+        /// The value if it does not.
+        otherwise: Box<Expression>,
+    },
+    /// `some x = optional`: whether there is a value; if so the local gets it. It stands only where its
+    /// falseness keeps everything that reads the local from being evaluated.
+    Bind {
+        /// The local.
+        local: LocalId,
+        /// The optional.
+        value: Box<Expression>,
+    },
+    /// `[a, b]`
+    List(Vec<Expression>),
+    /// `{a, b}`
+    Set(Vec<Expression>),
+    /// `{k: v}`
+    Map(Vec<(Expression, Expression)>),
+    /// A comprehension.
+    Comprehension(Box<Comprehension>),
+    /// `forall` or `exists`, in properties: over all robots of the fleet.
+    Quantifier {
+        /// Whether it is `forall`.
+        is_universal: bool,
+        /// The locals, all RobotIds; one after the other, so that `r, s` are all pairs.
+        robots: Vec<LocalId>,
+        /// What is said of them.
+        condition: Box<Expression>,
+    },
+    /// What another robot knows or is, in properties.
+    OfRobot {
+        /// The robot.
+        robot: Box<Expression>,
+        /// What of it.
+        member: RobotMember,
+    },
+}
+
+/// A collection that is built from another one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comprehension {
+    /// What is built for each element; the collection's type says what they make.
+    pub element: Element,
+    /// What is bound for each element.
+    pub variables: LoopVariables,
+    /// What it runs over: a list, set, map or range.
+    pub collection: Expression,
+    /// Which elements are taken, if not all.
+    pub condition: Option<Expression>,
+}
+
+/// What a comprehension makes for each element.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Element {
+    /// An element of a list or a set.
+    One(Expression),
+    /// A key and a value of a map; of equal keys the last counts.
+    Entry(Expression, Expression),
+}
+
+/// What properties may say of a robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RobotMember {
+    /// Its state variable.
+    Variable(VariableId),
+    /// Its parameter.
+    Parameter(ParameterId),
+    /// Where it is: the true position where the host knows it, a Point.
+    Position,
+    /// Where it looks, a Float in radians.
+    Heading,
+    /// How it moves, a Point in metres per second.
+    Velocity,
+    /// Whether its program has finished, a Bool.
+    Finished,
+    /// Whether it runs, rather than having crashed, a Bool.
+    Up,
+    /// Its number, a RobotId.
+    Id,
+}
+
+/// An operator between two values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    /// Bools.
+    And,
+    /// Bools.
+    Or,
+    /// Two values of one type.
+    Equal,
+    /// Two values of one type.
+    NotEqual,
+    /// Two of Int, Float, Duration, Time, String or RobotId.
+    Less,
+    /// As `Less`.
+    LessEqual,
+    /// As `Less`.
+    Greater,
+    /// As `Less`.
+    GreaterEqual,
+    /// Int + Int, Float + Float, Duration + Duration, Time + Duration, Duration + Time, Point + Point,
+    /// String + String, List + List.
+    Add,
+    /// Int - Int, Float - Float, Duration - Duration, Time - Duration, Time - Time (a Duration),
+    /// Point - Point.
+    Subtract,
+    /// Int * Int, Float * Float, Duration * Int or Float and the reverse, Point * Float and the reverse.
+    Multiply,
+    /// Int / Int (towards zero), Float / Float, Duration / Int or Float (a Duration), Duration /
+    /// Duration (a Float), Point / Float.
+    Divide,
+    /// Int % Int, with the sign of the left one.
+    Remainder,
+}

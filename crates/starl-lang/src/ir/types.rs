@@ -1,0 +1,138 @@
+//! Types, and the declarations that make them.
+
+use alloc::boxed::Box;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::{EnumId, RecordId, Site};
+
+/// A type.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Type {
+    /// Of what has an error that was reported; it fits everywhere.
+    Error,
+    /// `Bool`
+    Bool,
+    /// `Int`
+    Int,
+    /// `Float`
+    Float,
+    /// `String`
+    String,
+    /// `Point`
+    Point,
+    /// `Time`
+    Time,
+    /// `Duration`
+    Duration,
+    /// `RobotId`
+    Robot,
+    /// `Area`
+    Area,
+    /// `Obstacles`
+    Obstacles,
+    /// An enum.
+    Enum(EnumId),
+    /// A record or a message.
+    Record(RecordId),
+    /// `List[T]`
+    List(Box<Self>),
+    /// `Set[T]`
+    Set(Box<Self>),
+    /// `Map[K, V]`
+    Map(Box<Self>, Box<Self>),
+    /// `T?`
+    Optional(Box<Self>),
+    /// `a..b`; no variable has it.
+    Range,
+    /// Of a call that gives nothing.
+    Nothing,
+}
+
+impl Type {
+    /// `List[element]`
+    #[must_use]
+    pub fn list(element: Self) -> Self {
+        Self::List(Box::new(element))
+    }
+
+    /// `Set[element]`
+    #[must_use]
+    pub fn set(element: Self) -> Self {
+        Self::Set(Box::new(element))
+    }
+
+    /// `Map[key, value]`
+    #[must_use]
+    pub fn map(key: Self, value: Self) -> Self {
+        Self::Map(Box::new(key), Box::new(value))
+    }
+
+    /// `of?`; of what is optional already the same.
+    #[must_use]
+    pub fn optional(of: Self) -> Self {
+        match of {
+            Self::Optional(_) | Self::Error => of,
+            _ => Self::Optional(Box::new(of)),
+        }
+    }
+
+    /// Whether an error that was reported is in it.
+    #[must_use]
+    pub fn has_error(&self) -> bool {
+        match self {
+            Self::Error => true,
+            Self::List(part) | Self::Set(part) | Self::Optional(part) => part.has_error(),
+            Self::Map(key, value) => key.has_error() || value.has_error(),
+            _ => false,
+        }
+    }
+}
+
+/// An enum. Its values are the numbers of its variants, from 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Enum {
+    /// Its name; none of `enum {a, b}` in the place of a type.
+    pub name: Option<String>,
+    /// The names of its variants.
+    pub variants: Vec<Variant>,
+    /// Where it is declared.
+    pub site: Site,
+    /// What the comments above it say.
+    pub documentation: String,
+}
+
+/// A variant of an enum.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Variant {
+    /// Its name.
+    pub name: String,
+    /// Where it is named.
+    pub site: Site,
+}
+
+/// A record or a message.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Record {
+    /// Its name.
+    pub name: String,
+    /// Whether it is a message.
+    pub is_message: bool,
+    /// Its fields in order.
+    pub fields: Vec<RecordField>,
+    /// Where it is declared.
+    pub site: Site,
+    /// What the comments above it say.
+    pub documentation: String,
+}
+
+/// A field of a record.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RecordField {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub ty: Type,
+    /// Where it is named.
+    pub site: Site,
+}
