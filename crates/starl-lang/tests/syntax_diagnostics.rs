@@ -1,4 +1,4 @@
-//! What a person is told: each case of `tests/diagnostics/*.md` is a source and the message it gets.
+//! What a person is told: each case of `tests/diagnostics/syntax_*.md` is a source and the message it gets.
 //!
 //! A case is a heading, the source in a block of `starl`, and the message in a block of `text`. Where the
 //! messages suggest mends, the source with all of them done follows in another block of `starl`, and the
@@ -27,9 +27,14 @@ fn pages() -> Vec<PathBuf> {
     let entries = fs::read_dir(folder)
         .expect("the folder of cases")
         .map(|entry| entry.expect("a case").path());
-    let mut pages: Vec<PathBuf> = entries
-        .filter(|path| path.extension().is_some_and(|e| e == "md"))
-        .collect();
+    let is_of_syntax = |path: &PathBuf| {
+        let name = path
+            .file_name()
+            .and_then(|name| name.to_str())
+            .unwrap_or_default();
+        name.starts_with("syntax_") && name.ends_with(".md")
+    };
+    let mut pages: Vec<PathBuf> = entries.filter(is_of_syntax).collect();
     pages.sort();
     pages
 }

@@ -125,9 +125,9 @@ fn whole_lines(span: Span, text: &str) -> Span {
     Span::new(start as u32, end as u32)
 }
 
-fn has_error(node: &SyntaxNode, errors: &[Span]) -> bool {
-    let span = Span::from(node.text_range());
-    let text = node.text().to_string();
+fn has_error(element: &SyntaxElement, errors: &[Span]) -> bool {
+    let span = Span::from(element.text_range());
+    let text = element.to_string();
     let end = span.end - (text.len() - text.trim_end_matches(['\n', '\r', ' ']).len()) as u32;
     let before = errors.partition_point(|error| error.start < end);
     errors[..before]
@@ -147,15 +147,21 @@ struct Walk {
 impl Walk {
     /// What stands together on a line, or begins on it.
     fn group(&mut self, group: &[SyntaxElement], errors: &[Span]) {
-        let is_node = |element: &SyntaxElement| element.as_node().is_some();
-        let first = group.iter().position(is_node);
-        let last = group.iter().rposition(is_node);
-        let mut nodes = group.iter().filter_map(NodeOrToken::as_node);
-        let (Some(first), Some(last), true) =
-            (first, last, nodes.any(|node| has_error(node, errors)))
-        else {
+        let matters =
+            |element: &SyntaxElement| !element.kind().is_trivia() && element.kind() != Newline;
+        let (first, last) = (
+            group.iter().position(matters),
+            group.iter().rposition(matters),
+        );
+        let (Some(first), Some(last)) = (first, last) else {
             return group.iter().for_each(|element| self.element(element));
         };
+        if !group[first..=last]
+            .iter()
+            .any(|element| has_error(element, errors))
+        {
+            return group.iter().for_each(|element| self.element(element));
+        }
         // What is before it on its line belongs to it.
         let line = group[..first]
             .iter()
