@@ -5,14 +5,14 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::report::{broken, counted, did_you_mean, made};
+use super::report::{article, broken, counted, did_you_mean, made, something};
 use super::scope::Entity;
 use super::shape::Letters;
-use super::state::{Behaviour, Checker, Needed};
+use super::state::{Checker, Needed};
 use super::tables::{Builtin, Primitive, Shape, Signature};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::ir::{Expression, ExpressionKind, FunctionId, RecordId, Type};
-use crate::syntax::ast::{self, AstNode, Named};
+use crate::ir::{Expression, ExpressionKind, FunctionId, RecordId, Root, Type};
+use crate::syntax::ast::{self, AstNode};
 
 /// Arguments sorted by parameters.
 pub(super) struct Arranged {
@@ -106,11 +106,7 @@ impl Checker {
             self.report(problem.note(format!("such as `name = {}`", primitive.constructor)));
             return;
         }
-        let is_action = (self.nodes.behaviour.iter()).any(|part| match part {
-            Behaviour::Action(_, action) => action.name().is_some_and(|own| own.text() == name),
-            _ => false,
-        });
-        let problem = if is_action {
+        let problem = if self.actions.contains(name) {
             let message = format!("the action `{name}` cannot be called");
             let problem = Diagnostic::new(Code::NotCallable, span, message);
             problem.note("an action fires by itself when its guard holds")
@@ -203,7 +199,7 @@ impl Checker {
         let arranged = self.arrange(&names, arguments, span);
         (arranged.values.into_iter().zip(parameters))
             .map(|(value, (name, ty))| match value {
-                Some(value) => self.expect(Some(value), ty, &format!("`{name}`")),
+                Some(value) => self.expect(Some(value), ty, &format!("the argument `{name}`")),
                 None => broken(span),
             })
             .collect()
@@ -227,7 +223,7 @@ impl Checker {
         if !self.allowed(builtin.purity(), signature.name, at) {
             self.check_anyway(arguments);
             let ty = self.shape_type(&signature.result, &Letters::new());
-            return made(ExpressionKind::Error, ty.unwrap_or(Type::Error), span);
+            return made(ExpressionKind::Error, something(ty), span);
         }
         let arranged = self.arrange(&Parameters::of(&signature), arguments, span);
         let mut letters = Letters::new();
@@ -259,7 +255,7 @@ impl Checker {
         for (value, parameter) in values.into_iter().zip(&signature.parameters) {
             checked.push(match value {
                 Some(value) => {
-                    let role = format!("`{}`", parameter.name);
+                    let role = format!("the argument `{}`", parameter.name);
                     Some(self.shaped(value, &parameter.shape, letters, &role))
                 }
                 None if parameter.is_optional => None,
@@ -409,7 +405,7 @@ impl Checker {
         if value.ty == Type::Error {
             return;
         }
-        let message = format!("a {} cannot be called", self.name_of(&value.ty));
+        let message = format!("{} cannot be called", article(&self.name_of(&value.ty)));
         self.error(Code::NotCallable, value.span, message);
     }
 
@@ -424,11 +420,9 @@ impl Checker {
         let places = text.matches("{}").count();
         if places != values {
             let message = format!(
-                "the text has {}, and there are {}",
-                counted(places, "`{}`"),
+                "the text has {places} `{{}}`, for {}",
                 counted(values, "value")
             );
-            let message = message.replace("`{}`s", "`{}`");
             self.error(Code::FormatValues, format.span, message);
         }
     }
@@ -534,6 +528,9 @@ impl Checker {
             let Some(place) = field.base().map(|base| self.place(&base)) else {
                 return broken(span);
             };
+            if place.root == Root::Error {
+                return broken(span);
+            }
             ExpressionKind::Change {
                 place: Box::new(place),
                 method,

@@ -174,7 +174,10 @@ impl Checker {
                 self.nodes.functions.push((self.file, node));
             }
             Item::Init(node) => self.nodes.behaviour.push(Behaviour::Init(role, node)),
-            Item::Action(node) => self.nodes.behaviour.push(Behaviour::Action(role, node)),
+            Item::Action(node) => {
+                self.actions.extend(node.name().map(|name| name.text()));
+                self.nodes.behaviour.push(Behaviour::Action(role, node));
+            }
             Item::Handler(node) => self.nodes.behaviour.push(Behaviour::Handler(role, node)),
             Item::Property(node) => self.nodes.behaviour.push(Behaviour::Property(node)),
             Item::Role(node) => {

@@ -142,7 +142,11 @@ impl Checker {
         let expected = self.name_of(&function.result);
         let note =
             "every way through a function ends with `return`; the last statement is a good place";
-        self.report(problem.expected(format!("a {expected}")).note(note));
+        self.report(
+            problem
+                .expected(super::report::article(&expected))
+                .note(note),
+        );
     }
 
     fn check_parameters(&mut self) {

@@ -87,12 +87,8 @@ impl Checker {
         match literal {
             Literal::Int(value) => match i64::try_from(value) {
                 Ok(value) => made(ExpressionKind::Int(value), Type::Int, span),
-                Err(_) => {
-                    let message = "no Int is as great as this";
-                    let problem = Diagnostic::new(Code::LiteralRange, span, message);
-                    self.report(problem.note(format!("the greatest is {}", i64::MAX)));
-                    broken(span)
-                }
+                // Only the least Int is written with such a number, after `-`; the parser says so.
+                Err(_) => broken(span),
             },
             Literal::Float(value) => made(ExpressionKind::Float(value), Type::Float, span),
             Literal::Duration(value) => made(ExpressionKind::Duration(value), Type::Duration, span),

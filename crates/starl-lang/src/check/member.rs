@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 
 use super::body::Where;
 use super::name::robot_member;
-use super::report::{broken, did_you_mean, listed, made};
+use super::report::{broken, did_you_mean, listed, made, something};
 use super::scope::Entity;
 use super::state::Checker;
 use super::tables::{Member, Method, Signature};
@@ -188,10 +188,10 @@ impl Checker {
                 self.program[id].name
             );
             self.error(Code::StateOutOfReach, at, message);
-            return made(ExpressionKind::Error, ty, span);
+            return made(ExpressionKind::Error, something(Some(ty)), span);
         }
         if !self.allowed(member.purity, member.name(), at) {
-            return made(ExpressionKind::Error, ty, span);
+            return made(ExpressionKind::Error, something(Some(ty)), span);
         }
         let kind = ExpressionKind::Primitive {
             binding: id,

@@ -47,7 +47,12 @@ impl Checker {
         if let Some(declared) = scope.get(name) {
             return Meaning::Entity(declared.entity);
         }
-        let visible: Vec<(EnumId, u16)> = self.visible_variants(name).collect();
+        let mut visible: Vec<(EnumId, u16)> = self.visible_variants(name).collect();
+        // Those of the file itself hide those that every program has.
+        let is_own = |(id, _): &(EnumId, u16)| self.program[*id].site.file == self.file;
+        if visible.iter().any(is_own) {
+            visible.retain(is_own);
+        }
         match visible[..] {
             [] => {}
             [(id, variant)] => return Meaning::Variant(id, variant),
@@ -121,7 +126,16 @@ impl Checker {
                 self.entity_value(Entity::Variable(variable), name, span)
             }
             Meaning::Variants(those) => self.ambiguous(name, &those, span),
-            Meaning::Unknown => self.unknown(name, span, expected),
+            Meaning::Unknown => {
+                // Of a robot that a property is about, these are known too.
+                if self.body.place == Where::Property
+                    && let Some(member) = robot_member(name)
+                    && let Some(robot) = self.robot_of_property(span)
+                {
+                    return self.of_robot(robot, member, span);
+                }
+                self.unknown(name, span, expected)
+            }
         }
     }
 

@@ -178,11 +178,10 @@ impl Checker {
             )
         } else {
             let item = self.value(node.left(), None, "what is looked for");
+            let element = comparable(&item.ty);
             let hint = match node.right() {
-                Some(ast::Expression::List(_)) => Type::list(item.ty.clone()),
-                Some(ast::Expression::Brace(brace)) if !brace.is_map() => {
-                    Type::set(item.ty.clone())
-                }
+                Some(ast::Expression::List(_)) => Type::list(element),
+                Some(ast::Expression::Brace(brace)) if !brace.is_map() => Type::set(element),
                 _ => Type::Error,
             };
             let hint = Some(&hint).filter(|hint| !hint.has_error());

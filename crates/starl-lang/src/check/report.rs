@@ -90,3 +90,18 @@ pub(super) fn listed<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     let words: Vec<String> = words.into_iter().map(|word| format!("`{word}`")).collect();
     words.join(", ")
 }
+
+/// The name of a type with its article.
+pub(super) fn article(name: &str) -> String {
+    let article = if name.starts_with(['A', 'E', 'I', 'O', 'a', 'e', 'i', 'o']) {
+        "an"
+    } else {
+        "a"
+    };
+    format!("{article} {name}")
+}
+
+/// The type of a call that cannot stand where it does; one that gives nothing needs no second report.
+pub(super) fn something(ty: Option<Type>) -> Type {
+    ty.filter(|ty| *ty != Type::Nothing).unwrap_or(Type::Error)
+}

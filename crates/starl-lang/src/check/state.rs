@@ -101,6 +101,8 @@ pub(super) struct Checker {
     pub keys: Vec<(Site, Type)>,
     /// Which enums have a variant with this name.
     pub variants: BTreeMap<String, Vec<(EnumId, u16)>>,
+    /// The names of the actions.
+    pub actions: BTreeSet<String>,
     /// Locals that are declared to be read and are not, in the program itself.
     pub unused_locals: Vec<(Code, Span, String)>,
 }
@@ -119,6 +121,7 @@ impl Checker {
             user: None,
             keys: Vec::new(),
             variants: BTreeMap::new(),
+            actions: BTreeSet::new(),
             unused_locals: Vec::new(),
         }
     }
@@ -151,7 +154,8 @@ impl Checker {
 
     /// At each import of a library that has errors.
     fn report_broken_libraries(&mut self) {
-        for number in 0..self.files.len() {
+        // Libraries come after what imports them, circles aside.
+        for number in (0..self.files.len()).rev() {
             let broken: Vec<(Span, String)> = (self.files[number].scope.iter())
                 .filter_map(|(name, declared)| match declared.entity {
                     Entity::Library(file) => Some((declared.span, name.clone(), file)),

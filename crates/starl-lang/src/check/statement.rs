@@ -218,7 +218,9 @@ impl Checker {
             ExpressionKind::Primitive { member, .. } => member.purity != Purity::Effect,
             _ => true,
         };
-        if is_idle && !value.ty.has_error() {
+        // The parser reports what is no call at all.
+        let is_call = matches!(node.expression(), Some(ast::Expression::Call(_)));
+        if is_idle && is_call && !value.ty.has_error() {
             let problem = Diagnostic::new(Code::UnusedValue, span, "the value of this is not used");
             self.report(match sibling(&value) {
                 Some(note) => problem.note(note),

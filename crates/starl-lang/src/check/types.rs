@@ -394,10 +394,8 @@ impl Checker {
         if self.program.is_key(ty) {
             return true;
         }
-        let message = format!(
-            "a {} cannot be a key or an element of a set",
-            self.name_of(ty)
-        );
+        let name = super::report::article(&self.name_of(ty));
+        let message = format!("{name} cannot be a key or an element of a set");
         let problem = Diagnostic::new(Code::InvalidKey, span, message);
         let note = "keys are Bool, Int, String, RobotId, Time, Duration, Point, enums, and records of these";
         self.report(problem.note(note));

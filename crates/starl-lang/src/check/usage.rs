@@ -1,4 +1,4 @@
-//! Warnings of what is declared and not used. Where the text could not be read nothing is said: the use
+//! Warnings of what is declared and not used. Where the program has errors nothing is said: the use
 //! may be there.
 
 use alloc::format;
@@ -7,12 +7,12 @@ use alloc::vec::Vec;
 
 use super::scope::Entity;
 use super::state::Checker;
-use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span, has_errors};
 
 impl Checker {
     /// Warns of the program's declarations that are not used.
     pub fn warn_of_use(&mut self) {
-        if !self.is_readable() {
+        if !self.is_readable() || has_errors(&self.files[0].checked.diagnostics) {
             return;
         }
         self.file = 0;
