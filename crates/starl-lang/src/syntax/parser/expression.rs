@@ -70,6 +70,10 @@ pub(super) fn expression_parsed(parser: &mut Parser<'_>) -> Parsed {
 
 /// An expression that is true or false, in which `=` can only be a slip.
 pub(super) fn condition(parser: &mut Parser<'_>) -> Parsed {
+    if parser.at_line_end() || parser.at(ThenKeyword) {
+        parser.unexpected("a condition");
+        return Parsed::BROKEN;
+    }
     let before = core::mem::replace(&mut parser.equals_compare, true);
     let parsed = binary(parser, 0);
     parser.equals_compare = before;

@@ -164,12 +164,33 @@ fn branch(parser: &mut Parser<'_>) {
         slips::header_colon(parser, HeaderColon::Remove);
     }
     let inline = !parser.at_line_end() && !parser.at(LeftBrace);
-    if inline && (has_then || after_colon(parser)) {
+    let has_then = has_then || after_colon(parser);
+    if inline && (has_then || starts_statement(parser)) {
+        if !has_then {
+            missing_then(parser);
+        }
         block::single(parser);
     } else {
         block::indented(parser, "`if`");
     }
     parser.finish();
+}
+
+/// Whether what stands after a condition can only be meant as a statement.
+fn starts_statement(parser: &Parser<'_>) -> bool {
+    let word = matches!(parser.current(), Identifier | ReturnKeyword | LetKeyword);
+    word && !opens_block(parser)
+}
+
+/// Reports a statement that stands on the line of its condition without `then`.
+fn missing_then(parser: &mut Parser<'_>) {
+    if parser.last_error == Some(parser.position) {
+        return;
+    }
+    let place = Span::empty(parser.end_of_last());
+    let problem = Diagnostic::new(Code::Unexpected, place, "`then` is missing");
+    let note = "statements that are indented below it need none";
+    parser.report(problem.note(note).replace("write `then`", place, " then"));
 }
 
 /// Whether a colon, which is reported, took the place of `then`.
