@@ -1,38 +1,30 @@
 //! Warnings about the program's states: the values of its enum variables, and the actions between them.
 //!
 //! A state is entered where the variable gets it by name. It is left by actions and handlers that give
-//! the variable another value and may do so in that state. Where the variable gets a value that cannot be
-//! told, nothing is said of it.
+//! the variable another value and may do so in that state. Of a variable that gets a value which cannot be
+//! told nothing is said.
 
-use alloc::collections::BTreeSet;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
 use alloc::vec::Vec;
 
-use super::feasible::truth;
+use super::feasible::{enum_variables, truth};
 use super::scope::Entity;
 use super::state::Checker;
-use super::tables::Builtin;
+use super::transitions::{Given, Transitions};
 use crate::diagnostic::{Code, Diagnostic, has_errors};
 use crate::ir::*;
 
-/// What the program does with one enum variable.
-struct Machine {
-    variable: VariableId,
-    /// The values that it gets.
-    entered: BTreeSet<u16>,
-    /// For each action the values that it gives, and whether it ends the program.
-    actions: Vec<Given>,
-    handlers: Vec<Given>,
-}
-
-/// What some statements do with a variable.
-#[derive(Default)]
-struct Given {
-    values: BTreeSet<u16>,
-    /// They give it a value that cannot be told.
-    is_open: bool,
-    /// They say that the program is at its end.
-    ends: bool,
+/// What the program does with its enum variables.
+struct Control {
+    /// By action.
+    actions: Vec<Transitions>,
+    /// By handler.
+    handlers: Vec<Transitions>,
+    /// The values that each variable gets, for those of which all can be told.
+    entered: BTreeMap<VariableId, BTreeSet<u16>>,
+    /// For each variable the actions that write it.
+    writers: BTreeMap<VariableId, Vec<usize>>,
 }
 
 impl Checker {
@@ -43,101 +35,51 @@ impl Checker {
             return;
         }
         self.file = 0;
-        let machines: Vec<Machine> = (0..self.program.variables.len())
-            .filter_map(|number| self.machine(VariableId(number as u32)))
-            .collect();
+        let control = Control::of(&self.program);
         let mut problems = Vec::new();
         for action in &self.program.actions {
-            problems.extend(self.never_enabled(action, &machines));
+            problems.extend(self.never_enabled(action, &control));
         }
-        for machine in &machines {
-            self.states_without_way_out(machine, &mut problems);
+        for (variable, entered) in &control.entered {
+            self.states_without_way_out(*variable, entered, &control, &mut problems);
         }
         problems
             .into_iter()
             .for_each(|problem| self.report(problem));
     }
 
-    /// What is done with a variable, if it is an enum whose values can all be told.
-    fn machine(&self, variable: VariableId) -> Option<Machine> {
-        if !matches!(self.program[variable].ty, Type::Enum(_)) {
-            return None;
-        }
-        let given = |statements: &[Statement]| {
-            let mut given = Given::default();
-            given.collect(statements, variable, self.program.roles.as_ref());
-            given
+    fn never_enabled(&self, action: &Action, control: &Control) -> Option<Diagnostic> {
+        let problem = || {
+            let message = format!("the action `{}` is never enabled", action.name);
+            let problem = Diagnostic::new(Code::NeverEnabled, action.site.span, message);
+            problem.label(action.guard.span, "this is never true")
         };
-        let actions: Vec<Given> = (self.program.actions.iter())
-            .map(|action| given(&action.effect))
-            .collect();
-        let handlers: Vec<Given> = (self.program.handlers.iter())
-            .map(|handler| given(&handler.body))
-            .collect();
-        let roles = self.program.roles.iter().flat_map(|roles| &roles.roles);
-        let starts: Vec<Given> = (self.program.init.iter())
-            .chain(roles.filter_map(|role| role.entry.as_ref()))
-            .map(|procedure| given(&procedure.body))
-            .collect();
-        let all = || actions.iter().chain(&handlers).chain(&starts);
-        if all().any(|given| given.is_open) {
-            return None;
-        }
-        let mut entered: BTreeSet<u16> = all()
-            .flat_map(|given| given.values.iter().copied())
-            .collect();
-        if self
-            .program
-            .roles
-            .as_ref()
-            .is_some_and(|roles| roles.variable == variable)
-        {
-            // The scenario may give any role.
-            entered.extend(0..self.program.roles.as_ref()?.roles.len() as u16);
-        }
-        let mut first = Given::default();
-        match &self.program[variable].initial {
-            Some(value) => first.value(value),
-            None => first.values.extend([0]),
-        }
-        if first.is_open {
-            return None;
-        }
-        entered.extend(first.values);
-        Some(Machine {
-            variable,
-            entered,
-            actions,
-            handlers,
-        })
-    }
-
-    fn never_enabled(&self, action: &Action, machines: &[Machine]) -> Option<Diagnostic> {
-        let message = format!("the action `{}` is never enabled", action.name);
-        let problem = Diagnostic::new(Code::NeverEnabled, action.site.span, message);
         if truth(&action.guard, None) == Some(false) {
-            return Some(problem.label(action.guard.span, "this is never true"));
+            return Some(problem());
         }
-        for machine in machines {
-            let variable = machine.variable;
+        let mut variables = BTreeSet::new();
+        enum_variables(&action.guard, &mut variables);
+        for variable in variables {
+            let Some(entered) = control.entered.get(&variable) else {
+                continue;
+            };
             let holds = |value| truth(&action.guard, Some((variable, value))) != Some(false);
-            if machine.entered.iter().any(|value| holds(*value)) {
+            if entered.iter().any(|value| holds(*value)) {
                 continue;
             }
-            let name = &self.program[variable].name;
             let Type::Enum(id) = self.program[variable].ty else {
                 continue;
             };
-            let problem = problem.label(action.guard.span, "this is never true");
             let variants = self.program[id].variants.iter().enumerate();
             let needed: Vec<&str> = variants
                 .filter(|(value, _)| holds(*value as u16))
                 .map(|(_, variant)| variant.name.as_str())
                 .collect();
+            let name = &self.program[variable].name;
             return Some(if needed.is_empty() {
-                problem
+                problem()
             } else {
-                problem.note(format!(
+                problem().note(format!(
                     "`{name}` is never {}",
                     super::report::listed(needed)
                 ))
@@ -146,143 +88,174 @@ impl Checker {
         None
     }
 
-    fn states_without_way_out(&self, machine: &Machine, problems: &mut Vec<Diagnostic>) {
-        let variable = machine.variable;
-        let (name, roles) = (&self.program[variable].name, &self.program.roles);
-        let is_role = roles
-            .as_ref()
-            .is_some_and(|roles| roles.variable == variable);
-        let changes = machine.actions.iter().chain(&machine.handlers);
+    fn states_without_way_out(
+        &self,
+        variable: VariableId,
+        entered: &BTreeSet<u16>,
+        control: &Control,
+        problems: &mut Vec<Diagnostic>,
+    ) {
+        let roles = &self.program.roles;
+        let is_role = (roles.as_ref()).is_some_and(|roles| roles.variable == variable);
         // A variable that is set once, or that decides nothing, is no control variable.
-        let is_control = changes.filter(|given| !given.values.is_empty()).count() > 1;
-        if is_role || !is_control || !self.usage.used.contains(&Entity::Variable(variable)) {
-            return;
-        }
+        let is_read = self.usage.used.contains(&Entity::Variable(variable));
         let Type::Enum(id) = self.program[variable].ty else {
             return;
         };
-        for value in &machine.entered {
-            let assumed = Some((variable, *value));
-            let other = |given: &Given| given.values.iter().any(|next| next != value);
-            let is_left =
-                (self.program.actions.iter().zip(&machine.actions)).any(|(action, given)| {
-                    other(given) && truth(&action.guard, assumed) != Some(false)
-                }) || machine.handlers.iter().any(other);
-            let ends =
-                (self.program.actions.iter().zip(&machine.actions)).any(|(action, given)| {
-                    given.ends
-                        && (given.values.contains(value)
-                            || truth(&action.guard, assumed) != Some(false))
-                }) || machine
-                    .handlers
-                    .iter()
-                    .any(|given| given.ends && given.values.contains(value));
-            if is_left || ends || self.is_goal(variable, *value) {
+        if is_role || !is_read || control.writes(variable) < 2 {
+            return;
+        }
+        for value in entered {
+            let variant = &self.program[id].variants[usize::from(*value)];
+            if variant.site.file != 0
+                || control.is_left(&self.program, variable, *value)
+                || control.is_end(&self.program, variable, *value)
+                || self.is_goal(variable, *value)
+            {
                 continue;
             }
-            let variant = &self.program[id].variants[*value as usize];
             let message = format!("no action leaves the state `{}`", variant.name);
             let problem = Diagnostic::new(Code::NoWayOut, variant.site.span, message);
+            let name = &self.program[variable].name;
             let note = format!("once `{name}` is `{}` it stays so", variant.name);
             let end = "if that is the end of the program, call `finish()` there, or say in a property that it is reached `eventually`";
-            if variant.site.file == 0 {
-                problems.push(problem.note(note).note(end));
-            }
+            problems.push(problem.note(note).note(end));
         }
     }
 
     /// Whether a property says that the program is to come to this state.
     fn is_goal(&self, variable: VariableId, value: u16) -> bool {
-        self.program
-            .properties
-            .iter()
-            .any(|property| match &property.claim {
-                Claim::Eventually { holds, .. } => names_state(holds, variable, value),
-                Claim::LeadsTo { consequence, .. } => names_state(consequence, variable, value),
-                Claim::Always(_) => false,
-            })
+        let mut properties = self.program.properties.iter();
+        properties.any(|property| match &property.claim {
+            Claim::Eventually { holds, .. } => names_state(holds, variable, value),
+            Claim::LeadsTo { consequence, .. } => names_state(consequence, variable, value),
+            Claim::Always(_) => false,
+        })
     }
+}
+
+impl Control {
+    fn of(program: &Program) -> Self {
+        let of = |statements: &[Statement]| Transitions::of(statements, program);
+        let actions: Vec<Transitions> = (program.actions.iter())
+            .map(|action| of(&action.effect))
+            .collect();
+        let handlers: Vec<Transitions> = (program.handlers.iter())
+            .map(|handler| of(&handler.body))
+            .collect();
+        let roles = program.roles.iter().flat_map(|roles| &roles.roles);
+        let entries = roles.filter_map(|role| role.entry.as_ref());
+        let starts: Vec<Transitions> = (program.init.iter().chain(entries))
+            .map(|procedure| of(&procedure.body))
+            .collect();
+        let mut all: BTreeMap<VariableId, Given> = first_values(program);
+        for (variable, given) in (actions.iter().chain(&handlers).chain(&starts))
+            .flat_map(|transitions| &transitions.given)
+        {
+            let known = all.entry(*variable).or_default();
+            known.values.extend(&given.values);
+            known.is_open |= given.is_open;
+        }
+        let told = all.into_iter().filter(|(_, given)| !given.is_open);
+        let mut writers: BTreeMap<VariableId, Vec<usize>> = BTreeMap::new();
+        for (number, action) in actions.iter().enumerate() {
+            for variable in action.given.keys() {
+                writers.entry(*variable).or_default().push(number);
+            }
+        }
+        Self {
+            entered: told
+                .map(|(variable, given)| (variable, given.values))
+                .collect(),
+            actions,
+            handlers,
+            writers,
+        }
+    }
+
+    /// How many actions and handlers write the variable.
+    fn writes(&self, variable: VariableId) -> usize {
+        let handlers = self.handlers.iter();
+        let handlers = handlers.filter(|handler| handler.given.contains_key(&variable));
+        self.writers.get(&variable).map_or(0, Vec::len) + handlers.count()
+    }
+
+    /// Whether some action or handler leaves the state.
+    fn is_left(&self, program: &Program, variable: VariableId, value: u16) -> bool {
+        let leaves = |transitions: &Transitions| {
+            let given = transitions.given.get(&variable);
+            given.is_some_and(|given| given.values.iter().any(|next| *next != value))
+        };
+        let mut writers = self.writers.get(&variable).into_iter().flatten();
+        writers.any(|number| {
+            let guard = &program.actions[*number].guard;
+            leaves(&self.actions[*number]) && truth(guard, Some((variable, value))) != Some(false)
+        }) || self.handlers.iter().any(leaves)
+    }
+
+    /// Whether the program is said to be at its end in the state, or where it is entered.
+    fn is_end(&self, program: &Program, variable: VariableId, value: u16) -> bool {
+        let enters = |transitions: &Transitions| {
+            let given = transitions.given.get(&variable);
+            given.is_some_and(|given| given.values.contains(&value))
+        };
+        let mut ends = self
+            .actions
+            .iter()
+            .enumerate()
+            .filter(|(_, action)| action.ends);
+        ends.any(|(number, action)| {
+            let guard = &program.actions[number].guard;
+            enters(action) || truth(guard, Some((variable, value))) != Some(false)
+        }) || self
+            .handlers
+            .iter()
+            .any(|handler| handler.ends && enters(handler))
+    }
+}
+
+/// The first values of the enum variables; the scenario may give any role.
+fn first_values(program: &Program) -> BTreeMap<VariableId, Given> {
+    let mut first: BTreeMap<VariableId, Given> = BTreeMap::new();
+    for (number, variable) in program.variables.iter().enumerate() {
+        let Type::Enum(id) = variable.ty else {
+            continue;
+        };
+        let own = VariableId(number as u32);
+        let given = first.entry(own).or_default();
+        let is_role = (program.roles.as_ref()).is_some_and(|roles| roles.variable == own);
+        match &variable.initial {
+            Some(value) => given.value(value),
+            None if is_role => given.values.extend(0..program[id].variants.len() as u16),
+            None => given.values.extend([0]),
+        }
+    }
+    first
 }
 
 /// Whether the expression compares the variable of a robot with the value.
 fn names_state(expression: &Expression, variable: VariableId, value: u16) -> bool {
+    let is_variable = |side: &Expression| {
+        matches!(
+            side.kind,
+            ExpressionKind::OfRobot { member: RobotMember::Variable(of), .. } if of == variable
+        )
+    };
+    let is_value = |side: &Expression| side.kind == ExpressionKind::Variant(value);
     match &expression.kind {
         ExpressionKind::Binary { left, right, .. } => {
-            let is_variable = |side: &Expression| {
-                matches!(
-                    side.kind,
-                    ExpressionKind::OfRobot { member: RobotMember::Variable(of), .. } if of == variable
-                )
-            };
-            let is_value = |side: &Expression| side.kind == ExpressionKind::Variant(value);
             is_variable(left) && is_value(right)
                 || is_value(left) && is_variable(right)
                 || names_state(left, variable, value)
                 || names_state(right, variable, value)
         }
         ExpressionKind::Quantifier { condition, .. } => names_state(condition, variable, value),
-        ExpressionKind::In { item, collection } => {
-            let (ExpressionKind::List(elements) | ExpressionKind::Set(elements)) = &collection.kind
-            else {
-                return false;
-            };
-            matches!(
-                item.kind,
-                ExpressionKind::OfRobot { member: RobotMember::Variable(of), .. } if of == variable
-            ) && elements
-                .iter()
-                .any(|element| element.kind == ExpressionKind::Variant(value))
-        }
+        ExpressionKind::In { item, collection } => match &collection.kind {
+            ExpressionKind::List(elements) | ExpressionKind::Set(elements) => {
+                is_variable(item) && elements.iter().any(is_value)
+            }
+            _ => false,
+        },
         _ => false,
-    }
-}
-
-impl Given {
-    fn collect(&mut self, statements: &[Statement], variable: VariableId, roles: Option<&Roles>) {
-        for statement in statements {
-            match &statement.kind {
-                StatementKind::Assign { place, value }
-                    if place.root == Root::Variable(variable) =>
-                {
-                    self.value(value);
-                }
-                StatementKind::ChangeRole { value }
-                    if roles.is_some_and(|roles| roles.variable == variable) =>
-                {
-                    self.value(value);
-                }
-                StatementKind::If {
-                    then, otherwise, ..
-                } => {
-                    self.collect(then, variable, roles);
-                    self.collect(otherwise, variable, roles);
-                }
-                StatementKind::For { body, .. } | StatementKind::Atomic { body, .. } => {
-                    self.collect(body, variable, roles);
-                }
-                StatementKind::Evaluate(Expression {
-                    kind: ExpressionKind::Builtin { builtin, .. },
-                    ..
-                }) => {
-                    self.ends |= matches!(builtin, Builtin::Finish | Builtin::Fail | Builtin::Stop);
-                }
-                _ => {}
-            }
-        }
-    }
-
-    fn value(&mut self, value: &Expression) {
-        match &value.kind {
-            ExpressionKind::Variant(number) => {
-                self.values.insert(*number);
-            }
-            ExpressionKind::Conditional {
-                then, otherwise, ..
-            } => {
-                self.value(then);
-                self.value(otherwise);
-            }
-            _ => self.is_open = true,
-        }
     }
 }

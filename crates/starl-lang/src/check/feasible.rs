@@ -1,6 +1,8 @@
 //! Whether a condition can hold, as far as can be told from the program's text and the value of one
 //! enum variable.
 
+use alloc::collections::BTreeSet;
+
 use crate::ir::{Expression, ExpressionKind, Operator, Type, VariableId};
 
 /// What is assumed: the value of an enum variable.
@@ -59,5 +61,21 @@ fn variant(expression: &Expression, assumed: Assumption) -> Option<u16> {
         ExpressionKind::Variant(number) => Some(number),
         ExpressionKind::Variable(id) => assumed.filter(|(of, _)| *of == id).map(|(_, value)| value),
         _ => None,
+    }
+}
+
+/// The enum variables that the condition compares with something.
+pub(super) fn enum_variables(condition: &Expression, found: &mut BTreeSet<VariableId>) {
+    match &condition.kind {
+        ExpressionKind::Variable(id) if matches!(condition.ty, Type::Enum(_)) => {
+            found.insert(*id);
+        }
+        ExpressionKind::Not(inner) => enum_variables(inner, found),
+        ExpressionKind::Binary { left, right, .. } => {
+            enum_variables(left, found);
+            enum_variables(right, found);
+        }
+        ExpressionKind::In { item, .. } => enum_variables(item, found),
+        _ => {}
     }
 }

@@ -36,6 +36,7 @@ mod shape;
 mod state;
 mod statement;
 mod tables;
+mod transitions;
 mod types;
 mod usage;
 
