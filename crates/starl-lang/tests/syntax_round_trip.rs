@@ -44,3 +44,8 @@ fn every_beginning_of_a_program_is_read_whole() {
         }
     }
 }
+
+#[test]
+fn a_text_that_begins_with_an_indented_operator_is_read_whole() {
+    parsed(" == b)\nx: Int\n");
+}

@@ -148,7 +148,7 @@ pub(super) fn unexpected_indentation(parser: &mut Parser<'_>, inner: fn(&mut Par
     let message = "this line is indented, but nothing above it opens a block";
     let place = Span::new(start, first.start);
     let problem = Diagnostic::new(Code::UnexpectedIndentation, place, message);
-    if joins(parser.nth(1)) {
+    if joins(parser.nth(1)) && parser.position > 0 {
         move_operator(parser, problem);
         parser.skip_block();
         return parser.finish();
