@@ -11,6 +11,9 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::*;
 use crate::syntax::ast::{self, AstNode, Documented, Item, Named};
 
+/// How many variants an enum may have.
+const MOST_VARIANTS: usize = 1000;
+
 impl Checker {
     /// Notes all declarations of all files.
     pub fn collect(&mut self) {
@@ -239,6 +242,12 @@ impl Checker {
         node: Option<ast::EnumDeclaration>,
     ) -> EnumId {
         let id = EnumId(self.program.enums.len() as u32);
+        let mut variants = variants;
+        if variants.len() > MOST_VARIANTS {
+            let message = format!("an enum has at most {MOST_VARIANTS} variants");
+            self.error(Code::TooLarge, site.span, message);
+            variants.truncate(MOST_VARIANTS);
+        }
         for (number, (variant, _)) in variants.iter().enumerate() {
             let those = self.variants.entry(variant.clone()).or_default();
             those.push((id, number as u16));

@@ -4,9 +4,11 @@ use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::vec::Vec;
 
+use super::scope::Entity;
 use super::state::{Checker, Needed};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::ConstantId;
+use crate::syntax::ast::{self, AstNode};
 
 impl Checker {
     /// Orders the constants so that each comes after those that its value needs, by way of functions
@@ -27,6 +29,50 @@ impl Checker {
         // Whatever a constant needs needs fewer constants than it does, unless they need each other.
         sizes.sort_unstable();
         self.program.constant_order = sizes.into_iter().map(|(_, id)| id).collect();
+    }
+
+    /// All constants, each after those that its value names, where that is possible: so that checking one
+    /// finds the types of the others known.
+    pub fn constants_by_need(&self) -> Vec<ConstantId> {
+        let mut order = Vec::new();
+        let mut seen = BTreeSet::new();
+        for number in 0..self.nodes.constants.len() {
+            // What is to be done: a constant, and whether those that it names are done.
+            let mut open = Vec::from([(ConstantId(number as u32), false)]);
+            while let Some((id, is_ready)) = open.pop() {
+                if is_ready {
+                    order.push(id);
+                } else if seen.insert(id) {
+                    open.push((id, true));
+                    open.extend(self.constants_named(id).map(|named| (named, false)));
+                }
+            }
+        }
+        order
+    }
+
+    /// The constants that the text of a constant's value names.
+    fn constants_named(&self, id: ConstantId) -> impl Iterator<Item = ConstantId> + use<'_> {
+        let (file, node) = &self.nodes.constants[id.index()];
+        let value = node.value().map(|value| value.syntax().clone());
+        let nodes = value.into_iter().flat_map(|value| value.descendants());
+        nodes.filter_map(|node| {
+            let (file, word) = match ast::Expression::cast(node)? {
+                ast::Expression::Name(name) => (*file, name.token()?),
+                ast::Expression::Field(field) => {
+                    let ast::Expression::Name(library) = field.base()? else {
+                        return None;
+                    };
+                    let imports = &self.files[*file as usize].imports;
+                    (*imports.get(&library.text())?, field.field()?)
+                }
+                _ => return None,
+            };
+            match self.files[file as usize].scope.get(word.text())?.entity {
+                Entity::Constant(id) => Some(id),
+                _ => None,
+            }
+        })
     }
 
     /// All that something needs, by way of others too.

@@ -106,7 +106,9 @@ impl Checker {
             return;
         }
         for value in entered {
-            let variant = &self.program[id].variants[usize::from(*value)];
+            let Some(variant) = self.program[id].variants.get(usize::from(*value)) else {
+                continue;
+            };
             if variant.site.file != 0
                 || control.is_left(&self.program, variable, *value)
                 || control.is_end(&self.program, variable, *value)

@@ -32,8 +32,8 @@ pub(super) fn constructor(node: &ast::BindingDeclaration) -> Option<(String, Spa
 impl Checker {
     /// Checks what is in declarations.
     pub fn check_declarations(&mut self) {
-        for number in 0..self.nodes.constants.len() {
-            self.check_constant(ConstantId(number as u32));
+        for id in self.constants_by_need() {
+            self.check_constant(id);
         }
         for number in 0..self.nodes.functions.len() {
             self.check_function(FunctionId(number as u32));

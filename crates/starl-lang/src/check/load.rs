@@ -11,6 +11,9 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::syntax::ast::{AstNode, Item, Named};
 use crate::syntax::{Parse, SyntaxKind, parse};
 
+/// How many libraries may stand in a row of which each imports the next.
+const DEEPEST: usize = 50;
+
 /// Reads everything that the program needs.
 pub(super) fn load(source: &str, parsed: Parse, libraries: &dyn Libraries) -> Checker {
     let name = header_name(&parsed).unwrap_or_else(|| "program".into());
@@ -94,6 +97,15 @@ impl Loader<'_> {
     fn library(&mut self, file: u32, name: &str, span: Span, way: &mut Vec<String>) -> Option<u32> {
         if let Some(number) = self.by_name.get(name) {
             return Some(*number);
+        }
+        if way.len() > DEEPEST {
+            let message = "libraries import each other too deeply here";
+            let problem = Diagnostic::new(Code::ImportCycle, span, message);
+            self.report(
+                file,
+                problem.note(format!("at most {DEEPEST} stand in a row")),
+            );
+            return None;
         }
         let Some(source) = self.libraries.source(name) else {
             let message = format!("there is no library `{name}`");

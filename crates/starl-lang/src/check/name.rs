@@ -221,10 +221,11 @@ impl Checker {
     }
 
     fn constant_type(&mut self, id: crate::ir::ConstantId) -> Type {
-        if self.constants[id.index()] == Progress::Untouched {
+        // Constants are checked in the order of need, so that only one which needs itself is found
+        // unchecked here; that is reported when they are ordered.
+        if self.constants[id.index()] == Progress::Untouched && self.user.is_none() {
             self.check_constant(id);
         }
-        // One that is under way needs itself, which is reported when constants are ordered.
         self.program[id].ty.clone()
     }
 

@@ -1,6 +1,5 @@
 //! Signatures of the tables, met with the types of a program.
 
-use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
 
 use super::prelude;
@@ -86,7 +85,7 @@ impl Checker {
         if let Some(known) = self.shape_type(shape, letters) {
             return self.name_of(&known);
         }
-        let part = |part: &Box<Shape>| self.shape_name(part, letters);
+        let part = |part: &Shape| self.shape_name(part, letters);
         match shape {
             Shape::Letter(b'N') => "Int or Float".into(),
             Shape::Letter(b'M') => "Int, Float, Duration or Time".into(),

@@ -8,7 +8,7 @@ use super::body::Body;
 use super::scope::{Entity, Scope};
 use super::{Checked, CheckedFile};
 use crate::diagnostic::{Code, Span, has_errors};
-use crate::ir::{ConstantId, EnumId, FunctionId, Program, Site, Type};
+use crate::ir::{ConstantId, EnumId, FunctionId, Program, RecordId, Site, Type};
 use crate::syntax::ast;
 
 /// A file with what it declares.
@@ -101,6 +101,8 @@ pub(super) struct Checker {
     pub keys: Vec<(Site, Type)>,
     /// Which enums have a variant with this name.
     pub variants: BTreeMap<String, Vec<(EnumId, u16)>>,
+    /// Of how many parts the records are made.
+    pub sizes: BTreeMap<RecordId, u32>,
     /// The names of the actions.
     pub actions: BTreeSet<String>,
     /// Locals that are declared to be read and are not, in the program itself.
@@ -121,6 +123,7 @@ impl Checker {
             user: None,
             keys: Vec::new(),
             variants: BTreeMap::new(),
+            sizes: BTreeMap::new(),
             actions: BTreeSet::new(),
             unused_locals: Vec::new(),
         }

@@ -31,6 +31,12 @@ const BUILT_IN: &[&str] = &[
     "Map",
 ];
 
+/// How deep records may be nested.
+const DEEPEST: usize = 30;
+
+/// How many parts a record may have, with the parts of its parts.
+const LARGEST: u32 = 100;
+
 /// What people write who know other languages.
 const FOREIGN: &[(&str, &str)] = &[
     ("int", "Int"),
@@ -176,9 +182,8 @@ impl Checker {
             let mut parts = Vec::new();
             records_in(&self.program[id].fields[number].ty, &mut parts);
             for part in parts {
-                // The depth is that of a chain of records, which a text may make very long.
-                if way.contains(&part) || way.len() > 200 {
-                    self.report_recursion(id, number, part);
+                if way.contains(&part) || way.len() > DEEPEST {
+                    self.report_recursion(id, number, part, way.contains(&part));
                     self.program[id].fields[number].ty = Type::Error;
                     break;
                 }
@@ -188,12 +193,46 @@ impl Checker {
         way.pop();
         done.insert(id);
         order.push(id);
+        self.check_size(id);
     }
 
-    fn report_recursion(&mut self, id: RecordId, field: usize, part: RecordId) {
+    /// Reports a record whose values would have too many parts. Those that it is made of come before.
+    fn check_size(&mut self, id: RecordId) {
+        let fields = self.program[id].fields.iter();
+        let size = 1 + fields.map(|field| self.size(&field.ty)).sum::<u32>();
+        if size > LARGEST {
+            let site = self.program[id].site;
+            let message = format!("a `{}` has too many parts", self.program[id].name);
+            self.file = site.file;
+            let problem = Diagnostic::new(Code::TooLarge, site.span, message);
+            let note = format!(
+                "with the parts of its parts there are {size}, and at most {LARGEST}; lists and maps count as one"
+            );
+            self.report(problem.note(note));
+            self.program[id].fields.clear();
+        }
+        // What is made of one that is too large is not to blame.
+        self.sizes.insert(id, if size > LARGEST { 1 } else { size });
+    }
+
+    /// Of how many parts a value of the type is made; a part that holds many, such as a list, is one.
+    fn size(&self, of: &Type) -> u32 {
+        match of {
+            Type::Record(id) => self.sizes.get(id).copied().unwrap_or(1),
+            Type::Optional(inner) => 1 + self.size(inner),
+            Type::Point => 3,
+            _ => 1,
+        }
+    }
+
+    fn report_recursion(&mut self, id: RecordId, field: usize, part: RecordId, is_circle: bool) {
         let (record, field) = (&self.program[id], &self.program[id].fields[field]);
         self.file = record.site.file;
-        let message = format!("a `{}` contains itself", self.program[part].name);
+        let message = if is_circle {
+            format!("a `{}` contains itself", self.program[part].name)
+        } else {
+            "records are nested too deeply here".into()
+        };
         let problem = Diagnostic::new(Code::RecursiveType, field.site.span, message);
         let note = "values have limited depth; refer to another one by its index or key";
         self.report(problem.note(note));

@@ -185,6 +185,8 @@ codes! {
     UnknownConsistency = "E0251",
     /// A second declaration of what there can be only one of.
     SecondDeclaration = "E0252",
+    /// A record or an enum with too many parts.
+    TooLarge = "E0253",
     /// A colon at the end of a line that opens a block.
     HeaderColon = "W0101",
     /// An action's name without its brackets.
