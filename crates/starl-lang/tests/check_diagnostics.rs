@@ -3,6 +3,7 @@
 //! A case is a heading, the program in a `starl` block, and the messages in a `text` block, which is
 //! empty or missing if there are none. Libraries that it imports come before it, in blocks `starl
 //! name`. With `STARL_WRITE_EXPECTED=1` what is said now is written into the files instead.
+#![allow(clippy::disallowed_methods, reason = "the cases are files")]
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

@@ -1,5 +1,9 @@
 //! How long it takes to read and check a program of 1,000 lines: shown by
 //! `cargo test --release -p starl-lang --test check_speed -- --ignored --nocapture`.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "it shows how long something takes"
+)]
 
 use std::fmt::Write as _;
 use std::time::Instant;

@@ -2,47 +2,18 @@
 
 use alloc::boxed::Box;
 use alloc::format;
-use alloc::string::{String, ToString};
+use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::report::{article, broken, counted, did_you_mean, made, something};
+use super::arguments::Parameters;
+use super::report::{article, broken, made};
 use super::scope::Entity;
 use super::shape::Letters;
 use super::state::{Checker, Needed};
-use super::tables::{Builtin, Primitive, Shape, Signature};
+use super::tables::{Builtin, Primitive};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Expression, ExpressionKind, FunctionId, RecordId, Root, Type};
 use crate::syntax::ast::{self, AstNode};
-
-/// Arguments sorted by parameters.
-pub(super) struct Arranged {
-    pub values: Vec<Option<ast::Expression>>,
-    /// Those beyond the parameters, with their names.
-    pub rest: Vec<(Option<String>, ast::Expression)>,
-}
-
-/// What may be called with which arguments.
-pub(super) struct Parameters<'a> {
-    /// What is called, for messages.
-    pub callee: &'a str,
-    /// Names, and whether each may be left out.
-    pub names: Vec<(&'a str, bool)>,
-    pub takes_values: bool,
-    pub takes_fields: bool,
-}
-
-impl<'a> Parameters<'a> {
-    pub fn of(signature: &'a Signature) -> Self {
-        Self {
-            callee: signature.name,
-            names: (signature.parameters.iter())
-                .map(|parameter| (parameter.name, parameter.is_optional))
-                .collect(),
-            takes_values: signature.takes_values,
-            takes_fields: signature.takes_fields,
-        }
-    }
-}
 
 impl Checker {
     /// A call.
@@ -179,252 +150,12 @@ impl Checker {
         made(ExpressionKind::Record(values), Type::Record(id), span)
     }
 
-    /// An argument for each parameter, all of which must be given.
-    fn typed_arguments(
-        &mut self,
-        callee: &str,
-        parameters: &[(String, Type)],
-        arguments: &[ast::Argument],
-        span: Span,
-    ) -> Vec<Expression> {
-        let names = Parameters {
-            callee,
-            names: parameters
-                .iter()
-                .map(|(name, _)| (name.as_str(), false))
-                .collect(),
-            takes_values: false,
-            takes_fields: false,
-        };
-        let arranged = self.arrange(&names, arguments, span);
-        (arranged.values.into_iter().zip(parameters))
-            .map(|(value, (name, ty))| match value {
-                Some(value) => self.expect(Some(value), ty, &format!("the argument `{name}`")),
-                None => broken(span),
-            })
-            .collect()
-    }
-
-    fn call_builtin(
-        &mut self,
-        builtin: Builtin,
-        at: Span,
-        arguments: &[ast::Argument],
-        span: Span,
-    ) -> Expression {
-        let signature = builtin.signature();
-        if !signature.is_call {
-            let message = format!("`{}` is not called", signature.name);
-            let problem = Diagnostic::new(Code::NotCallable, at, message);
-            let brackets = Span::new(at.end, span.end);
-            self.report(problem.replace("remove the brackets", brackets, ""));
-            return self.name(signature.name, at, None);
-        }
-        if !self.allowed(builtin.purity(), signature.name, at) {
-            self.check_anyway(arguments);
-            let ty = self.shape_type(&signature.result, &Letters::new());
-            return made(ExpressionKind::Error, something(ty), span);
-        }
-        let arranged = self.arrange(&Parameters::of(&signature), arguments, span);
-        let mut letters = Letters::new();
-        let values = self.shaped_arguments(&signature, arranged.values, &mut letters, span);
-        let rest: Vec<_> = (arranged.rest.into_iter())
-            .map(|(name, value)| (name, self.value(Some(value), None, "this")))
-            .collect();
-        if builtin == Builtin::Log {
-            self.check_format(&values, rest.len());
-        }
-        let ty = self.shape_type(&signature.result, &letters);
-        let kind = ExpressionKind::Builtin {
-            builtin,
-            arguments: values,
-            rest,
-        };
-        made(kind, ty.unwrap_or(Type::Error), span)
-    }
-
-    /// Arguments by the shapes of a signature's parameters; those left out are none.
-    pub fn shaped_arguments(
-        &mut self,
-        signature: &Signature,
-        values: Vec<Option<ast::Expression>>,
-        letters: &mut Letters,
-        span: Span,
-    ) -> Vec<Option<Expression>> {
-        let mut checked = Vec::with_capacity(values.len());
-        for (value, parameter) in values.into_iter().zip(&signature.parameters) {
-            checked.push(match value {
-                Some(value) => {
-                    let role = format!("the argument `{}`", parameter.name);
-                    Some(self.shaped(value, &parameter.shape, letters, &role))
-                }
-                None if parameter.is_optional => None,
-                None => Some(broken(span)),
-            });
-        }
-        checked
-    }
-
-    fn shaped(
-        &mut self,
-        value: ast::Expression,
-        shape: &Shape,
-        letters: &mut Letters,
-        role: &str,
-    ) -> Expression {
-        if let Some(expected) = self.shape_type(shape, letters) {
-            return self.expect(Some(value), &expected, role);
-        }
-        let value = self.value(Some(value), None, role);
-        let before = letters.clone();
-        if self.shape_matches(shape, &value.ty, letters) {
-            return value;
-        }
-        *letters = before;
-        let code = if matches!(value.ty, Type::Optional(_)) {
-            Code::MayBeNone
-        } else {
-            Code::WrongType
-        };
-        let message = match code {
-            Code::MayBeNone => format!("{role} may be none"),
-            _ => format!("{role} has the wrong type"),
-        };
-        let problem = Diagnostic::new(code, value.span, message);
-        let expected = self.shape_name(shape, letters);
-        let found = self.name_of(&value.ty);
-        self.report(problem.expected(expected).found(found));
-        broken(value.span)
-    }
-
-    /// Sorts arguments by parameters and reports what does not fit.
-    pub fn arrange(
-        &mut self,
-        parameters: &Parameters<'_>,
-        arguments: &[ast::Argument],
-        span: Span,
-    ) -> Arranged {
-        let mut values: Vec<Option<ast::Expression>> =
-            parameters.names.iter().map(|_| None).collect();
-        let mut rest = Vec::new();
-        let mut position = 0;
-        let mut surplus = None;
-        for argument in arguments {
-            let Some(value) = argument.value() else {
-                continue;
-            };
-            let Some(name) = argument.name() else {
-                match values.get_mut(position) {
-                    Some(place @ None) => *place = Some(value),
-                    Some(_) => {}
-                    None if parameters.takes_values => rest.push((None, value)),
-                    None => surplus = surplus.or(Some((argument.span(), value))),
-                }
-                position += 1;
-                continue;
-            };
-            let (text, at) = (name.text(), name.span());
-            match parameters.names.iter().position(|(own, _)| *own == text) {
-                Some(number) if values[number].is_none() => values[number] = Some(value),
-                Some(_) => {
-                    let message = format!("`{text}` is given twice");
-                    self.error(Code::ArgumentCount, at, message);
-                }
-                None if parameters.takes_fields => rest.push((Some(text), value)),
-                None => {
-                    let message = format!("`{}` has no parameter `{text}`", parameters.callee);
-                    let problem = Diagnostic::new(Code::ArgumentName, at, message);
-                    let names = parameters.names.iter().map(|(name, _)| *name);
-                    let problem = did_you_mean(problem, at, &text, names);
-                    self.report(problem);
-                    // What it was meant for is not missing.
-                    return Arranged { values, rest };
-                }
-            }
-        }
-        let given = arguments.len();
-        if let Some((at, _)) = surplus {
-            self.wrong_count(parameters, given, at);
-        } else if let Some((name, _)) = (parameters.names.iter().zip(&values))
-            .find(|((_, optional), value)| !optional && value.is_none())
-            .map(|(parameter, _)| *parameter)
-        {
-            let message = format!("`{}` needs `{name}`", parameters.callee);
-            let at = Span::new(span.end.saturating_sub(1), span.end);
-            let problem = Diagnostic::new(Code::ArgumentCount, at, message);
-            let problem = self.with_count(problem, parameters, given);
-            self.report(problem);
-        }
-        Arranged { values, rest }
-    }
-
-    fn wrong_count(&mut self, parameters: &Parameters<'_>, given: usize, at: Span) {
-        let message = format!("`{}` takes no such argument", parameters.callee);
-        let problem = Diagnostic::new(Code::ArgumentCount, at, message);
-        let problem = self.with_count(problem, parameters, given);
-        self.report(problem);
-    }
-
-    fn with_count(
-        &self,
-        problem: Diagnostic,
-        parameters: &Parameters<'_>,
-        given: usize,
-    ) -> Diagnostic {
-        let most = parameters.names.len();
-        let least = parameters
-            .names
-            .iter()
-            .filter(|(_, optional)| !optional)
-            .count();
-        let expected = if least == most {
-            counted(most, "argument")
-        } else {
-            format!("{least} to {}", counted(most, "argument"))
-        };
-        let names: Vec<String> = (parameters.names.iter())
-            .map(|(name, optional)| format!("{name}{}", if *optional { "?" } else { "" }))
-            .collect();
-        let form = format!("{}({})", parameters.callee, names.join(", "));
-        problem
-            .expected(expected)
-            .found(given.to_string())
-            .note(form)
-    }
-
-    /// Looks for errors in the arguments of what cannot be called.
-    pub fn check_anyway(&mut self, arguments: &[ast::Argument]) {
-        for argument in arguments {
-            if let Some(value) = argument.value().filter(|value| !self.needs_hint(value)) {
-                self.infer(Some(value), None);
-            }
-        }
-    }
-
     pub fn not_callable(&mut self, value: &Expression) {
         if value.ty == Type::Error {
             return;
         }
         let message = format!("{} cannot be called", article(&self.name_of(&value.ty)));
         self.error(Code::NotCallable, value.span, message);
-    }
-
-    /// Warns if the `{}` of a text do not match the values after it.
-    fn check_format(&mut self, arguments: &[Option<Expression>], values: usize) {
-        let Some(Some(format)) = arguments.first() else {
-            return;
-        };
-        let ExpressionKind::String(text) = &format.kind else {
-            return;
-        };
-        let places = text.matches("{}").count();
-        if places != values {
-            let message = format!(
-                "the text has {places} `{{}}`, for {}",
-                counted(values, "value")
-            );
-            self.error(Code::FormatValues, format.span, message);
-        }
     }
 
     /// A call with the receiver or primitive that has it.

@@ -1,12 +1,11 @@
 //! Declarations: their values, bodies and effects.
 
 use alloc::format;
-use alloc::string::{String, ToString};
+use alloc::string::String;
 use alloc::vec::Vec;
 
+use super::arguments::Parameters;
 use super::body::{Body, Where};
-use super::call::Parameters;
-use super::collect::{first_word, name_of};
 use super::report::did_you_mean;
 use super::returns::always_returns;
 use super::scope::Entity;
@@ -15,7 +14,7 @@ use super::state::{Behaviour, Checker, Needed, Progress};
 use super::tables::{PRIMITIVES, Primitive, Signature};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::*;
-use crate::syntax::ast::{self, AstNode, Documented, Item};
+use crate::syntax::ast::{self, AstNode};
 
 /// The word that names a primitive where one is bound, and its place.
 pub(super) fn constructor(node: &ast::BindingDeclaration) -> Option<(String, Span)> {
@@ -249,99 +248,5 @@ impl Checker {
             _ => did_you_mean(problem, span, &word, names()),
         };
         self.report(problem.note(format!("there are {}", super::report::listed(names()))));
-    }
-
-    fn check_init(&mut self, role: Option<u16>, node: &ast::InitDeclaration) {
-        let (body, locals) = self.in_body(Where::Effect, |checker| checker.block(node.body()));
-        let procedure = Procedure { locals, body };
-        let roles = self.program.roles.as_mut();
-        let place = match role {
-            None => &mut self.program.init,
-            Some(number) => match roles.and_then(|roles| roles.roles.get_mut(number as usize)) {
-                Some(role) => &mut role.entry,
-                None => return,
-            },
-        };
-        if place.is_some() {
-            let span = first_word(node.syntax());
-            let problem =
-                Diagnostic::new(Code::SecondDeclaration, span, "there is an `init` already");
-            self.report(problem.note("put the statements into the first one"));
-        } else {
-            *place = Some(procedure);
-        }
-    }
-
-    fn check_action(&mut self, role: Option<u16>, node: &ast::ActionDeclaration) {
-        let Some(name) = name_of(node) else { return };
-        let actions = &self.program.actions;
-        let same = actions
-            .iter()
-            .find(|other| other.role == role && other.name == name.text);
-        if let Some(first) = same {
-            let message = format!("there are two actions `{}`", name.text);
-            let problem = Diagnostic::new(Code::DuplicateName, name.span, message);
-            let problem = problem.label(first.site.span, "the first one");
-            self.report(problem);
-        }
-        let ((guard, bindings, effect), locals) = self.in_body(Where::Guard, |checker| {
-            let guard = match node.pre() {
-                Some(pre) => checker.expect(pre.condition(), &Type::Bool, "the guard"),
-                None => Expression {
-                    kind: ExpressionKind::Bool(true),
-                    ty: Type::Bool,
-                    span: name.span,
-                },
-            };
-            let bindings = checker.body.names.iter().map(|(_, local)| *local).collect();
-            checker.body.place = Where::Effect;
-            let effect = checker.block(node.eff().and_then(|eff| eff.body()));
-            (guard, bindings, effect)
-        });
-        let guard = match self.in_role(role, name.span) {
-            Some(in_role) => Expression {
-                span: guard.span,
-                ty: Type::Bool,
-                kind: ExpressionKind::Binary {
-                    operator: Operator::And,
-                    left: alloc::boxed::Box::new(in_role),
-                    right: alloc::boxed::Box::new(guard),
-                },
-            },
-            None => guard,
-        };
-        let site = self.site(name.span);
-        self.program.actions.push(Action {
-            name: name.text,
-            role,
-            locals,
-            guard,
-            bindings,
-            effect,
-            site,
-            documentation: Item::Action(node.clone()).documentation().to_string(),
-        });
-    }
-
-    /// `role == ...`, for what belongs to a role.
-    pub fn in_role(&self, role: Option<u16>, span: Span) -> Option<Expression> {
-        let variable = self.program.roles.as_ref()?.variable;
-        let ty = self.program[variable].ty.clone();
-        let part = |kind| {
-            alloc::boxed::Box::new(Expression {
-                kind,
-                ty: ty.clone(),
-                span,
-            })
-        };
-        Some(Expression {
-            kind: ExpressionKind::Binary {
-                operator: Operator::Equal,
-                left: part(ExpressionKind::Variable(variable)),
-                right: part(ExpressionKind::Variant(role?)),
-            },
-            ty: Type::Bool,
-            span,
-        })
     }
 }

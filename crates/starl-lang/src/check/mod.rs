@@ -9,10 +9,15 @@
 //! the whole for what cannot be meant (`usage`, `control`). Types flow down as well as up: an expression is
 //! checked with the type that is expected of it, where that is known, and gives its type.
 
+mod arguments;
+mod arithmetic;
+mod behaviour;
 mod body;
+mod builtin;
 mod call;
 mod collect;
 mod collection;
+mod comparison;
 mod condition;
 mod constants;
 mod control;
@@ -29,6 +34,7 @@ mod operator;
 mod place;
 mod prelude;
 mod property;
+mod records;
 mod report;
 mod returns;
 mod scope;
@@ -39,6 +45,7 @@ mod tables;
 mod transitions;
 mod types;
 mod usage;
+mod value;
 
 use alloc::string::String;
 use alloc::vec::Vec;

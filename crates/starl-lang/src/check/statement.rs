@@ -3,8 +3,8 @@
 use alloc::format;
 use alloc::vec::Vec;
 
+use super::arithmetic::{resolve, result};
 use super::body::Where;
-use super::operator::{resolve, result};
 use super::report::{broken, made};
 use super::returns::always_returns;
 use super::state::Checker;

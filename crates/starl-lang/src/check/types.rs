@@ -1,7 +1,6 @@
 //! Types as they are written, and the types of declarations.
 
 use alloc::boxed::Box;
-use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -9,9 +8,9 @@ use alloc::vec::Vec;
 use super::collect::name_of;
 use super::report::did_you_mean;
 use super::scope::Entity;
-use super::state::{Checker, RecordNode};
+use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::ir::{Local, RecordField, RecordId, Type};
+use crate::ir::{Local, RecordId, Type};
 use crate::syntax::SyntaxToken;
 use crate::syntax::ast::{self, AstNode};
 
@@ -30,12 +29,6 @@ const BUILT_IN: &[&str] = &[
     "Set",
     "Map",
 ];
-
-/// How deep records may be nested.
-const DEEPEST: usize = 30;
-
-/// How many parts a record may have, with the parts of its parts.
-const LARGEST: u32 = 100;
 
 /// What people write who know other languages.
 const FOREIGN: &[(&str, &str)] = &[
@@ -101,34 +94,6 @@ impl Checker {
         self.file = 0;
     }
 
-    fn record_fields(&mut self, id: RecordId) {
-        let fields: Vec<ast::Field> = match &self.nodes.records[id.index()] {
-            RecordNode::Record(node) => node.fields().collect(),
-            RecordNode::Message(node) => node.fields().collect(),
-        };
-        self.file = self.program[id].site.file;
-        for field in fields {
-            let ty = self.written_or_error(field.ty());
-            let Some(name) = name_of(&field) else {
-                continue;
-            };
-            let fields = &self.program[id].fields;
-            if let Some(first) = fields.iter().find(|other| other.name == name.text) {
-                let message = format!("there are two fields `{}`", name.text);
-                let problem = Diagnostic::new(Code::DuplicateName, name.span, message);
-                let problem = problem.label(first.site.span, "the first one");
-                self.report(problem);
-                continue;
-            }
-            let site = self.site(name.span);
-            self.program[id].fields.push(RecordField {
-                name: name.text,
-                ty,
-                site,
-            });
-        }
-    }
-
     fn function_parameters(&mut self, node: &ast::FunctionDeclaration) -> Vec<Local> {
         let mut parameters: Vec<Local> = Vec::new();
         for parameter in node.parameters() {
@@ -149,93 +114,6 @@ impl Checker {
             });
         }
         parameters
-    }
-
-    /// Orders the records; one that contains itself is reported, and the field that closes the circle
-    /// gets no type.
-    fn order_records(&mut self) {
-        let mut order = Vec::new();
-        let mut done = BTreeSet::new();
-        for number in 0..self.program.records.len() {
-            self.visit_record(
-                RecordId(number as u32),
-                &mut Vec::new(),
-                &mut done,
-                &mut order,
-            );
-        }
-        self.program.record_order = order;
-    }
-
-    fn visit_record(
-        &mut self,
-        id: RecordId,
-        way: &mut Vec<RecordId>,
-        done: &mut BTreeSet<RecordId>,
-        order: &mut Vec<RecordId>,
-    ) {
-        if done.contains(&id) {
-            return;
-        }
-        way.push(id);
-        for number in 0..self.program[id].fields.len() {
-            let mut parts = Vec::new();
-            records_in(&self.program[id].fields[number].ty, &mut parts);
-            for part in parts {
-                if way.contains(&part) || way.len() > DEEPEST {
-                    self.report_recursion(id, number, part, way.contains(&part));
-                    self.program[id].fields[number].ty = Type::Error;
-                    break;
-                }
-                self.visit_record(part, way, done, order);
-            }
-        }
-        way.pop();
-        done.insert(id);
-        order.push(id);
-        self.check_size(id);
-    }
-
-    /// Reports a record whose values would have too many parts. Those that it is made of come before.
-    fn check_size(&mut self, id: RecordId) {
-        let fields = self.program[id].fields.iter();
-        let size = 1 + fields.map(|field| self.size(&field.ty)).sum::<u32>();
-        if size > LARGEST {
-            let site = self.program[id].site;
-            let message = format!("a `{}` has too many parts", self.program[id].name);
-            self.file = site.file;
-            let problem = Diagnostic::new(Code::TooLarge, site.span, message);
-            let note = format!(
-                "with the parts of its parts there are {size}, and at most {LARGEST}; lists and maps count as one"
-            );
-            self.report(problem.note(note));
-            self.program[id].fields.clear();
-        }
-        // What is made of one that is too large is not to blame.
-        self.sizes.insert(id, if size > LARGEST { 1 } else { size });
-    }
-
-    /// Of how many parts a value of the type is made; a part that holds many, such as a list, is one.
-    fn size(&self, of: &Type) -> u32 {
-        match of {
-            Type::Record(id) => self.sizes.get(id).copied().unwrap_or(1),
-            Type::Optional(inner) => 1 + self.size(inner),
-            Type::Point => 3,
-            _ => 1,
-        }
-    }
-
-    fn report_recursion(&mut self, id: RecordId, field: usize, part: RecordId, is_circle: bool) {
-        let (record, field) = (&self.program[id], &self.program[id].fields[field]);
-        self.file = record.site.file;
-        let message = if is_circle {
-            format!("a `{}` contains itself", self.program[part].name)
-        } else {
-            "records are nested too deeply here".into()
-        };
-        let problem = Diagnostic::new(Code::RecursiveType, field.site.span, message);
-        let note = "values have limited depth; refer to another one by its index or key";
-        self.report(problem.note(note));
     }
 
     /// A type that may be missing, which the parser reports.
@@ -439,18 +317,5 @@ impl Checker {
         let note = "keys are Bool, Int, String, RobotId, Time, Duration, Point, enums, and records of these";
         self.report(problem.note(note));
         false
-    }
-}
-
-/// The records that a type is made of.
-fn records_in(ty: &Type, found: &mut Vec<RecordId>) {
-    match ty {
-        Type::Record(id) => found.push(*id),
-        Type::List(part) | Type::Set(part) | Type::Optional(part) => records_in(part, found),
-        Type::Map(key, value) => {
-            records_in(key, found);
-            records_in(value, found);
-        }
-        _ => {}
     }
 }

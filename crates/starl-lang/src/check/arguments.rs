@@ -1,0 +1,229 @@
+//! Arguments: sorted by parameters, and checked against the types of those.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use super::report::{broken, counted, did_you_mean};
+use super::shape::Letters;
+use super::state::Checker;
+use super::tables::{Shape, Signature};
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::ir::{Expression, Type};
+use crate::syntax::ast::{self, AstNode};
+
+/// Arguments sorted by parameters.
+pub(super) struct Arranged {
+    pub values: Vec<Option<ast::Expression>>,
+    /// Those beyond the parameters, with their names.
+    pub rest: Vec<(Option<String>, ast::Expression)>,
+}
+
+/// What may be called with which arguments.
+pub(super) struct Parameters<'a> {
+    /// What is called, for messages.
+    pub callee: &'a str,
+    /// Names, and whether each may be left out.
+    pub names: Vec<(&'a str, bool)>,
+    pub takes_values: bool,
+    pub takes_fields: bool,
+}
+
+impl<'a> Parameters<'a> {
+    pub fn of(signature: &'a Signature) -> Self {
+        Self {
+            callee: signature.name,
+            names: (signature.parameters.iter())
+                .map(|parameter| (parameter.name, parameter.is_optional))
+                .collect(),
+            takes_values: signature.takes_values,
+            takes_fields: signature.takes_fields,
+        }
+    }
+}
+
+impl Checker {
+    /// An argument for each parameter, all of which must be given.
+    pub fn typed_arguments(
+        &mut self,
+        callee: &str,
+        parameters: &[(String, Type)],
+        arguments: &[ast::Argument],
+        span: Span,
+    ) -> Vec<Expression> {
+        let names = Parameters {
+            callee,
+            names: parameters
+                .iter()
+                .map(|(name, _)| (name.as_str(), false))
+                .collect(),
+            takes_values: false,
+            takes_fields: false,
+        };
+        let arranged = self.arrange(&names, arguments, span);
+        (arranged.values.into_iter().zip(parameters))
+            .map(|(value, (name, ty))| match value {
+                Some(value) => self.expect(Some(value), ty, &format!("the argument `{name}`")),
+                None => broken(span),
+            })
+            .collect()
+    }
+
+    /// Arguments by the shapes of a signature's parameters; those left out are none.
+    pub fn shaped_arguments(
+        &mut self,
+        signature: &Signature,
+        values: Vec<Option<ast::Expression>>,
+        letters: &mut Letters,
+        span: Span,
+    ) -> Vec<Option<Expression>> {
+        let mut checked = Vec::with_capacity(values.len());
+        for (value, parameter) in values.into_iter().zip(&signature.parameters) {
+            checked.push(match value {
+                Some(value) => {
+                    let role = format!("the argument `{}`", parameter.name);
+                    Some(self.shaped(value, &parameter.shape, letters, &role))
+                }
+                None if parameter.is_optional => None,
+                None => Some(broken(span)),
+            });
+        }
+        checked
+    }
+
+    pub fn shaped(
+        &mut self,
+        value: ast::Expression,
+        shape: &Shape,
+        letters: &mut Letters,
+        role: &str,
+    ) -> Expression {
+        if let Some(expected) = self.shape_type(shape, letters) {
+            return self.expect(Some(value), &expected, role);
+        }
+        let value = self.value(Some(value), None, role);
+        let before = letters.clone();
+        if self.shape_matches(shape, &value.ty, letters) {
+            return value;
+        }
+        *letters = before;
+        let code = if matches!(value.ty, Type::Optional(_)) {
+            Code::MayBeNone
+        } else {
+            Code::WrongType
+        };
+        let message = match code {
+            Code::MayBeNone => format!("{role} may be none"),
+            _ => format!("{role} has the wrong type"),
+        };
+        let problem = Diagnostic::new(code, value.span, message);
+        let expected = self.shape_name(shape, letters);
+        let found = self.name_of(&value.ty);
+        self.report(problem.expected(expected).found(found));
+        broken(value.span)
+    }
+
+    /// Sorts arguments by parameters and reports what does not fit.
+    pub fn arrange(
+        &mut self,
+        parameters: &Parameters<'_>,
+        arguments: &[ast::Argument],
+        span: Span,
+    ) -> Arranged {
+        let mut values: Vec<Option<ast::Expression>> =
+            parameters.names.iter().map(|_| None).collect();
+        let mut rest = Vec::new();
+        let mut position = 0;
+        let mut surplus = None;
+        for argument in arguments {
+            let Some(value) = argument.value() else {
+                continue;
+            };
+            let Some(name) = argument.name() else {
+                match values.get_mut(position) {
+                    Some(place @ None) => *place = Some(value),
+                    Some(_) => {}
+                    None if parameters.takes_values => rest.push((None, value)),
+                    None => surplus = surplus.or(Some((argument.span(), value))),
+                }
+                position += 1;
+                continue;
+            };
+            let (text, at) = (name.text(), name.span());
+            match parameters.names.iter().position(|(own, _)| *own == text) {
+                Some(number) if values[number].is_none() => values[number] = Some(value),
+                Some(_) => {
+                    let message = format!("`{text}` is given twice");
+                    self.error(Code::ArgumentCount, at, message);
+                }
+                None if parameters.takes_fields => rest.push((Some(text), value)),
+                None => {
+                    let message = format!("`{}` has no parameter `{text}`", parameters.callee);
+                    let problem = Diagnostic::new(Code::ArgumentName, at, message);
+                    let names = parameters.names.iter().map(|(name, _)| *name);
+                    let problem = did_you_mean(problem, at, &text, names);
+                    self.report(problem);
+                    // What it was meant for is not missing.
+                    return Arranged { values, rest };
+                }
+            }
+        }
+        let given = arguments.len();
+        if let Some((at, _)) = surplus {
+            self.wrong_count(parameters, given, at);
+        } else if let Some((name, _)) = (parameters.names.iter().zip(&values))
+            .find(|((_, optional), value)| !optional && value.is_none())
+            .map(|(parameter, _)| *parameter)
+        {
+            let message = format!("`{}` needs `{name}`", parameters.callee);
+            let at = Span::new(span.end.saturating_sub(1), span.end);
+            let problem = Diagnostic::new(Code::ArgumentCount, at, message);
+            let problem = self.with_count(problem, parameters, given);
+            self.report(problem);
+        }
+        Arranged { values, rest }
+    }
+
+    pub fn wrong_count(&mut self, parameters: &Parameters<'_>, given: usize, at: Span) {
+        let message = format!("`{}` takes no such argument", parameters.callee);
+        let problem = Diagnostic::new(Code::ArgumentCount, at, message);
+        let problem = self.with_count(problem, parameters, given);
+        self.report(problem);
+    }
+
+    pub fn with_count(
+        &self,
+        problem: Diagnostic,
+        parameters: &Parameters<'_>,
+        given: usize,
+    ) -> Diagnostic {
+        let most = parameters.names.len();
+        let least = parameters
+            .names
+            .iter()
+            .filter(|(_, optional)| !optional)
+            .count();
+        let expected = if least == most {
+            counted(most, "argument")
+        } else {
+            format!("{least} to {}", counted(most, "argument"))
+        };
+        let names: Vec<String> = (parameters.names.iter())
+            .map(|(name, optional)| format!("{name}{}", if *optional { "?" } else { "" }))
+            .collect();
+        let form = format!("{}({})", parameters.callee, names.join(", "));
+        problem
+            .expected(expected)
+            .found(given.to_string())
+            .note(form)
+    }
+
+    /// Looks for errors in the arguments of what cannot be called.
+    pub fn check_anyway(&mut self, arguments: &[ast::Argument]) {
+        for argument in arguments {
+            if let Some(value) = argument.value().filter(|value| !self.needs_hint(value)) {
+                self.infer(Some(value), None);
+            }
+        }
+    }
+}

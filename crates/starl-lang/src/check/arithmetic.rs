@@ -1,0 +1,147 @@
+//! Operators of arithmetic: which types they join, and what to say where they do not.
+
+use alloc::format;
+
+use super::fit::same;
+use super::operator::joined;
+use super::report::{around, broken};
+use super::shape::is_ordered;
+use super::state::Checker;
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::ir::{Expression, ExpressionKind, Operator, Type};
+use crate::syntax::ast::BinaryOperator;
+
+impl Checker {
+    /// An operator of arithmetic, between values that were checked.
+    pub fn arithmetic(
+        &mut self,
+        operator: BinaryOperator,
+        left: Expression,
+        right: Expression,
+        span: Span,
+    ) -> Expression {
+        if left.ty == Type::Error || right.ty == Type::Error {
+            return broken(span);
+        }
+        let (Some(ty), Some(resolved)) = (result(operator, &left.ty, &right.ty), resolve(operator))
+        else {
+            self.report_operator(operator, &left, &right, span);
+            return broken(span);
+        };
+        joined(resolved, left, right, ty, span)
+    }
+
+    pub fn report_operator(
+        &mut self,
+        operator: BinaryOperator,
+        left: &Expression,
+        right: &Expression,
+        span: Span,
+    ) {
+        let sign = operator.text();
+        let (l, r) = (self.name_of(&left.ty), self.name_of(&right.ty));
+        for side in [left, right] {
+            if let Type::Optional(inner) = &side.ty
+                && (result(operator, inner, inner).is_some() || is_ordered(inner))
+            {
+                let message = format!("what `{sign}` joins may be none");
+                let problem = Diagnostic::new(Code::MayBeNone, side.span, message);
+                let problem = problem.found(self.name_of(&side.ty));
+                self.report(problem.note(
+                    "ask first with `if some x = ...`, or say what it is then with `?? ...`",
+                ));
+                return;
+            }
+        }
+        if let (Type::Int, Type::Float) | (Type::Float, Type::Int) = (&left.ty, &right.ty) {
+            let int = if left.ty == Type::Int { left } else { right };
+            let message = format!("`{sign}` does not mix {l} and {r}");
+            let problem = Diagnostic::new(Code::MixedNumbers, span, message);
+            let problem = problem.label(int.span, "this is an Int");
+            self.report(match int.kind {
+                ExpressionKind::Int(_) => {
+                    let float = format!("{}.0", self.text(int.span));
+                    problem.replace(format!("write `{float}`"), int.span, float)
+                }
+                _ => problem.mend(around(
+                    "convert it with `Float(...)`",
+                    int.span,
+                    "Float(",
+                    ")",
+                )),
+            });
+            return;
+        }
+        let compares = matches!(
+            operator,
+            BinaryOperator::Equal
+                | BinaryOperator::NotEqual
+                | BinaryOperator::Less
+                | BinaryOperator::LessEqual
+                | BinaryOperator::Greater
+                | BinaryOperator::GreaterEqual
+        );
+        let message = match (compares, left.ty == right.ty) {
+            (true, true) => format!("`{sign}` does not compare {l}"),
+            (true, false) => format!("`{sign}` does not compare {l} with {r}"),
+            (false, _) => format!("`{sign}` does not join {l} and {r}"),
+        };
+        let problem = Diagnostic::new(Code::OperatorTypes, span, message);
+        let problem = problem.label(left.span, l).label(right.span, r);
+        self.report(match (&left.ty, &right.ty, operator) {
+            (Type::String, _, BinaryOperator::Add) => problem.mend(around(
+                "make a text of it with `String(...)`",
+                right.span,
+                "String(",
+                ")",
+            )),
+            (_, Type::String, BinaryOperator::Add) => problem.mend(around(
+                "make a text of it with `String(...)`",
+                left.span,
+                "String(",
+                ")",
+            )),
+            (Type::Set(_), Type::Set(_), BinaryOperator::Add) => problem.note("it is `a.union(b)`"),
+            (Type::Set(_), Type::Set(_), BinaryOperator::Subtract) => {
+                problem.note("it is `a.difference(b)`")
+            }
+            (Type::Duration, Type::Int | Type::Float, _)
+            | (Type::Int | Type::Float, Type::Duration, _) => {
+                problem.note("a duration is written with its unit, such as `2s`")
+            }
+            _ => problem,
+        });
+    }
+}
+
+/// The operator of arithmetic, resolved.
+pub(super) fn resolve(operator: BinaryOperator) -> Option<Operator> {
+    Some(match operator {
+        BinaryOperator::Add => Operator::Add,
+        BinaryOperator::Subtract => Operator::Subtract,
+        BinaryOperator::Multiply => Operator::Multiply,
+        BinaryOperator::Divide => Operator::Divide,
+        BinaryOperator::Remainder => Operator::Remainder,
+        _ => return None,
+    })
+}
+
+/// The type of what an operator of arithmetic gives; none if it does not join the two.
+pub(super) fn result(operator: BinaryOperator, left: &Type, right: &Type) -> Option<Type> {
+    use BinaryOperator::{Add, Divide, Multiply, Remainder, Subtract};
+    use Type::{Duration, Float, Int, List, Point, String, Time};
+    Some(match (operator, left, right) {
+        (Add | Subtract | Multiply | Divide | Remainder, Int, Int) => Int,
+        (Add | Subtract | Multiply | Divide, Float, Float) => Float,
+        (Add | Subtract, Duration, Duration) => Duration,
+        (Add | Subtract, Time, Duration) | (Add, Duration, Time) => Time,
+        (Subtract, Time, Time) => Duration,
+        (Multiply | Divide, Duration, Int | Float) | (Multiply, Int | Float, Duration) => Duration,
+        (Divide, Duration, Duration) => Float,
+        (Add | Subtract, Point, Point) => Point,
+        (Multiply | Divide, Point, Float) | (Multiply, Float, Point) => Point,
+        (Add, String, String) => String,
+        (Add, List(a), List(b)) if same(a, b) => left.clone(),
+        _ => return None,
+    })
+}

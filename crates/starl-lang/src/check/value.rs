@@ -1,0 +1,207 @@
+//! What is declared, as a value: where it may be read, and of which type it is.
+
+use alloc::boxed::Box;
+use alloc::format;
+
+use super::body::Where;
+use super::report::{broken, made};
+use super::scope::Entity;
+use super::state::{Checker, Needed, Progress};
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::ir::{Expression, ExpressionKind, RobotMember, Type};
+
+impl Checker {
+    /// A declaration, of this file or of a library, as a value.
+    pub fn entity_value(&mut self, entity: Entity, name: &str, span: Span) -> Expression {
+        self.usage.used.insert(entity);
+        match entity {
+            Entity::Parameter(id) => self.parameter_value(id, name, span),
+            Entity::Constant(id) => {
+                self.need(Needed::Constant(id));
+                let ty = self.constant_type(id);
+                made(ExpressionKind::Constant(id), ty, span)
+            }
+            Entity::Variable(id) => self.variable_value(id, name, span),
+            Entity::Shared(id) => self.shared_value(id, name, span),
+            Entity::Broken => broken(span),
+            Entity::Enum(id) => {
+                let message = format!("`{name}` is an enum, not a value");
+                let problem = Diagnostic::new(Code::NoValue, span, message);
+                let first = self.program[id].variants.first();
+                let form =
+                    first.map(|variant| format!("a value is written `{}.{}`", name, variant.name));
+                self.report(match form {
+                    Some(form) => problem.note(form),
+                    None => problem,
+                });
+                broken(span)
+            }
+            Entity::Function(_) | Entity::Record(_) => {
+                let message = format!("`{name}` is {}, not a value", entity.what());
+                let problem = Diagnostic::new(Code::NoValue, span, message);
+                self.report(problem.note(format!("it is called: `{name}(...)`")));
+                broken(span)
+            }
+            Entity::Binding(_) | Entity::Library(_) => {
+                let message = format!("`{name}` is {}, not a value", entity.what());
+                let problem = Diagnostic::new(Code::NoValue, span, message);
+                self.report(problem.note(format!("what it has is named `{name}.something`")));
+                broken(span)
+            }
+        }
+    }
+
+    pub fn parameter_value(
+        &mut self,
+        id: crate::ir::ParameterId,
+        name: &str,
+        span: Span,
+    ) -> Expression {
+        match self.body.place {
+            Where::Constant | Where::Function => {
+                self.state_out_of_reach(name, span);
+                broken(span)
+            }
+            Where::Property => {
+                // A parameter may differ between robots; where nothing else is said it is that of the
+                // robot named last.
+                let robot = self.body.names.last().map(|(_, robot)| *robot);
+                let Some(robot) = robot.or(self.body.robot) else {
+                    return self.of_no_robot(name, span);
+                };
+                let robot = self.local_value(robot, span);
+                self.of_robot(robot, RobotMember::Parameter(id), span)
+            }
+            _ => {
+                let ty = self.program[id].ty.clone();
+                made(ExpressionKind::Parameter(id), ty, span)
+            }
+        }
+    }
+
+    /// Notes that what is being checked needs a constant or a function.
+    pub fn need(&mut self, needed: Needed) {
+        if let Some(user) = self.user {
+            self.needs.insert((user, needed));
+        }
+    }
+
+    pub fn constant_type(&mut self, id: crate::ir::ConstantId) -> Type {
+        // Constants are checked in the order of need, so that only one which needs itself is found
+        // unchecked here; that is reported when they are ordered.
+        if self.constants[id.index()] == Progress::Untouched && self.user.is_none() {
+            self.check_constant(id);
+        }
+        self.program[id].ty.clone()
+    }
+
+    pub fn variable_value(
+        &mut self,
+        id: crate::ir::VariableId,
+        name: &str,
+        span: Span,
+    ) -> Expression {
+        let ty = self.program[id].ty.clone();
+        let kind = match self.body.place {
+            Where::Guard | Where::Effect => ExpressionKind::Variable(id),
+            Where::Initial(own) if id < own => ExpressionKind::Variable(id),
+            Where::Initial(_) => {
+                let message = format!("`{name}` has no value yet");
+                let problem = Diagnostic::new(Code::UsedTooEarly, span, message);
+                let note = "variables get their first values in the order of the text";
+                self.report(problem.note(note));
+                return broken(span);
+            }
+            Where::Property => return self.property_variable(id, name, span),
+            Where::Constant | Where::Function | Where::Binding => {
+                self.state_out_of_reach(name, span);
+                return broken(span);
+            }
+        };
+        made(kind, ty, span)
+    }
+
+    /// In a property a variable is one of a robot.
+    pub fn property_variable(
+        &mut self,
+        id: crate::ir::VariableId,
+        name: &str,
+        span: Span,
+    ) -> Expression {
+        if let Some(robot) = self.robot_of_property(span) {
+            return self.of_robot(robot, RobotMember::Variable(id), span);
+        }
+        self.of_no_robot(name, span)
+    }
+
+    pub fn of_no_robot(&mut self, name: &str, span: Span) -> Expression {
+        let message = format!("it is not said of which robot `{name}` is");
+        let problem = Diagnostic::new(Code::InvalidProperty, span, message);
+        let robot = (self.body.names.last()).map_or("r", |(robot, _)| robot.as_str());
+        let meant = format!("{robot}.{name}");
+        self.report(problem.replace(format!("did you mean `{meant}`?"), span, meant));
+        broken(span)
+    }
+
+    /// The robot that a property without quantifier is about.
+    pub fn robot_of_property(&mut self, span: Span) -> Option<Expression> {
+        let robot = self.body.robot?;
+        Some(self.local_value(robot, span))
+    }
+
+    /// What a property says of a robot.
+    pub fn of_robot(&self, robot: Expression, member: RobotMember, span: Span) -> Expression {
+        let ty = match member {
+            RobotMember::Variable(id) => self.program[id].ty.clone(),
+            RobotMember::Parameter(id) => self.program[id].ty.clone(),
+            RobotMember::Position | RobotMember::Velocity => Type::Point,
+            RobotMember::Heading => Type::Float,
+            RobotMember::Finished | RobotMember::Up => Type::Bool,
+            RobotMember::Id => Type::Robot,
+        };
+        let robot = Box::new(robot);
+        made(ExpressionKind::OfRobot { robot, member }, ty, span)
+    }
+
+    /// Reports state where it cannot be seen.
+    pub fn state_out_of_reach(&mut self, name: &str, span: Span) {
+        let what = self.body.place.what();
+        let message = format!("{what} cannot read `{name}`");
+        let problem = Diagnostic::new(Code::StateOutOfReach, span, message);
+        let note = match self.body.place {
+            Where::Function => {
+                "a function depends on its arguments and on constants; hand the value to it"
+            }
+            Where::Binding => "it is made of constants, parameters, `me` and `peers`",
+            _ => "it is the same for all robots and all runs",
+        };
+        self.report(problem.note(note));
+    }
+
+    pub fn shared_value(&mut self, id: crate::ir::SharedId, name: &str, span: Span) -> Expression {
+        match self.body.place {
+            Where::Guard | Where::Effect => {}
+            Where::Property => {
+                let message = format!("a property cannot read the shared variable `{name}`");
+                let problem = Diagnostic::new(Code::InvalidProperty, span, message);
+                let note = "robots may see different values of it; say it of their own variables";
+                self.report(problem.note(note));
+                return broken(span);
+            }
+            _ => {
+                self.state_out_of_reach(name, span);
+                return broken(span);
+            }
+        }
+        self.body.touched.push(id);
+        let shared = &self.program[id];
+        let ty = shared.ty.clone();
+        if shared.is_single_writer {
+            let ty = Type::map(Type::Robot, ty);
+            return made(ExpressionKind::SharedMap(id), ty, span);
+        }
+        let has_value = self.nodes.shared[id.index()].value().is_some();
+        let ty = if has_value { ty } else { Type::optional(ty) };
+        made(ExpressionKind::Shared(id), ty, span)
+    }
+}
