@@ -235,6 +235,15 @@ impl Checker {
 
     fn unknown_primitive(&mut self, node: &ast::BindingDeclaration) {
         let Some((word, span)) = constructor(node) else {
+            // What is no call at all is reported by the parser.
+            if let Some(ast::Expression::Call(call)) = node.value()
+                && let Some(callee) = call.callee()
+            {
+                let message = "this is no primitive";
+                let problem = Diagnostic::new(Code::UnknownPrimitive, callee.span(), message);
+                let names = PRIMITIVES.iter().map(Primitive::name);
+                self.report(problem.note(format!("there are {}", super::report::listed(names))));
+            }
             return;
         };
         let message = format!("there is no primitive `{word}`");

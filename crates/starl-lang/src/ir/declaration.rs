@@ -202,7 +202,8 @@ pub struct Handler {
     pub event: Event,
     /// The role whose robots do it, by its variant; the body says so too.
     pub role: Option<u16>,
-    /// The locals that get the sender and the fields, or what the event carries; none for `_`.
+    /// The locals that get the sender and the fields, or what the event carries; none for `_`. Of what
+    /// a primitive's event carries the last parts may be missing here.
     pub parameters: Vec<Option<LocalId>>,
     /// The local variables.
     pub locals: Vec<Local>,
