@@ -11,6 +11,10 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Expression, ExpressionKind, Operator, Type};
 use crate::syntax::ast::BinaryOperator;
 
+/// What is said where two types look the same.
+pub(super) const SAME_NAME: &str =
+    "these are two types that are declared apart; declare one, with a name, and use it twice";
+
 impl Checker {
     /// An operator of arithmetic, between values that were checked.
     pub fn arithmetic(
@@ -87,8 +91,10 @@ impl Checker {
             (false, _) => format!("`{sign}` does not join {l} and {r}"),
         };
         let problem = Diagnostic::new(Code::OperatorTypes, span, message);
+        let look_the_same = l == r && left.ty != right.ty;
         let problem = problem.label(left.span, l).label(right.span, r);
         self.report(match (&left.ty, &right.ty, operator) {
+            _ if look_the_same => problem.note(SAME_NAME),
             (Type::String, _, BinaryOperator::Add) => problem.mend(around(
                 "make a text of it with `String(...)`",
                 right.span,

@@ -120,7 +120,13 @@ impl Checker {
                 }
                 problem
             }
-            _ => problem(Code::WrongType, format!("{role} has the wrong type")),
+            _ => {
+                let problem = problem(Code::WrongType, format!("{role} has the wrong type"));
+                if self.name_of(found) == self.name_of(expected) {
+                    return problem.note(super::arithmetic::SAME_NAME);
+                }
+                problem
+            }
         }
     }
 }
