@@ -31,7 +31,8 @@ pub struct Figures {
     pub speed_factor: f64,
     pub messages_delivered: u64,
     pub messages_delivered_per_cpu_second: f64,
-    /// Growth of the process's memory, at its peak, from after a rehearsal with few robots; none where the system does not tell it.
+    /// Growth of the process's memory, at its peak, from after a rehearsal with few robots; none where
+    /// the system does not tell it.
     pub bytes_per_robot: Option<f64>,
     pub peak_memory_bytes: Option<u64>,
     pub collisions: u64,

@@ -47,8 +47,8 @@ pub fn radio(arguments: &RadioArguments) -> Workload {
     }
 }
 
-/// Robots with 24 range rays each. Nothing is random but where the robots start, and messages arrive at the next tick, as in the
-/// systems that this is compared with.
+/// Robots with 24 range rays each. Nothing is random but where the robots start, and messages arrive at
+/// the next tick, as in the systems that this is compared with.
 fn scenario(program: &str, robots: u32, load: &LoadArguments, network: &str) -> String {
     let side = (f64::from(robots) * FLOOR).sqrt();
     let LoadArguments { seconds, seed, .. } = load;
