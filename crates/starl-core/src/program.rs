@@ -1,6 +1,7 @@
 //! The contract of a robot's program.
 
 use crate::{Message, Primitive, Random, Robot, TimerKey};
+use core::any::Any;
 use dyn_clone::DynClone;
 use serde::{Deserialize, Serialize};
 
@@ -52,6 +53,12 @@ pub trait Program: DynClone + Send + Sync {
     /// (self-stabilisation, Dijkstra 1974).
     fn corrupt(&mut self, random: &mut Random) {
         let _ = random;
+    }
+
+    /// What the program shows to those who watch a run, e.g. its variables to a monitor of its
+    /// properties. The watcher asks for the type that it knows.
+    fn inspect(&self) -> Option<&dyn Any> {
+        None
     }
 }
 
