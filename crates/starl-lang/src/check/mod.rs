@@ -39,6 +39,7 @@ mod report;
 mod returns;
 mod scope;
 mod shape;
+mod standard;
 mod state;
 mod statement;
 mod tables;
@@ -56,6 +57,7 @@ use crate::syntax::{Parse, parse};
 
 pub use libraries::{Libraries, NoLibraries};
 pub use prelude::PRELUDE;
+pub use standard::{STANDARD, StandardLibraries};
 pub use tables::{
     BUILTINS, Builtin, Event, METHODS, Member, Method, PRIMITIVES, Parameter, Primitive, Purity,
     Shape, Signature,

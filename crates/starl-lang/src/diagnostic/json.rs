@@ -14,6 +14,17 @@ use super::{Diagnostic, LineIndex, Severity, Span};
 /// `column` (characters), both from 1.
 #[must_use]
 pub fn json(name: &str, source: &str, diagnostics: &[Diagnostic]) -> String {
+    let reports = reports(name, source, diagnostics);
+    serde_json::to_string_pretty(&reports).expect("strings and numbers have a JSON form")
+}
+
+/// The same as values, to be part of something larger.
+#[must_use]
+pub fn reports<'a>(
+    name: &'a str,
+    source: &str,
+    diagnostics: &'a [Diagnostic],
+) -> Vec<impl Serialize + use<'a>> {
     let lines = LineIndex::new(source);
     let place = |offset: u32| {
         let position = lines.position(source, offset.min(source.len() as u32));
@@ -28,7 +39,7 @@ pub fn json(name: &str, source: &str, diagnostics: &[Diagnostic]) -> String {
         end: place(span.end),
         words,
     };
-    let problems: Vec<Problem<'_>> = diagnostics
+    diagnostics
         .iter()
         .map(|diagnostic| Problem {
             code: diagnostic.code.number(),
@@ -54,8 +65,7 @@ pub fn json(name: &str, source: &str, diagnostics: &[Diagnostic]) -> String {
                     .collect(),
             }),
         })
-        .collect();
-    serde_json::to_string_pretty(&problems).expect("strings and numbers have a JSON form")
+        .collect::<Vec<Problem<'a>>>()
 }
 
 #[derive(Serialize)]

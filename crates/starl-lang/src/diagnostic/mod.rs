@@ -14,7 +14,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 pub use code::Code;
-pub use json::json;
+pub use json::{json, reports};
 pub use mend::{Edit, Mend};
 pub use position::{LineIndex, Position};
 pub use render::{Colour, render};
