@@ -2,7 +2,10 @@
 
 use crate::event::{Event, Name};
 use crate::{MotionRequest, Payload, Port, RobotId, time::Duration};
+use alloc::boxed::Box;
 use alloc::vec::Vec;
+use core::any::Any;
+use core::fmt;
 use serde::{Deserialize, Serialize};
 
 /// To whom a transmission goes.
@@ -63,4 +66,36 @@ pub struct Effects {
     pub list: Vec<Effect>,
     /// Messages that primitives hand up to their own robot's program.
     pub(crate) upcalls: Vec<crate::Message>,
+    /// Room for work.
+    pub(crate) scratch: Scratch,
+}
+
+/// Working memory that outlives an input, so that a state machine need not make it anew each time. A
+/// host that uses the same [`Effects`] for many robots has it once for all of them: nothing in it may
+/// make a difference to what a state machine does. Copies are empty.
+#[derive(Default)]
+pub(crate) struct Scratch(Option<Box<dyn Any + Send + Sync>>);
+
+impl Scratch {
+    /// Takes what was kept; none if there is nothing or something of another type.
+    pub fn take<T: Any + Send + Sync>(&mut self) -> Option<Box<T>> {
+        self.0.take()?.downcast().ok()
+    }
+
+    /// Keeps something.
+    pub fn keep<T: Any + Send + Sync>(&mut self, content: Box<T>) {
+        self.0 = Some(content);
+    }
+}
+
+impl Clone for Scratch {
+    fn clone(&self) -> Scratch {
+        Scratch::default()
+    }
+}
+
+impl fmt::Debug for Scratch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Scratch")
+    }
 }

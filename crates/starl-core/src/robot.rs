@@ -8,7 +8,9 @@ use crate::{
     Command, Destination, Duration, Effect, Estimate, Event, MotionRequest, Point, Port, Random,
     RobotId, Sensors, Time, TimerKey,
 };
+use alloc::boxed::Box;
 use alloc::vec::Vec;
+use core::any::Any;
 use serde::{Deserialize, Serialize};
 
 /// A named place given to programs as input.
@@ -185,11 +187,13 @@ impl<'a> Robot<'a> {
         name: impl Into<Name>,
         fields: [(&'static str, Value); N],
     ) {
-        let event = Event::Program {
-            name: name.into(),
-            fields: named(fields),
-        };
-        self.push(Effect::Record(event));
+        self.emit_fields(name, named(fields));
+    }
+
+    /// [`Robot::emit`] of fields whose names are not known at compile time.
+    pub fn emit_fields(&mut self, name: impl Into<Name>, fields: Fields) {
+        let name = name.into();
+        self.push(Effect::Record(Event::Program { name, fields }));
     }
 
     /// Reports a command to, or an outcome of, the primitive instance at `port`.
@@ -241,6 +245,18 @@ impl<'a> Robot<'a> {
             port,
             payload,
         });
+    }
+
+    /// Working memory of this type: what was left by [`Robot::return_scratch`], perhaps for another
+    /// robot, or new. It spares making it anew for each input; nothing in it may make a difference to
+    /// what the program does.
+    pub fn take_scratch<T: Any + Default + Send + Sync>(&mut self) -> Box<T> {
+        self.effects.scratch.take().unwrap_or_default()
+    }
+
+    /// Leaves working memory for the next input.
+    pub fn return_scratch<T: Any + Send + Sync>(&mut self, scratch: Box<T>) {
+        self.effects.scratch.keep(scratch);
     }
 
     pub(crate) fn has_upcalls(&self) -> bool {
