@@ -5,6 +5,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::report::{broken, counted, did_you_mean};
+use super::resolution::Symbol;
 use super::shape::Letters;
 use super::state::Checker;
 use super::tables::{Shape, Signature};
@@ -218,10 +219,25 @@ impl Checker {
             .note(form)
     }
 
+    /// Notes what the names of arguments stand for.
+    pub fn resolve_names(
+        &mut self,
+        arguments: &[ast::Argument],
+        symbol: impl Fn(&Self, &str) -> Option<Symbol>,
+    ) {
+        for name in arguments.iter().filter_map(ast::Argument::name) {
+            if let Some(symbol) = symbol(self, &name.text()) {
+                self.resolve(name.span(), symbol);
+            }
+        }
+    }
+
     /// Looks for errors in the arguments of what cannot be called.
     pub fn check_anyway(&mut self, arguments: &[ast::Argument]) {
         for argument in arguments {
-            if let Some(value) = argument.value().filter(|value| !self.needs_hint(value)) {
+            let can_be_checked =
+                |value: &ast::Expression| !self.needs_hint(value) || self.holds_probe(value);
+            if let Some(value) = argument.value().filter(can_be_checked) {
                 self.infer(Some(value), None);
             }
         }

@@ -7,12 +7,13 @@ use alloc::vec::Vec;
 
 use super::arguments::Parameters;
 use super::report::{article, broken, made};
+use super::resolution::Symbol;
 use super::scope::Entity;
 use super::shape::Letters;
 use super::state::{Checker, Needed};
 use super::tables::{Builtin, Primitive};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::ir::{Expression, ExpressionKind, FunctionId, RecordId, Root, Type};
+use crate::ir::{Expression, ExpressionKind, FunctionId, RecordId, Root, Site, Type};
 use crate::syntax::ast::{self, AstNode};
 
 impl Checker {
@@ -48,13 +49,16 @@ impl Checker {
             Some(Entity::Function(_) | Entity::Record(_) | Entity::Broken)
         );
         if let Some(entity) = declared.filter(|_| callable && !local) {
+            self.resolve_entity(at, entity);
             return self.call_entity(entity, &name, arguments, span);
         }
         if let Some(builtin) = Builtin::named(&name) {
+            self.resolve(at, Symbol::Builtin(builtin));
             return self.call_builtin(builtin, at, arguments, span);
         }
         let common = &self.files[super::prelude::FILE as usize].scope;
         if let Some(declared) = common.get(&name).copied() {
+            self.resolve_entity(at, declared.entity);
             return self.call_entity(declared.entity, &name, arguments, span);
         }
         if local || declared.is_some() {
@@ -68,6 +72,9 @@ impl Checker {
     }
 
     fn unknown_function(&mut self, name: &str, span: Span) {
+        if self.is_probe(span) {
+            self.note_probed_value(None);
+        }
         if self.may_be_unread(name) {
             return;
         }
@@ -121,6 +128,13 @@ impl Checker {
     ) -> Expression {
         self.usage.used.insert(Entity::Function(id));
         self.need(Needed::Function(id));
+        self.resolve_names(arguments, |checker, name| {
+            let function = &checker.program[id];
+            let mut parameters = function.locals[..function.parameters as usize].iter();
+            let span = parameters.find(|local| local.name == name)?.span;
+            let file = function.site.file;
+            Some(Symbol::Local(Site { file, span }))
+        });
         let function = &self.program[id];
         let result = function.result.clone();
         let name = function.name.clone();
@@ -141,6 +155,11 @@ impl Checker {
         if self.program[id].is_message {
             self.usage.sent.insert(id.0);
         }
+        self.resolve_names(arguments, |checker, name| {
+            let mut fields = checker.program[id].fields.iter();
+            let number = fields.position(|field| field.name == name)?;
+            Some(Symbol::Field(id, number as u32))
+        });
         let record = &self.program[id];
         let name = record.name.clone();
         let fields: Vec<(String, Type)> = (record.fields.iter())

@@ -203,6 +203,7 @@ impl Checker {
         let Some(name) = name_of(node) else { return };
         let imported = self.files[self.file as usize].imports.get(&name.text);
         let entity = imported.map_or(Entity::Broken, |file| Entity::Library(*file));
+        self.resolve_entity(name.span, entity);
         self.declare(&name, entity);
     }
 

@@ -7,10 +7,12 @@ use alloc::vec::Vec;
 use super::arguments::Parameters;
 use super::body::{Body, Where};
 use super::report::did_you_mean;
+use super::resolution::Symbol;
 use super::returns::always_returns;
 use super::scope::Entity;
 use super::shape::Letters;
 use super::state::{Behaviour, Checker, Needed, Progress};
+use super::surroundings::Surroundings;
 use super::tables::{PRIMITIVES, Primitive, Signature};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::*;
@@ -69,6 +71,7 @@ impl Checker {
             self.unused_locals
                 .extend(unread.map(|(code, local)| (code, local.span, local.name.clone())));
         }
+        self.resolve_locals(&body.locals);
         (result, body.locals)
     }
 
@@ -220,6 +223,10 @@ impl Checker {
                 self.unknown_primitive(&node);
                 continue;
             };
+            let word = constructor(&node);
+            if let (Some((_, at)), Some(symbol)) = (word, Symbol::primitive(primitive)) {
+                self.resolve(at, symbol);
+            }
             let signature = Signature::read(primitive.constructor);
             let (values, locals) = self.in_body(Where::Binding, |checker| {
                 let arranged =
@@ -246,6 +253,9 @@ impl Checker {
             }
             return;
         };
+        if self.is_probe(span) {
+            self.note_probe(Surroundings::Primitive);
+        }
         let message = format!("there is no primitive `{word}`");
         let problem = Diagnostic::new(Code::UnknownPrimitive, span, message);
         let names = || PRIMITIVES.iter().map(Primitive::name);

@@ -6,9 +6,11 @@ use alloc::vec::Vec;
 
 use super::body::Where;
 use super::report::{counted, did_you_mean, listed};
+use super::resolution::Symbol;
 use super::scope::Entity;
 use super::shape::Letters;
 use super::state::Checker;
+use super::surroundings::Surroundings;
 use super::tables::Event as EventSignature;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Event, Handler, Statement, StatementKind, Type};
@@ -83,6 +85,7 @@ impl Checker {
         {
             self.usage.handled.insert(id.0);
             self.usage.used.insert(Entity::Record(id));
+            self.resolve(span, Symbol::Record(id));
             let fields = self.program[id].fields.iter();
             let fields = fields.map(|field| (field.name.clone(), field.ty.clone()));
             let sender = ("from".to_string(), Type::Robot);
@@ -90,6 +93,9 @@ impl Checker {
                 Event::Message(id),
                 Some([sender].into_iter().chain(fields).collect()),
             );
+        }
+        if self.is_probe(span) {
+            self.note_probe(Surroundings::Event);
         }
         if entity == Some(Entity::Broken) || self.may_be_unread(name) {
             return (Event::Error, None);
@@ -126,6 +132,9 @@ impl Checker {
         let span = Span::from(primitive.text_range());
         let scope = &self.files[0].scope;
         let entity = scope.get(primitive.text()).map(|declared| declared.entity);
+        if self.is_probe(span) {
+            self.note_probe(Surroundings::Event);
+        }
         let Some(Entity::Binding(id)) = entity else {
             if entity != Some(Entity::Broken) && !self.may_be_unread(primitive.text()) {
                 let message = format!("there is no primitive `{}`", primitive.text());
@@ -141,6 +150,10 @@ impl Checker {
             return (Event::Error, None);
         };
         self.usage.used.insert(Entity::Binding(id));
+        self.resolve(span, Symbol::Binding(id));
+        if self.is_probe(name.text_range().into()) {
+            self.note_probe(Surroundings::EventOf(Symbol::Binding(id)));
+        }
         let Some(kind) = self.program[id].primitive else {
             return (Event::Error, None);
         };
@@ -165,6 +178,9 @@ impl Checker {
             });
             return (Event::Error, None);
         };
+        if let Some(symbol) = Symbol::event(kind, event) {
+            self.resolve(name.text_range().into(), symbol);
+        }
         let signature = event.signature();
         let parts = (signature.parameters.iter())
             .map(|part| {

@@ -8,12 +8,14 @@ use alloc::vec::Vec;
 use super::body::Where;
 use super::name::robot_member;
 use super::report::{broken, did_you_mean, listed, made, something};
+use super::resolution::Symbol;
 use super::scope::Entity;
 use super::state::Checker;
+use super::surroundings::Surroundings;
 use super::tables::{Member, Method, Signature};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BindingId, EnumId, Expression, ExpressionKind, RobotMember, Type};
-use crate::syntax::ast;
+use crate::syntax::ast::{self, AstNode};
 
 /// What people write who know other languages.
 const FOREIGN: &[(&str, &str)] = &[
@@ -38,6 +40,9 @@ const FOREIGN: &[(&str, &str)] = &[
     ("do_election", "elect"),
 ];
 
+/// The coordinates of a point.
+pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
+
 impl Checker {
     /// What the expression names, if that is something with parts rather than a value: a library, a
     /// primitive or an enum.
@@ -55,11 +60,14 @@ impl Checker {
                     self.usage.imports.insert((self.file, file));
                 }
                 self.usage.used.insert(entity);
-                matches!(
+                let has_parts = matches!(
                     entity,
                     Entity::Library(_) | Entity::Binding(_) | Entity::Enum(_) | Entity::Broken
-                )
-                .then_some(entity)
+                );
+                if has_parts {
+                    self.resolve_entity(node.span(), entity);
+                }
+                has_parts.then_some(entity)
             }
             ast::Expression::Field(node) => {
                 let Entity::Library(file) = self.namespace(&node.base()?)? else {
@@ -67,7 +75,11 @@ impl Checker {
                 };
                 let name = node.field()?;
                 let entity = self.files[file as usize].scope.get(name.text())?.entity;
-                matches!(entity, Entity::Enum(_)).then_some(entity)
+                let is_enum = matches!(entity, Entity::Enum(_));
+                if is_enum {
+                    self.resolve_entity(name.text_range().into(), entity);
+                }
+                is_enum.then_some(entity)
             }
             _ => None,
         }
@@ -97,6 +109,9 @@ impl Checker {
 
     /// What a library declares under a name, for others to use.
     pub fn library_entity(&mut self, file: u32, name: &str, at: Span) -> Option<Entity> {
+        if self.is_probe(at) {
+            self.note_probe(Surroundings::Part(Symbol::File(file)));
+        }
         let library = &self.files[file as usize];
         let entity = library.scope.get(name).map(|declared| declared.entity);
         match entity {
@@ -111,22 +126,24 @@ impl Checker {
                 self.report(problem);
                 None
             }
-            Some(entity) => Some(entity),
+            Some(entity) => {
+                self.resolve_entity(at, entity);
+                Some(entity)
+            }
         }
     }
 
     /// `Enum.variant`
     pub fn qualified_variant(&mut self, id: EnumId, name: &str, span: Span) -> Expression {
+        let at = Span::new(span.end.saturating_sub(name.len() as u32), span.end);
         let variants = &self.program[id].variants;
         match variants.iter().position(|variant| variant.name == name) {
             Some(number) => {
+                self.resolve(at, Symbol::Variant(id, number as u16));
                 let kind = ExpressionKind::Variant(number as u16);
                 made(kind, Type::Enum(id), span)
             }
-            None => {
-                let at = Span::new(span.end.saturating_sub(name.len() as u32), span.end);
-                self.unknown_variant(id, name, at)
-            }
+            None => self.unknown_variant(id, name, at),
         }
     }
 
@@ -137,8 +154,14 @@ impl Checker {
         name: &str,
         at: Span,
     ) -> Option<&'static Member> {
+        if self.is_probe(at) {
+            self.note_probe(Surroundings::Part(Symbol::Binding(id)));
+        }
         let primitive = self.program[id].primitive?;
         if let Some(member) = primitive.member(name) {
+            if let Some(symbol) = Symbol::member(primitive, member) {
+                self.resolve(at, symbol);
+            }
             return Some(member);
         }
         let message = format!("{} has no `{name}`", primitive.name());
@@ -203,12 +226,15 @@ impl Checker {
 
     /// A field of a value.
     fn field(&mut self, base: Expression, name: &str, at: Span, span: Span) -> Expression {
+        self.note_probed_member(at, &base.ty);
         match &base.ty {
             Type::Error => return broken(span),
             Type::Record(id) => {
-                let fields = &self.program[*id].fields;
+                let id = *id;
+                let fields = &self.program[id].fields;
                 if let Some(number) = fields.iter().position(|field| field.name == name) {
                     let ty = fields[number].ty.clone();
+                    self.resolve(at, Symbol::Field(id, number as u32));
                     let kind = ExpressionKind::Field {
                         base: Box::new(base),
                         field: number as u32,
@@ -217,7 +243,8 @@ impl Checker {
                 }
             }
             Type::Point => {
-                if let Some(axis) = ["x", "y", "z"].iter().position(|axis| *axis == name) {
+                if let Some(axis) = AXES.iter().position(|axis| *axis == name) {
+                    self.resolve(at, Symbol::Coordinate(AXES[axis]));
                     let kind = ExpressionKind::Coordinate {
                         base: Box::new(base),
                         axis: axis as u8,
@@ -229,6 +256,7 @@ impl Checker {
             _ => {}
         }
         if let Some(method) = Method::of(self.receiver_name(&base.ty)).find(|m| m.name() == name) {
+            self.resolve(at, Symbol::Method(method));
             let message = format!("`{name}` is called");
             let problem = Diagnostic::new(Code::NotCallable, at, message);
             let no_arguments = method.signature().parameters.is_empty();
@@ -276,6 +304,7 @@ impl Checker {
             self.report(problem.note(list));
             return broken(span);
         };
+        self.resolve_robot_member(at, member);
         match member {
             RobotMember::Variable(id) => self.usage.used.insert(Entity::Variable(id)),
             RobotMember::Parameter(id) => self.usage.used.insert(Entity::Parameter(id)),
@@ -286,15 +315,44 @@ impl Checker {
 
     /// A method of a value by its name.
     pub fn method(&mut self, receiver: &Expression, name: &str, at: Span) -> Option<Method> {
+        self.note_probed_member(at, &receiver.ty);
         if receiver.ty == Type::Error {
             return None;
         }
         let of = self.receiver_name(&receiver.ty);
         let found = Method::of(of).find(|method| method.name() == name);
-        if found.is_none() {
-            self.unknown_member(receiver, name, at);
+        match found {
+            Some(method) => self.resolve(at, Symbol::Method(method)),
+            None => self.unknown_member(receiver, name, at),
         }
         found
+    }
+
+    /// Notes what a property says of a robot.
+    pub fn resolve_robot_member(&mut self, at: Span, member: RobotMember) {
+        self.resolve(
+            at,
+            match member {
+                RobotMember::Variable(id) => Symbol::Variable(id),
+                RobotMember::Parameter(id) => Symbol::Parameter(id),
+                RobotMember::Position => Symbol::RobotMember("position"),
+                RobotMember::Heading => Symbol::RobotMember("heading"),
+                RobotMember::Velocity => Symbol::RobotMember("velocity"),
+                RobotMember::Finished => Symbol::RobotMember("finished"),
+                RobotMember::Up => Symbol::RobotMember("up"),
+                RobotMember::Id => Symbol::RobotMember("id"),
+            },
+        );
+    }
+
+    fn note_probed_member(&mut self, at: Span, of: &Type) {
+        if self.is_probe(at) {
+            let in_property = self.body.place == Where::Property;
+            self.note_probe(Surroundings::Member {
+                of: of.clone(),
+                in_property,
+            });
+        }
     }
 
     fn unknown_member(&mut self, base: &Expression, name: &str, at: Span) {

@@ -36,12 +36,14 @@ mod prelude;
 mod property;
 mod records;
 mod report;
+mod resolution;
 mod returns;
 mod scope;
 mod shape;
 mod standard;
 mod state;
 mod statement;
+mod surroundings;
 mod tables;
 mod transitions;
 mod types;
@@ -57,7 +59,9 @@ use crate::syntax::{Parse, parse};
 
 pub use libraries::{Libraries, NoLibraries};
 pub use prelude::PRELUDE;
+pub use resolution::{Resolutions, Symbol};
 pub use standard::{STANDARD, StandardLibraries};
+pub use surroundings::{Reach, Surroundings};
 pub use tables::{
     BUILTINS, Builtin, Event, METHODS, Member, Method, PRIMITIVES, Parameter, Primitive, Purity,
     Shape, Signature,
@@ -83,6 +87,8 @@ pub struct Checked {
     pub program: Program,
     /// The files, by the numbers that [`crate::ir::Site`] uses: 0 is the program, 1 the prelude.
     pub files: Vec<CheckedFile>,
+    /// What the names of the files stand for.
+    pub resolutions: Resolutions,
 }
 
 impl Checked {
@@ -115,11 +121,32 @@ pub fn check(source: &str, libraries: &dyn Libraries) -> Checked {
 #[must_use]
 pub fn check_parsed(source: &str, parse: Parse, libraries: &dyn Libraries) -> Checked {
     let mut checker = load::load(source, parse, libraries);
-    checker.collect();
-    checker.resolve_types();
-    checker.check_declarations();
-    checker.order_constants();
-    checker.warn_of_use();
-    checker.warn_of_control();
+    checker.check();
     checker.finish()
+}
+
+/// What stands around the name that begins at byte `at` of a program or a library, as far as the
+/// checker comes to know of it. The name must be one that nothing else has.
+#[must_use]
+pub fn surroundings(
+    source: &str,
+    at: u32,
+    libraries: &dyn Libraries,
+) -> (Checked, Option<Surroundings>) {
+    let mut checker = load::load(source, parse(source), libraries);
+    checker.probe = Some(at);
+    checker.check();
+    let surroundings = checker.surroundings.take();
+    (checker.finish(), surroundings)
+}
+
+impl state::Checker {
+    fn check(&mut self) {
+        self.collect();
+        self.resolve_types();
+        self.check_declarations();
+        self.order_constants();
+        self.warn_of_use();
+        self.warn_of_control();
+    }
 }

@@ -10,8 +10,10 @@ use alloc::vec::Vec;
 use super::body::Where;
 use super::prelude;
 use super::report::{broken, did_you_mean, made};
+use super::resolution::Symbol;
 use super::scope::Entity;
 use super::state::Checker;
+use super::surroundings::Surroundings;
 use super::tables::{BUILTINS, Builtin, Primitive, Purity};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{EnumId, Expression, ExpressionKind, RobotMember, Type};
@@ -104,14 +106,27 @@ impl Checker {
     /// A name as a value.
     pub fn name(&mut self, name: &str, span: Span, expected: Option<&Type>) -> Expression {
         match self.meaning(name, expected) {
-            Meaning::Local(local) => self.local_value(local, span),
-            Meaning::Entity(entity) => self.entity_value(entity, name, span),
+            Meaning::Local(local) => {
+                self.resolve_local(span, local);
+                self.local_value(local, span)
+            }
+            Meaning::Entity(entity) => {
+                self.resolve_entity(span, entity);
+                self.entity_value(entity, name, span)
+            }
             Meaning::Variant(id, variant) => {
+                self.resolve(span, Symbol::Variant(id, variant));
                 self.usage.used.insert(Entity::Enum(id));
                 made(ExpressionKind::Variant(variant), Type::Enum(id), span)
             }
-            Meaning::Builtin(builtin) => self.builtin_name(builtin, span),
+            Meaning::Builtin(builtin) => {
+                self.resolve(span, Symbol::Builtin(builtin));
+                self.builtin_name(builtin, span)
+            }
             Meaning::Primitive(primitive) => {
+                if let Some(symbol) = Symbol::primitive(primitive) {
+                    self.resolve(span, symbol);
+                }
                 let message = format!("`{}` is a kind of primitive, not a value", primitive.name());
                 let problem = Diagnostic::new(Code::NoValue, span, message);
                 let form = format!("bind one to a name: `name = {}`", primitive.constructor);
@@ -122,6 +137,7 @@ impl Checker {
                 let Some(variable) = self.program.roles.as_ref().map(|roles| roles.variable) else {
                     return broken(span);
                 };
+                self.resolve(span, Symbol::Variable(variable));
                 self.entity_value(Entity::Variable(variable), name, span)
             }
             Meaning::Variants(those) => self.ambiguous(name, &those, span),
@@ -131,6 +147,7 @@ impl Checker {
                     && let Some(member) = robot_member(name)
                     && let Some(robot) = self.robot_of_property(span)
                 {
+                    self.resolve_robot_member(span, member);
                     return self.of_robot(robot, member, span);
                 }
                 self.unknown(name, span, expected)
@@ -226,6 +243,9 @@ impl Checker {
     }
 
     fn unknown(&mut self, name: &str, span: Span, expected: Option<&Type>) -> Expression {
+        if self.is_probe(span) {
+            self.note_probed_value(expected);
+        }
         if self.may_be_unread(name) {
             return broken(span);
         }
@@ -241,6 +261,9 @@ impl Checker {
 
     /// Reports a variant that an enum does not have.
     pub fn unknown_variant(&mut self, id: EnumId, name: &str, span: Span) -> Expression {
+        if self.is_probe(span) {
+            self.note_probe(Surroundings::Part(Symbol::Enum(id)));
+        }
         let message = format!("{} has no variant `{name}`", self.name_of(&Type::Enum(id)));
         let problem = Diagnostic::new(Code::UnknownVariant, span, message);
         let names = || {

@@ -5,6 +5,8 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::body::Where;
+use super::member::AXES;
+use super::resolution::Symbol;
 use super::scope::Entity;
 use super::state::Checker;
 use super::tables::Builtin;
@@ -58,6 +60,7 @@ impl Checker {
 
     fn named_place(&mut self, name: &str, span: Span) -> Place {
         if let Some(local) = self.body.find(name) {
+            self.resolve_local(span, local);
             return self.local_place(local, span);
         }
         if name == "role" && self.program.roles.is_some() {
@@ -67,6 +70,9 @@ impl Checker {
         }
         let scope = &self.files[self.file as usize].scope;
         let entity = scope.get(name).map(|declared| declared.entity);
+        if let Some(entity) = entity {
+            self.resolve_entity(span, entity);
+        }
         match entity {
             Some(Entity::Variable(id)) => {
                 if !self.may_write(name, span) {
@@ -87,6 +93,9 @@ impl Checker {
     }
 
     fn other_place(&mut self, name: &str, span: Span) -> Place {
+        if self.is_probe(span) {
+            self.note_probed_value(None);
+        }
         if Builtin::named(name).is_some() {
             let message = format!("`{name}` is what the robot knows and cannot be changed");
             self.error(Code::NotWritable, span, message);
@@ -169,6 +178,7 @@ impl Checker {
             return no_place(span);
         };
         if let Some((id, name)) = self.single_writer(&base) {
+            self.resolve(base.span(), Symbol::Shared(id));
             return self.own_element(id, &name, node, span);
         }
         let whole = self.place(&base);
@@ -244,11 +254,13 @@ impl Checker {
                 let fields = &self.program[id].fields;
                 if let Some(number) = fields.iter().position(|field| field.name == name) {
                     let ty = fields[number].ty.clone();
+                    self.resolve(word.text_range().into(), Symbol::Field(id, number as u32));
                     return self.part(whole, Step::Field(number as u32), ty, span);
                 }
             }
             Type::Point => {
-                if let Some(axis) = ["x", "y", "z"].iter().position(|axis| *axis == name) {
+                if let Some(axis) = AXES.iter().position(|axis| *axis == name) {
+                    self.resolve(word.text_range().into(), Symbol::Coordinate(AXES[axis]));
                     return self.part(whole, Step::Coordinate(axis as u8), Type::Float, span);
                 }
             }

@@ -5,7 +5,9 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::body::Body;
+use super::resolution::Resolutions;
 use super::scope::{Entity, Scope};
+use super::surroundings::Surroundings;
 use super::{Checked, CheckedFile};
 use crate::diagnostic::{Code, Span, has_errors};
 use crate::ir::{ConstantId, EnumId, FunctionId, Program, RecordId, Site, Type};
@@ -107,6 +109,11 @@ pub(super) struct Checker {
     pub actions: BTreeSet<String>,
     /// Locals that are declared to be read and are not, in the program itself.
     pub unused_locals: Vec<(Code, Span, String)>,
+    pub resolutions: Resolutions,
+    /// Where a name stands in the program of which an editor wants to know what it may be.
+    pub probe: Option<u32>,
+    /// What it may be.
+    pub surroundings: Option<Surroundings>,
 }
 
 impl Checker {
@@ -126,6 +133,9 @@ impl Checker {
             sizes: BTreeMap::new(),
             actions: BTreeSet::new(),
             unused_locals: Vec::new(),
+            resolutions: Resolutions::default(),
+            probe: None,
+            surroundings: None,
         }
     }
 
@@ -152,6 +162,7 @@ impl Checker {
         Checked {
             program: self.program,
             files: self.files.into_iter().map(|file| file.checked).collect(),
+            resolutions: self.resolutions,
         }
     }
 

@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use super::arithmetic::{resolve, result};
 use super::body::Where;
 use super::report::{broken, made};
+use super::resolution::Symbol;
 use super::returns::always_returns;
 use super::state::Checker;
 use super::tables::Purity;
@@ -87,7 +88,9 @@ impl Checker {
             && name.text() == "role"
             && let Some(roles) = &self.program.roles
         {
-            let ty = self.program[roles.variable].ty.clone();
+            let variable = roles.variable;
+            let ty = self.program[variable].ty.clone();
+            self.resolve(name.span(), Symbol::Variable(variable));
             let value = self.expect(node.value(), &ty, "the role");
             return StatementKind::ChangeRole { value };
         }
@@ -141,7 +144,11 @@ impl Checker {
         };
         let ty = place.ty.clone();
         let value = match ty {
-            Type::Error => self.infer(value.filter(|value| !self.needs_hint(value)), None),
+            Type::Error => {
+                let can_be_checked =
+                    |value: &ast::Expression| !self.needs_hint(value) || self.holds_probe(value);
+                self.infer(value.filter(can_be_checked), None)
+            }
             _ => self.expect(value, &ty, &role),
         };
         StatementKind::Assign { place, value }

@@ -7,8 +7,10 @@ use alloc::vec::Vec;
 
 use super::collect::name_of;
 use super::report::did_you_mean;
+use super::resolution::Symbol;
 use super::scope::Entity;
 use super::state::Checker;
+use super::surroundings::Surroundings;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Local, RecordId, Type};
 use crate::syntax::SyntaxToken;
@@ -156,6 +158,11 @@ impl Checker {
             "Map" => 2,
             _ => 0,
         };
+        if words.len() == 1
+            && let Some(name) = BUILT_IN.iter().find(|name| **name == word.text())
+        {
+            self.resolve(span, Symbol::Type(name));
+        }
         if words.len() == 1 && wanted > 0 {
             return self.collection_type(named, word.text(), wanted, arguments);
         }
@@ -216,10 +223,12 @@ impl Checker {
             match declared.map(|declared| declared.entity) {
                 Some(Entity::Enum(id)) => {
                     self.usage.used.insert(Entity::Enum(id));
+                    self.resolve(span, Symbol::Enum(id));
                     return Type::Enum(id);
                 }
                 Some(Entity::Record(id)) => {
                     self.usage.used.insert(Entity::Record(id));
+                    self.resolve(span, Symbol::Record(id));
                     return Type::Record(id);
                 }
                 Some(Entity::Broken) => return Type::Error,
@@ -230,6 +239,9 @@ impl Checker {
                 }
                 None => {}
             }
+        }
+        if self.is_probe(span) {
+            self.note_probe(Surroundings::Type);
         }
         if self.may_be_unread(name) {
             return Type::Error;
@@ -262,8 +274,15 @@ impl Checker {
             return Type::Error;
         };
         let span = Span::from(name.text_range());
+        if self.is_probe(span) {
+            self.note_probe(Surroundings::Part(Symbol::File(file)));
+        }
         let entity = self.files[file as usize].scope.get(name.text());
-        match entity.map(|declared| declared.entity) {
+        let entity = entity.map(|declared| declared.entity);
+        if let Some(entity) = entity {
+            self.resolve_entity(span, entity);
+        }
+        match entity {
             Some(Entity::Enum(id)) => Type::Enum(id),
             Some(Entity::Record(id)) => Type::Record(id),
             Some(Entity::Broken) => Type::Error,
@@ -285,6 +304,7 @@ impl Checker {
         match scope.get(word.text()).map(|declared| declared.entity) {
             Some(Entity::Library(file)) => {
                 self.usage.imports.insert((self.file, file));
+                self.resolve(word.text_range().into(), Symbol::File(file));
                 Some(file)
             }
             Some(Entity::Broken) => None,

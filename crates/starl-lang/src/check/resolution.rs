@@ -1,0 +1,148 @@
+//! What the names of the texts stand for, as editors need it.
+//!
+//! The checker notes each name as it looks at it, so that nothing is resolved a second time. Where it
+//! looks twice it notes twice. What a part with errors names is noted as far as it is known.
+
+use super::scope::Entity;
+use super::state::Checker;
+use super::tables::{Builtin, Event, Member, Method, PRIMITIVES, Primitive};
+use crate::diagnostic::Span;
+use crate::ir::{
+    BindingId, ConstantId, EnumId, FunctionId, ParameterId, RecordId, SharedId, Site, Type,
+    VariableId,
+};
+
+/// What a name stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Symbol {
+    /// An enum.
+    Enum(EnumId),
+    /// A variant of an enum, by its number. Roles are variants too.
+    Variant(EnumId, u16),
+    /// A record or a message.
+    Record(RecordId),
+    /// A field of a record or a message, by its number.
+    Field(RecordId, u32),
+    /// A parameter of the program.
+    Parameter(ParameterId),
+    /// A constant.
+    Constant(ConstantId),
+    /// A state variable.
+    Variable(VariableId),
+    /// A shared variable.
+    Shared(SharedId),
+    /// A bound primitive.
+    Binding(BindingId),
+    /// A function.
+    Function(FunctionId),
+    /// A local or a parameter of a function, by the place of its name.
+    Local(Site),
+    /// An action, by its number.
+    Action(u32),
+    /// A property, by its number.
+    Property(u32),
+    /// The program or a library, by the number of its file.
+    File(u32),
+    /// A built-in function or name.
+    Builtin(Builtin),
+    /// A built-in type.
+    Type(&'static str),
+    /// A method of a built-in type.
+    Method(Method),
+    /// A kind of primitive, by its number in [`PRIMITIVES`].
+    Primitive(usize),
+    /// A method or flag of a kind of primitive, by their numbers.
+    Member(usize, usize),
+    /// Something that a kind of primitive reports, by their numbers.
+    Event(usize, usize),
+    /// `x`, `y` or `z` of a point.
+    Coordinate(&'static str),
+    /// What properties may say of every robot.
+    RobotMember(&'static str),
+}
+
+impl Symbol {
+    /// The kind of primitive.
+    pub(super) fn primitive(primitive: &'static Primitive) -> Option<Self> {
+        number_of(primitive).map(Self::Primitive)
+    }
+
+    /// The method or flag of a kind of primitive.
+    pub(super) fn member(primitive: &'static Primitive, member: &Member) -> Option<Self> {
+        let mut members = primitive.members.iter();
+        let number = members.position(|other| other.name() == member.name());
+        Some(Self::Member(number_of(primitive)?, number?))
+    }
+
+    /// What a kind of primitive reports.
+    pub(super) fn event(primitive: &'static Primitive, event: &Event) -> Option<Self> {
+        let mut events = primitive.events.iter();
+        let number = events.position(|other| other.name() == event.name());
+        Some(Self::Event(number_of(primitive)?, number?))
+    }
+}
+
+fn number_of(primitive: &Primitive) -> Option<usize> {
+    PRIMITIVES
+        .iter()
+        .position(|other| other.name() == primitive.name())
+}
+
+/// The names of all files with what they stand for.
+#[derive(Clone, Debug, Default)]
+pub struct Resolutions {
+    /// Names that are used, in the order in which they were looked at.
+    pub uses: alloc::vec::Vec<(Site, Symbol)>,
+    /// Locals and parameters of functions where they are declared, with their types.
+    pub locals: alloc::vec::Vec<(Site, Type)>,
+}
+
+impl Checker {
+    /// Notes what a name of the present file stands for.
+    pub fn resolve(&mut self, span: Span, symbol: Symbol) {
+        let site = self.site(span);
+        self.resolutions.uses.push((site, symbol));
+    }
+
+    /// The same for what is declared.
+    pub fn resolve_entity(&mut self, span: Span, entity: Entity) {
+        if let Some(symbol) = entity.symbol() {
+            self.resolve(span, symbol);
+        }
+    }
+
+    /// The same for a local of the present body.
+    pub fn resolve_local(&mut self, span: Span, local: crate::ir::LocalId) {
+        let site = self.site(self.body.locals[local.index()].span);
+        self.resolve(span, Symbol::Local(site));
+    }
+
+    /// Notes the locals of a body that was checked.
+    pub fn resolve_locals(&mut self, locals: &[crate::ir::Local]) {
+        for local in locals {
+            // The robot that a property is about by itself has no name in the text.
+            if self.text(local.span) == local.name {
+                let site = self.site(local.span);
+                self.resolutions.locals.push((site, local.ty.clone()));
+            }
+        }
+    }
+}
+
+impl Entity {
+    /// What editors know it as.
+    pub fn symbol(self) -> Option<Symbol> {
+        Some(match self {
+            Self::Enum(id) => Symbol::Enum(id),
+            Self::Record(id) => Symbol::Record(id),
+            Self::Parameter(id) => Symbol::Parameter(id),
+            Self::Constant(id) => Symbol::Constant(id),
+            Self::Variable(id) => Symbol::Variable(id),
+            Self::Shared(id) => Symbol::Shared(id),
+            Self::Binding(id) => Symbol::Binding(id),
+            Self::Function(id) => Symbol::Function(id),
+            Self::Library(file) => Symbol::File(file),
+            Self::Broken => return None,
+        })
+    }
+}

@@ -1,0 +1,102 @@
+//! What may stand at a place of the text, as editors ask for it to complete a name.
+//!
+//! The editor puts a name that nothing has, the probe, in the place of the one that is being typed, and
+//! the checker notes what it knows where it comes upon the probe.
+
+use alloc::vec::Vec;
+
+use super::body::Where;
+use super::resolution::Symbol;
+use super::state::Checker;
+use super::tables::Purity;
+use crate::diagnostic::Span;
+use crate::ir::{Local, Type};
+use crate::syntax::ast::{self, AstNode};
+
+/// What stands around a name that is being typed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Surroundings {
+    /// It is a value, something that is called or something that is assigned to.
+    Value(Reach),
+    /// It is a part of a value of this type.
+    Member {
+        /// The type.
+        of: Type,
+        /// Whether it stands in a property.
+        in_property: bool,
+    },
+    /// It is a part of a library, a bound primitive or an enum.
+    Part(Symbol),
+    /// It is a type.
+    Type,
+    /// It is a kind of primitive.
+    Primitive,
+    /// It is a message or a primitive that reports something.
+    Event,
+    /// It is what this primitive reports.
+    EventOf(Symbol),
+}
+
+/// What can be seen where a value stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reach {
+    /// The locals, the innermost last.
+    pub locals: Vec<Local>,
+    /// The type that is expected, if one is.
+    pub expected: Option<Type>,
+    /// What of the built-in functions and primitives may be used: those of this purity and below.
+    pub purity: Purity,
+    /// Whether the state is seen.
+    pub sees_state: bool,
+    /// Whether parameters are seen.
+    pub sees_parameters: bool,
+    /// Whether bound primitives are seen.
+    pub sees_primitives: bool,
+    /// Whether it stands in a property.
+    pub in_property: bool,
+}
+
+impl Checker {
+    /// Whether the name at `span` is the probe.
+    pub fn is_probe(&self, span: Span) -> bool {
+        self.file == 0 && self.probe == Some(span.start)
+    }
+
+    /// Whether the probe is in the expression.
+    pub fn holds_probe(&self, expression: &ast::Expression) -> bool {
+        let Some(probe) = self.probe.filter(|_| self.file == 0) else {
+            return false;
+        };
+        let span = expression.span();
+        span.start <= probe && probe < span.end
+    }
+
+    /// Notes what the probe may be, the first time that it is come upon.
+    pub fn note_probe(&mut self, surroundings: Surroundings) {
+        self.surroundings.get_or_insert(surroundings);
+    }
+
+    /// The same where it is a value.
+    pub fn note_probed_value(&mut self, expected: Option<&Type>) {
+        let place = self.body.place;
+        let names = self.body.names.iter();
+        let locals = names.map(|(_, local)| self.body.locals[local.index()].clone());
+        let purities = [Purity::Effect, Purity::Query, Purity::Pure];
+        let sees_state = matches!(
+            place,
+            Where::Initial(_) | Where::Guard | Where::Effect | Where::Property
+        );
+        let reach = Reach {
+            locals: locals.collect(),
+            expected: expected.cloned(),
+            purity: (purities.into_iter())
+                .find(|purity| place.allows(*purity))
+                .unwrap_or(Purity::Pure),
+            sees_state,
+            sees_parameters: sees_state || place == Where::Binding,
+            sees_primitives: matches!(place, Where::Guard | Where::Effect),
+            in_property: place == Where::Property,
+        };
+        self.note_probe(Surroundings::Value(reach));
+    }
+}
