@@ -2,6 +2,7 @@
 
 use serde::{Serialize, Serializer};
 use starl_core::RobotId;
+use starl_core::event::Name;
 use starl_sim::properties::Violation;
 use starl_sim::{Outcome, Run, Scenario};
 
@@ -21,6 +22,7 @@ pub struct Report {
     pub messages: Messages,
     pub collisions: u64,
     pub properties: Vec<Property>,
+    pub failures: Vec<Failed>,
     pub robots: Vec<Robot>,
     pub trace: Option<String>,
     pub plot: Option<String>,
@@ -58,7 +60,7 @@ pub struct Messages {
 /// A property that was checked.
 #[derive(Clone, Debug, Serialize)]
 pub struct Property {
-    pub property: &'static str,
+    pub property: Name,
     pub verdict: &'static str,
     pub violations: usize,
     pub first: Option<Breach>,
@@ -69,6 +71,14 @@ pub struct Property {
 pub struct Breach {
     pub at_seconds: f64,
     pub robots: Vec<String>,
+    pub text: String,
+}
+
+/// A program that could not go on.
+#[derive(Clone, Debug, Serialize)]
+pub struct Failed {
+    pub at_seconds: f64,
+    pub robot: String,
     pub text: String,
 }
 
@@ -158,6 +168,7 @@ impl Report {
             },
             collisions: tally.collisions,
             properties: properties(run, scenario),
+            failures: failures(run, scenario),
             robots: robots(run, scenario),
             trace,
             plot,
@@ -188,10 +199,10 @@ impl Breach {
 fn properties(run: &Run, scenario: &Scenario) -> Vec<Property> {
     let property = |verdict: starl_sim::Verdict| Property {
         property: verdict.property,
-        verdict: if verdict.violations == 0 {
-            "holds"
-        } else {
-            "violated"
+        verdict: match (verdict.violations, verdict.open) {
+            (0, false) => "holds",
+            (0, true) => "open",
+            _ => "violated",
         },
         violations: verdict.violations,
         first: verdict
@@ -199,6 +210,15 @@ fn properties(run: &Run, scenario: &Scenario) -> Vec<Property> {
             .map(|violation| Breach::of(&violation, scenario)),
     };
     run.verdicts().into_iter().map(property).collect()
+}
+
+fn failures(run: &Run, scenario: &Scenario) -> Vec<Failed> {
+    let failed = |failure: &starl_sim::Failure| Failed {
+        at_seconds: failure.at.seconds(),
+        robot: scenario.fleet.name(failure.robot),
+        text: failure.text.to_string(),
+    };
+    run.failures().iter().map(failed).collect()
 }
 
 fn robots(run: &Run, scenario: &Scenario) -> Vec<Robot> {

@@ -1,7 +1,7 @@
 //! The summary that people read, within 80 columns.
 
 use crate::console::{grouped, rounded};
-use crate::report::{Breach, Ending, Property, Report, Robot};
+use crate::report::{Breach, Ending, Failed, Property, Report, Robot};
 use starl_sim::Outcome;
 use std::fmt::{self, Write};
 
@@ -16,9 +16,10 @@ pub fn text(report: &Report) -> String {
     text
 }
 
-/// The violations alone: what is said even when nothing else is to be.
+/// The violations and failures alone: what is said even when nothing else is to be.
 pub fn violations(report: &Report) -> String {
     let mut text = String::new();
+    let _ = failures(&mut text, report);
     for property in &report.properties {
         if let Some(first) = &property.first {
             let _ = violation(&mut text, property, first, report);
@@ -158,12 +159,13 @@ fn properties(text: &mut String, properties: &[Property]) -> fmt::Result {
     writeln!(text, "{:width$}  verdict", "property")?;
     for Property {
         property,
+        verdict,
         violations,
         ..
     } in properties
     {
         match violations {
-            0 => writeln!(text, "{property:width$}  holds")?,
+            0 => writeln!(text, "{property:width$}  {verdict}")?,
             1 => writeln!(text, "{property:width$}  VIOLATED")?,
             n => writeln!(
                 text,
@@ -173,6 +175,28 @@ fn properties(text: &mut String, properties: &[Property]) -> fmt::Result {
         }
     }
     Ok(())
+}
+
+/// More programs that cannot go on are counted, not listed.
+const MOST_FAILURES_LISTED: usize = 8;
+
+fn failures(text: &mut String, report: &Report) -> fmt::Result {
+    for failed in report.failures.iter().take(MOST_FAILURES_LISTED) {
+        let Failed {
+            at_seconds,
+            robot,
+            text: reason,
+        } = failed;
+        writeln!(text, "failed: {robot} at {at_seconds:.3} s\n  {reason}")?;
+    }
+    let more = report.failures.len().saturating_sub(MOST_FAILURES_LISTED);
+    if more > 0 {
+        writeln!(text, "failed: {} more", grouped(more as u64))?;
+    }
+    match report.failures.is_empty() {
+        true => Ok(()),
+        false => writeln!(text, "  to see it again: {}", report.replay),
+    }
 }
 
 fn violation(

@@ -12,5 +12,5 @@ pub mod run;
 pub mod scenario;
 
 pub use engine::Simulation;
-pub use run::{Outcome, Run, Verdict};
+pub use run::{Failure, Outcome, Run, Verdict};
 pub use scenario::Scenario;

@@ -1,17 +1,20 @@
-//! A run from start to end: the simulation, the checkers that watch it, and what comes of it.
+//! A run from start to end: the simulation, the checkers and monitors that watch it, and what comes
+//! of it.
 
 use crate::engine::{Programs, Simulation, StartError};
-use crate::properties::{self, Checker, Setting, Violation};
+use crate::properties::{self, Checker, Monitor, Setting, Violation, Witness};
 use crate::scenario::{Bounds, Goal, Group, Scenario};
-use starl_core::event::Event;
-use starl_core::{Record, Time};
+use starl_core::event::{Event, Name};
+use starl_core::{Record, RobotId, Time};
 
 /// A scenario under way and under watch.
 #[derive(Clone)]
 pub struct Run {
     simulation: Simulation,
     checkers: Vec<Box<dyn Checker>>,
+    monitors: Vec<Box<dyn Monitor>>,
     violations: Vec<Violation>,
+    failures: Vec<Failure>,
     records: Vec<Record>,
 }
 
@@ -40,15 +43,29 @@ impl Outcome {
     }
 }
 
-/// What the checkers say of one property.
+/// What the checkers and monitors say of one property.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// The property.
-    pub property: &'static str,
+    pub property: Name,
     /// How often it was violated.
     pub violations: usize,
     /// The first time.
     pub first: Option<Violation>,
+    /// Whether it has not been violated, but would be if nothing more happened: it demands something
+    /// by a time that has not come.
+    pub open: bool,
+}
+
+/// A program that cannot go on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// Since when.
+    pub at: Time,
+    /// On which robot.
+    pub robot: RobotId,
+    /// Why.
+    pub text: Name,
 }
 
 impl Run {
@@ -61,9 +78,16 @@ impl Run {
         Ok(Run {
             simulation,
             checkers,
+            monitors: Vec::new(),
             violations: Vec::new(),
+            failures: Vec::new(),
             records: Vec::new(),
         })
+    }
+
+    /// Has the run watched by one more; to be called before the first step.
+    pub fn add_monitor(&mut self, monitor: Box<dyn Monitor>) {
+        self.monitors.push(monitor);
     }
 
     /// The simulation.
@@ -87,6 +111,12 @@ impl Run {
             }
             checker.advance(self.simulation.now(), &mut self.violations);
         }
+        let witness = Witness::new(&self.simulation);
+        for monitor in &mut self.monitors {
+            monitor.observe(&witness, &mut self.violations);
+        }
+        self.failures
+            .extend(self.simulation.records().iter().filter_map(Failure::of));
         self.records.clear();
         self.records.extend_from_slice(self.simulation.records());
         self.records
@@ -95,7 +125,7 @@ impl Run {
                 at: violation.at.max(before),
                 robot: violation.robots.first().copied(),
                 event: Event::Violated {
-                    property: violation.property.into(),
+                    property: violation.property.clone(),
                     text: violation.text.clone().into(),
                 },
             }));
@@ -143,24 +173,50 @@ impl Run {
         &self.violations
     }
 
-    /// What the checkers say of each property they watch.
+    /// All programs so far that cannot go on.
+    pub fn failures(&self) -> &[Failure] {
+        &self.failures
+    }
+
+    /// What the checkers and monitors say of each property they watch.
     pub fn verdicts(&self) -> Vec<Verdict> {
-        let properties = self
-            .checkers
-            .iter()
-            .flat_map(|checker| checker.properties());
-        properties
-            .map(|&property| {
-                let mut against = self.violations.iter().filter(|v| v.property == property);
-                let first = against.next().cloned();
-                let violations = usize::from(first.is_some()) + against.count();
-                Verdict {
-                    property,
-                    violations,
-                    first,
-                }
-            })
+        let checked = self.checkers.iter().flat_map(|checker| {
+            let properties = checker.properties().iter();
+            properties.map(|&property| (Name::from(property), false))
+        });
+        let monitored = self.monitors.iter().flat_map(|monitor| {
+            let properties = monitor.properties().into_iter().enumerate();
+            properties.map(|(index, property)| (property, monitor.is_open(index)))
+        });
+        checked
+            .chain(monitored)
+            .map(|(property, open)| self.verdict(property, open))
             .collect()
+    }
+
+    fn verdict(&self, property: Name, open: bool) -> Verdict {
+        let mut against = self.violations.iter().filter(|v| v.property == property);
+        let first = against.next().cloned();
+        let violations = usize::from(first.is_some()) + against.count();
+        Verdict {
+            property,
+            violations,
+            open: open && first.is_none(),
+            first,
+        }
+    }
+}
+
+impl Failure {
+    fn of(record: &Record) -> Option<Failure> {
+        match &record.event {
+            Event::Failed(text) => Some(Failure {
+                at: record.at,
+                robot: record.robot?,
+                text: text.clone(),
+            }),
+            _ => None,
+        }
     }
 }
 

@@ -81,7 +81,7 @@ fn three_robots() -> Scenario {
 }
 
 /// Runs to the end and returns the properties with their violations.
-fn verdicts(scenario: Scenario, reckless: bool) -> Vec<(&'static str, Vec<String>)> {
+fn verdicts(scenario: Scenario, reckless: bool) -> Vec<(String, Vec<String>)> {
     let mut run =
         Run::new(scenario, &|_| Ok(Box::new(messenger(reckless)))).expect("the run starts");
     while !run.is_over() {
@@ -95,20 +95,20 @@ fn verdicts(scenario: Scenario, reckless: bool) -> Vec<(&'static str, Vec<String
     let verdicts = run.verdicts();
     verdicts
         .iter()
-        .map(|verdict| (verdict.property, told(verdict.property)))
+        .map(|verdict| (verdict.property.to_string(), told(&verdict.property)))
         .collect()
 }
 
 /// The names of the properties that are violated.
-fn violated(verdicts: &[(&'static str, Vec<String>)]) -> Vec<&'static str> {
+fn violated(verdicts: &[(String, Vec<String>)]) -> Vec<&str> {
     let violated = verdicts.iter().filter(|(_, told)| !told.is_empty());
-    violated.map(|(property, _)| *property).collect()
+    violated.map(|(property, _)| property.as_str()).collect()
 }
 
 #[test]
 fn all_properties_hold_when_nothing_is_in_the_way() {
     let verdicts = verdicts(three_robots(), false);
-    let properties: Vec<_> = verdicts.iter().map(|(property, _)| *property).collect();
+    let properties: Vec<_> = verdicts.iter().map(|(property, _)| property).collect();
     assert_eq!(
         properties,
         [
@@ -135,7 +135,7 @@ fn a_network_that_loses_everything_breaks_delivery_and_inclusion() {
         "{verdicts:#?}"
     );
     let told = |property: &str| {
-        let found = verdicts.iter().find(|(name, _)| *name == property);
+        let found = verdicts.iter().find(|(name, _)| name == property);
         found.map(|(_, told)| told.join("\n")).unwrap_or_default()
     };
     assert!(told("broadcast.delivery").contains("did not reach robots 1 and 2 before its sender"));

@@ -65,6 +65,13 @@ pub struct Condition {
     pub failed: bool,
 }
 
+impl Condition {
+    /// Whether the robot is up and its program has reached its goal.
+    pub fn has_finished(&self) -> bool {
+        !self.down && self.finished && !self.failed
+    }
+}
+
 /// A robot's own clock.
 #[derive(Clone, Copy, Debug)]
 pub struct Clock {

@@ -386,7 +386,7 @@ impl Simulation {
             let condition = &mind.condition;
             if !condition.down {
                 progress.up += 1;
-                progress.finished += usize::from(condition.finished && !condition.failed);
+                progress.finished += usize::from(condition.has_finished());
                 progress.failed += usize::from(condition.failed);
             }
         }
@@ -401,6 +401,26 @@ impl Simulation {
     /// What a robot believes of its state.
     pub fn estimate(&self, robot: RobotId) -> &Estimate {
         &self.mind(robot).estimate
+    }
+
+    /// What a robot runs.
+    pub fn program(&self, robot: RobotId) -> &dyn Program {
+        self.mind(robot).agent.program()
+    }
+
+    /// The group of a robot, by its place in the fleet.
+    pub fn group(&self, robot: RobotId) -> usize {
+        self.mind(robot).group as usize
+    }
+
+    /// Whether a robot has not crashed, or has restarted since.
+    pub fn is_up(&self, robot: RobotId) -> bool {
+        !self.mind(robot).condition.down
+    }
+
+    /// Whether a robot is up and its program has reached its goal.
+    pub fn has_finished(&self, robot: RobotId) -> bool {
+        self.mind(robot).condition.has_finished()
     }
 
     /// How far a robot has come along its path, metres.

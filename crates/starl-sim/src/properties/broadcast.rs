@@ -130,7 +130,7 @@ impl Broadcast {
             return;
         }
         found.push(Violation {
-            property: DELIVERY,
+            property: DELIVERY.into(),
             at,
             text: format!(
                 "message {number} that robot {from} broadcast at {sent} did not reach {} {how}",

@@ -114,7 +114,7 @@ impl Geocast {
         };
         let MessageKey { from, number, .. } = key;
         found.push(Violation {
-            property: EXCLUSION,
+            property: EXCLUSION.into(),
             at,
             robots: vec![robot, from],
             text: format!(
@@ -157,7 +157,7 @@ impl Geocast {
             return;
         }
         found.push(Violation {
-            property: INCLUSION,
+            property: INCLUSION.into(),
             at: due,
             text: format!(
                 "message {number} that robot {from} geocast at {sent} did not reach {} within {}, \

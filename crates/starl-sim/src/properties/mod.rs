@@ -1,19 +1,23 @@
 //! Properties that are checked on every run, apart from the programs they are about.
 //!
 //! A checker sees the stream of records and nothing else, so it judges a live run and a trace from a
-//! file alike.
+//! file alike. A [`Monitor`] sees the simulation itself.
 
 mod bodies;
 mod broadcast;
 mod geocast;
 mod health;
+mod monitor;
 mod no_collision;
 mod outstanding;
 mod reach_avoid;
 mod report;
 mod track;
 
+pub use monitor::{Monitor, Witness};
+
 use crate::scenario::Scenario;
+use starl_core::event::Name;
 use starl_core::motion::Body;
 use starl_core::{Obstacle, Record, RobotId, Time};
 
@@ -32,7 +36,7 @@ pub struct Setting {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Violation {
     /// Which property, e.g. `reach_avoid.safety`.
-    pub property: &'static str,
+    pub property: Name,
     /// When it was seen.
     pub at: Time,
     /// The robots concerned.

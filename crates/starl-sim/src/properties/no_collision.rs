@@ -107,7 +107,7 @@ impl NoCollision {
             robots.push(other);
         }
         found.push(Violation {
-            property: NO_COLLISION,
+            property: NO_COLLISION.into(),
             at,
             robots,
             text: format!("robot {robot} ran into {other}{near}"),
@@ -170,7 +170,7 @@ impl NoCollision {
             let stands = at <= self.expires[index as usize];
             if gap < -OVERLAP && stands && self.touch(robot, index, position) {
                 found.push(Violation {
-                    property: NO_COLLISION,
+                    property: NO_COLLISION.into(),
                     at,
                     robots: vec![robot],
                     text: format!(
@@ -202,7 +202,7 @@ impl NoCollision {
             if pairs.insert((a, b)) {
                 let near = place(a).map_or(String::new(), |place| format!(" near {place}"));
                 found.push(Violation {
-                    property: NO_COLLISION,
+                    property: NO_COLLISION.into(),
                     at: *at,
                     robots: vec![a, b],
                     text: format!(

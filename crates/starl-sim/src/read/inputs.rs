@@ -119,7 +119,7 @@ impl Request {
 }
 
 impl Content {
-    fn of(bytes: &[u8]) -> Content {
+    pub(super) fn of(bytes: &[u8]) -> Content {
         match std::str::from_utf8(bytes) {
             Ok(text) => Content::Text(text.to_string()),
             Err(_) => Content::Hex(bytes.iter().map(|byte| format!("{byte:02x}")).collect()),

@@ -120,5 +120,6 @@ fn properties(table: Section<'_>) -> Properties {
         broadcast_bound: table.duration("broadcast_bound"),
         geocast: table.flag("geocast"),
         geocast_bound: table.duration("geocast_bound"),
+        program: table.flag("program"),
     }
 }

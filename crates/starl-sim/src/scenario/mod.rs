@@ -122,6 +122,8 @@ pub struct Properties {
     pub geocast: bool,
     /// The thesis's d2; default 35 s.
     pub geocast_bound: Duration,
+    /// What programs in the StarL language say of themselves; default true.
+    pub program: bool,
 }
 
 /// What is recorded.
@@ -172,6 +174,7 @@ impl Default for Properties {
             broadcast_bound: Duration::from_seconds(35),
             geocast: true,
             geocast_bound: Duration::from_seconds(35),
+            program: true,
         }
     }
 }

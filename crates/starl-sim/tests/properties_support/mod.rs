@@ -231,7 +231,7 @@ impl Story {
         }
         assert!(rest.is_empty(), "the story goes on after its end");
         feed(&mut read, &records, ms(end), &mut seen_read);
-        let key = |violation: &Violation| (violation.property, violation.at);
+        let key = |violation: &Violation| (violation.property.clone(), violation.at);
         seen_live.sort_by_key(key);
         seen_read.sort_by_key(key);
         assert_eq!(seen_live, seen_read);
@@ -261,7 +261,7 @@ pub fn assert_only(violations: &[Violation], property: &str, millis: u64, robots
     };
     let ids: Vec<RobotId> = robots.iter().copied().map(RobotId).collect();
     assert_eq!(
-        (violation.property, violation.at, &violation.robots),
+        (&*violation.property, violation.at, &violation.robots),
         (property, ms(millis), &ids),
         "{}",
         violation.text,

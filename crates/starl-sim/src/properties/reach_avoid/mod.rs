@@ -75,7 +75,7 @@ impl ReachAvoid {
                 && well
             {
                 found.push(Violation {
-                    property: SAFETY,
+                    property: SAFETY.into(),
                     at,
                     robots: vec![robot],
                     text,
@@ -115,7 +115,7 @@ impl ReachAvoid {
                         && let Some(text) = self.check_goal(robot, &command, at)
                     {
                         found.push(Violation {
-                            property: GOAL,
+                            property: GOAL.into(),
                             at,
                             robots: vec![robot],
                             text,
@@ -169,7 +169,7 @@ impl ReachAvoid {
             command.overdue = true;
             if self.health.well_since(robot, started) {
                 found.push(Violation {
-                    property: PROGRESS,
+                    property: PROGRESS.into(),
                     at: due,
                     robots: vec![robot],
                     text: format!(

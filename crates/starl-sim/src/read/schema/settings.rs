@@ -187,6 +187,12 @@ const PROPERTIES: &[Field] = &[
         Default::Value("35s"),
         "Within this time, the thesis's d2.",
     ),
+    field(
+        "program",
+        Kind::Flag,
+        Default::Value("true"),
+        "What programs in the StarL language say of themselves: `invariant`, `always` and `eventually`.",
+    ),
 ];
 
 const TRACE: &[Field] = &[field(
