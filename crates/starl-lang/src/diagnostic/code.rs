@@ -1,7 +1,7 @@
 //! Every kind of problem that a person may be told of, with the number by which it can be looked up.
 //!
-//! Numbers are never reused. `01xx` is what is wrong with the text itself, `02xx` and on belong to the
-//! checker. `E` is an error: the program does not run. `W` is a warning: it runs.
+//! Numbers are never reused. `01xx` is what is wrong with the text itself, `02xx` belong to the
+//! checker, `03xx` to the compiler. `E` is an error: the program does not run. `W` is a warning: it runs.
 
 use core::fmt;
 
@@ -187,6 +187,14 @@ codes! {
     SecondDeclaration = "E0252",
     /// A record or an enum with too many parts.
     TooLarge = "E0253",
+    /// A primitive that robots do not have yet.
+    UnavailablePrimitive = "E0301",
+    /// More values at a time than the machine has registers.
+    TooManyRegisters = "E0302",
+    /// More of something than a compiled program can hold.
+    TooMuch = "E0303",
+    /// Types that are nested too deeply.
+    NestedTooDeep = "E0304",
     /// A colon at the end of a line that opens a block.
     HeaderColon = "W0101",
     /// An action's name without its brackets.

@@ -21,6 +21,8 @@ pub struct Bytecode {
     /// Where instructions come from: the first instruction of each run of instructions that come
     /// from one place, in ascending order.
     pub spans: Vec<(u32, Span)>,
+    /// The source files, by the numbers that spans have; none of bytecode that was written by hand.
+    pub files: Vec<SourceFile>,
     /// Scalar constants.
     pub constants: Vec<u64>,
     /// Constant texts.
@@ -62,6 +64,25 @@ pub struct Span {
     pub end: u32,
 }
 
+/// A source file, as far as it takes to say where something is.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SourceFile {
+    /// Its name, for instance `race.starl`.
+    pub name: String,
+    /// The byte at which each line begins, in ascending order.
+    pub lines: Vec<u32>,
+}
+
+impl SourceFile {
+    /// The line and the column of a byte, both from 1; the column counts bytes.
+    pub fn line_and_column(&self, byte: u32) -> (u32, u32) {
+        let line = self.lines.partition_point(|&start| start <= byte);
+        let start = line.checked_sub(1).and_then(|line| self.lines.get(line));
+        let column = byte - start.copied().unwrap_or(0);
+        (line.max(1) as u32, column + 1)
+    }
+}
+
 /// A variable of the state.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Variable {
@@ -69,8 +90,21 @@ pub struct Variable {
     pub name: String,
     /// Its type.
     pub kind: Type,
-    /// Whether the host may give it a value before the start.
-    pub parameter: bool,
+    /// Whether the host gives it a value before the start.
+    pub parameter: Parameter,
+}
+
+/// Whether the host gives a variable its value.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Parameter {
+    /// It does not: the program does.
+    #[default]
+    No,
+    /// It may; [`Bytecode::defaults`] gives it one.
+    Optional,
+    /// It must: there is no default.
+    Required,
 }
 
 /// An enum.
@@ -258,6 +292,14 @@ impl Program {
         let spans = &self.bytecode.spans;
         let after = spans.partition_point(|(first, _)| *first <= position);
         Some(spans.get(after.checked_sub(1)?)?.1)
+    }
+
+    /// Where an instruction comes from, as a person finds it: `race.starl:12:5`.
+    pub fn source(&self, position: u32) -> Option<String> {
+        let span = self.span(position)?;
+        let file = self.bytecode.files.get(span.file as usize)?;
+        let (line, column) = file.line_and_column(span.start);
+        Some(alloc::format!("{}:{line}:{column}", file.name))
     }
 
     /// The function that an instruction belongs to.

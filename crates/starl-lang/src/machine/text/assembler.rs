@@ -6,11 +6,13 @@
 //!
 //! ```text
 //! program Race
+//! file "race.starl" 0 16 17 32
 //! enum Location init pick wait
 //! type List[Point]
 //! constant 0.075
 //! text "arrived"
 //! parameter vicinity Float
+//! required patience Duration
 //! variable target type0
 //! import position query () (Point)
 //! import emit (type1) () labels index
@@ -31,14 +33,15 @@
 //!     return_scalar r0 #0
 //! ```
 //!
-//! `span` gives the source of the instructions after it: file, first byte, byte after the last. A
+//! `file` gives the bytes at which its lines begin. A `parameter` may be set by the host, one that is
+//! `required` must be. `span` gives the source of the instructions after it: file, first byte, byte after the last. A
 //! jump names a label of its function with `@` before it.
 
 use crate::machine::host::Import;
 use crate::machine::instruction::Instruction;
 use crate::machine::program::{
-    Action, Binding, Bytecode, Claim, Enum, Function, FunctionKind, Handler, Property, Span,
-    Variable,
+    Action, Binding, Bytecode, Claim, Enum, Function, FunctionKind, Handler, Parameter, Property,
+    SourceFile, Span, Variable,
 };
 use crate::machine::text::types::Cursor;
 use alloc::collections::BTreeMap;
@@ -70,9 +73,10 @@ pub fn assemble(text: &str) -> Result<Bytecode, AssemblyError> {
         assembler.line = index as u32 + 1;
         let line = line.trim();
         // A text may hold what would begin a comment.
-        let result = match line.strip_prefix("text ") {
-            Some(quoted) => assembler.text(quoted),
-            None => assembler.read(line.split("//").next().unwrap_or("").trim()),
+        let result = match line.split_once(' ') {
+            Some(("text", quoted)) => assembler.text(quoted),
+            Some(("file", rest)) => assembler.file(rest),
+            _ => assembler.read(line.split("//").next().unwrap_or("").trim()),
         };
         result.map_err(|reason| assembler.error(reason))?;
     }
@@ -118,8 +122,9 @@ impl Assembler {
             "enum" => self.enumeration(&mut cursor),
             "type" => cursor.object().map(|o| self.bytecode.types.push(o)),
             "constant" => constant(&mut cursor).map(|c| self.bytecode.constants.push(c)),
-            "variable" => self.variable(&mut cursor, false),
-            "parameter" => self.variable(&mut cursor, true),
+            "variable" => self.variable(&mut cursor, Parameter::No),
+            "parameter" => self.variable(&mut cursor, Parameter::Optional),
+            "required" => self.variable(&mut cursor, Parameter::Required),
             "import" => self.import(&mut cursor),
             "primitive" => self.primitive(&mut cursor),
             "defaults" => cursor
@@ -170,6 +175,16 @@ impl Assembler {
         Ok(())
     }
 
+    fn file(&mut self, rest: &str) -> Result<(), &'static str> {
+        let end = rest.rfind('"').map_or(0, |quote| quote + 1);
+        let name = unquote(rest[..end].trim()).ok_or("this is no name in quotes")?;
+        let numbers = rest[end..].split_whitespace().map(str::parse);
+        let lines = numbers.collect::<Result<_, _>>();
+        let lines = lines.map_err(|_| "lines begin at bytes")?;
+        self.bytecode.files.push(SourceFile { name, lines });
+        Ok(())
+    }
+
     fn enumeration(&mut self, cursor: &mut Cursor<'_>) -> Option<()> {
         let name = cursor.word()?.into();
         let variants = words(cursor);
@@ -177,7 +192,7 @@ impl Assembler {
         Some(())
     }
 
-    fn variable(&mut self, cursor: &mut Cursor<'_>, parameter: bool) -> Option<()> {
+    fn variable(&mut self, cursor: &mut Cursor<'_>, parameter: Parameter) -> Option<()> {
         let name = cursor.word()?.into();
         let kind = cursor.kind(0)?;
         self.bytecode.variables.push(Variable {

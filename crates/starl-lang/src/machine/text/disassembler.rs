@@ -3,7 +3,7 @@
 
 use crate::machine::instruction::Instruction;
 use crate::machine::operand::Use;
-use crate::machine::program::{Bytecode, Claim, Function, FunctionKind};
+use crate::machine::program::{Bytecode, Claim, Function, FunctionKind, Parameter};
 use crate::machine::types::Type;
 use alloc::collections::BTreeSet;
 use alloc::string::String;
@@ -26,6 +26,13 @@ fn declarations(out: &mut String, bytecode: &Bytecode) -> fmt::Result {
     if !bytecode.name.is_empty() {
         writeln!(out, "program {}", bytecode.name)?;
     }
+    for file in &bytecode.files {
+        write!(out, "file {:?}", file.name)?;
+        file.lines
+            .iter()
+            .try_for_each(|line| write!(out, " {line}"))?;
+        writeln!(out)?;
+    }
     for declared in &bytecode.enums {
         write!(out, "enum {}", declared.name)?;
         words(out, &declared.variants)?;
@@ -41,10 +48,10 @@ fn declarations(out: &mut String, bytecode: &Bytecode) -> fmt::Result {
         writeln!(out, "text {text:?}")?;
     }
     for variable in &bytecode.variables {
-        let declared = if variable.parameter {
-            "parameter"
-        } else {
-            "variable"
+        let declared = match variable.parameter {
+            Parameter::No => "variable",
+            Parameter::Optional => "parameter",
+            Parameter::Required => "required",
         };
         writeln!(out, "{declared} {} {}", variable.name, variable.kind)?;
     }

@@ -55,6 +55,10 @@ pub(in crate::machine) fn verify(bytecode: &Bytecode) -> Result<Tables, LoadErro
                 .is_none_or(|last| (last as usize) < bytecode.code.len()),
         "spans are not in ascending order or beyond the code",
     )?;
+    check(
+        (bytecode.files.iter()).all(|file| file.lines.is_sorted_by(|left, right| left < right)),
+        "the lines of a file are not in ascending order",
+    )?;
     object_types(bytecode)?;
     for variable in &bytecode.variables {
         value_type(bytecode, &variable.kind, bytecode.types.len(), 0)?;
