@@ -1,9 +1,9 @@
 //! The primitives of StarL: pure state machines that programs own and call (thesis, chapter 3).
 //!
 //! Communication: [`Broadcast`], [`Geocast`] and [`Unicast`], all built on one acknowledged protocol,
-//! [`reliable::Reliable`]. Motion: [`ReachAvoid`]. A program keeps primitives as fields, shows them in
-//! [`starl_core::Program::primitives`], calls their methods with its [`starl_core::Robot`] and reads
-//! their flags. No primitive waits for ever on a robot that is gone.
+//! [`reliable::Reliable`], and [`SharedMemory`]. Motion: [`ReachAvoid`]. A program keeps primitives as
+//! fields, shows them in [`starl_core::Program::primitives`], calls their methods with its
+//! [`starl_core::Robot`] and reads their flags. No primitive waits for ever on a robot that is gone.
 
 #![no_std]
 extern crate alloc;
@@ -13,10 +13,12 @@ mod channel;
 pub mod geocast;
 pub mod reach_avoid;
 pub mod reliable;
+pub mod shared_memory;
 pub mod unicast;
 
 pub use broadcast::Broadcast;
 pub use channel::Failure;
 pub use geocast::Geocast;
 pub use reach_avoid::ReachAvoid;
+pub use shared_memory::SharedMemory;
 pub use unicast::Unicast;

@@ -1,0 +1,64 @@
+//! When memories are compared: the Trickle algorithm (Levis, Patel, Culler, Shenker 2004, "Trickle: A
+//! Self-Regulating Algorithm for Code Propagation and Maintenance in Wireless Sensor Networks"; RFC
+//! 6206).
+//!
+//! A robot announces its memory at a random moment in the second half of an interval, unless it has
+//! heard several equal ones announced meanwhile. Intervals double up to the longest, and fall back to
+//! the shortest when memories differ. So what is said while nothing changes does not grow with the
+//! number of robots that hear each other.
+//!
+//! Where ours differs: the next interval begins with the announcement, not with the end of this one.
+
+use super::Options;
+use starl_core::{Duration, Random, RobotId, Time};
+
+/// The rhythm of announcements.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Gossip {
+    /// The present interval.
+    pub interval: Duration,
+    /// When this robot announces its memory, by its own clock.
+    pub due: Option<Time>,
+    /// How many memories equal to its own were announced in this interval.
+    pub equal: u32,
+    /// The last robot in this interval that showed another memory.
+    pub differing: Option<RobotId>,
+}
+
+impl Gossip {
+    /// Begins the shortest interval; gives the time until the announcement.
+    pub fn begin(&mut self, options: &Options, now: Time, random: &mut Random) -> Duration {
+        let interval = options.intervals().0;
+        self.enter(interval, now, random)
+    }
+
+    /// Begins the next interval, twice as long; gives the time until the announcement.
+    pub fn next(&mut self, options: &Options, now: Time, random: &mut Random) -> Duration {
+        let (shortest, longest) = options.intervals();
+        self.differing = None;
+        let doubled = (self.interval * 2).max(shortest).min(longest);
+        self.enter(doubled, now, random)
+    }
+
+    /// Whether the shortest interval is still to be begun when something calls for it.
+    pub fn is_slow(&self, options: &Options) -> bool {
+        self.interval > options.intervals().0
+    }
+
+    /// Whether the announcement is neither due in the time that it can be, nor has just been: the
+    /// timer is not armed.
+    pub fn is_lost(&self, options: &Options, now: Time) -> bool {
+        let longest = options.intervals().1;
+        self.due
+            .is_none_or(|due| due > now + longest || due + longest < now)
+    }
+
+    fn enter(&mut self, interval: Duration, now: Time, random: &mut Random) -> Duration {
+        let after = interval.seconds() * random.between(0.5, 1.0);
+        let after = Duration::from_seconds_f64(after);
+        self.interval = interval;
+        self.equal = 0;
+        self.due = Some(now + after);
+        after
+    }
+}

@@ -1,0 +1,299 @@
+//! Shared memory: variables that all robots read and write (thesis, section 3.3.2).
+//!
+//! A multi-writer variable has one value, which any robot writes. A single-writer array has one element
+//! for each robot, which that robot alone writes. Both come into being with the first write. Every robot
+//! reads its own copy, so reading and writing never wait; a write goes to all at once, and what gets lost
+//! is repaired by comparing copies (anti-entropy: Demers et al. 1987, "Epidemic Algorithms for Replicated
+//! Database Maintenance").
+//!
+//! Properties:
+//! - eventual consistency: of the writes to a variable the one with the greatest [`Stamp`] wins. Robots
+//!   that are up and linked, directly or through others, to one that has it come to show it;
+//! - a write whose writer knew of another write wins over it, however wrong the clocks are. Of two
+//!   writers that do not know of each other's writes the one with the later clock wins, then the one
+//!   with the greater number;
+//! - a robot shows only values that were written, or the initial one, and for one variable never goes
+//!   back to an earlier stamp for as long as it runs;
+//! - after any corruption of memories all this holds again for what is written later.
+//!
+//! The value of a variable may be lost for good only together with all robots that have it.
+
+mod compare;
+mod exchange;
+mod gossip;
+mod options;
+mod packet;
+mod report;
+mod stamp;
+mod store;
+
+pub use options::Options;
+pub use stamp::Stamp;
+
+use alloc::boxed::Box;
+use alloc::collections::{BTreeMap, BTreeSet};
+use core::fmt;
+use gossip::Gossip;
+use stamp::HybridClock;
+use starl_core::{Duration, Input, Payload, Port, Primitive, Robot, RobotId, Time, TimerKey};
+use store::{Address, Element, Store};
+
+/// What the timers are for.
+const FLUSH_TIMER: u16 = 0;
+const GOSSIP_TIMER: u16 = 1;
+const REPAIR_TIMER: u16 = 2;
+
+/// Longer names of variables are refused, bytes.
+const LONGEST_NAME: usize = 255;
+
+/// Variables shared by all robots. One instance holds any number of them, and sends what is written in
+/// one activation together.
+///
+/// A structure whose parts belong together is one value. The thesis's attributes, which are written each
+/// for itself, are variables of their own, e.g. `position.x`.
+#[derive(Clone, Debug)]
+pub struct SharedMemory {
+    port: Port,
+    options: Options,
+    clock: HybridClock,
+    store: Store,
+    /// What multi-writer variables hold before any write.
+    initial: BTreeMap<Box<str>, Payload>,
+    /// What elements of arrays hold before any write.
+    initial_elements: BTreeMap<Box<str>, Payload>,
+    /// Written and not yet sent.
+    unsent: BTreeSet<u64>,
+    /// To be sent again, since some robot lacks it.
+    repairs: BTreeSet<u64>,
+    /// When the next of these go out.
+    repair_due: Option<Time>,
+    gossip: Gossip,
+    /// When an element last changed.
+    changed: Time,
+}
+
+/// Why a write was refused. The memory is as before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WriteError {
+    /// The variable's name is longer than 255 bytes.
+    NameTooLong,
+    /// The value is longer than [`Options::longest_value`].
+    ValueTooLong,
+    /// There are [`Options::most_elements`] already.
+    Full,
+    /// Another variable has taken the place that this name is given in memories: rename one. The odds
+    /// are one in 10^9 among 100,000 variables.
+    NameTaken,
+}
+
+impl SharedMemory {
+    /// An instance; those of the same name on all robots are one memory.
+    pub fn new(name: &str, options: Options) -> SharedMemory {
+        SharedMemory {
+            port: Port::named(name),
+            options,
+            clock: HybridClock::default(),
+            store: Store::default(),
+            initial: BTreeMap::new(),
+            initial_elements: BTreeMap::new(),
+            unsent: BTreeSet::new(),
+            repairs: BTreeSet::new(),
+            repair_due: None,
+            gossip: Gossip::default(),
+            changed: Time::ZERO,
+        }
+    }
+
+    /// Says what a multi-writer variable holds before any write (the thesis's create). It is not sent:
+    /// each robot that wants it says so itself, as robots with the same program do.
+    pub fn initialize(&mut self, robot: &mut Robot<'_>, variable: &str, value: Payload) {
+        report::initial(robot, self.port, variable, false, &value);
+        self.initial.insert(variable.into(), value);
+    }
+
+    /// Says what the elements of a single-writer array hold before any write: see
+    /// [`SharedMemory::initialize`].
+    pub fn initialize_elements(&mut self, robot: &mut Robot<'_>, variable: &str, value: Payload) {
+        report::initial(robot, self.port, variable, true, &value);
+        self.initial_elements.insert(variable.into(), value);
+    }
+
+    /// Writes a multi-writer variable (the thesis's put).
+    pub fn write(
+        &mut self,
+        robot: &mut Robot<'_>,
+        variable: &str,
+        value: Payload,
+    ) -> Result<Stamp, WriteError> {
+        self.set(robot, variable, None, value)
+    }
+
+    /// Reads a multi-writer variable (the thesis's get); none where neither a write nor an initial
+    /// value is known.
+    pub fn read(&self, variable: &str) -> Option<&[u8]> {
+        let written = self.store.get(variable, None).map(|element| &element.value);
+        Some(written.or_else(|| self.initial.get(variable))?)
+    }
+
+    /// Writes this robot's element of a single-writer array. Writing the value that it has already does
+    /// nothing.
+    pub fn write_own(
+        &mut self,
+        robot: &mut Robot<'_>,
+        variable: &str,
+        value: Payload,
+    ) -> Result<Stamp, WriteError> {
+        let me = robot.id();
+        match self.store.get(variable, Some(me)) {
+            Some(present) if present.mine && present.value == value => Ok(present.stamp),
+            _ => self.set(robot, variable, Some(me), value),
+        }
+    }
+
+    /// Reads a robot's element of a single-writer array; none where neither a write nor an initial
+    /// value is known.
+    pub fn read_of(&self, variable: &str, owner: RobotId) -> Option<&[u8]> {
+        let element = self.store.get(variable, Some(owner));
+        let written = element.map(|element| &element.value);
+        Some(written.or_else(|| self.initial_elements.get(variable))?)
+    }
+
+    /// The elements of a single-writer array that are known to have been written, in the order of the
+    /// robots' numbers. Those of robots that have left the fleet stay.
+    pub fn all(&self, variable: &str) -> impl Iterator<Item = (RobotId, &[u8])> {
+        self.store.owners(variable).filter_map(move |owner| {
+            let element = self.store.get(variable, Some(owner))?;
+            Some((owner, &element.value[..]))
+        })
+    }
+
+    /// The stamp of what [`SharedMemory::read`] shows; none before any write.
+    pub fn stamp(&self, variable: &str) -> Option<Stamp> {
+        Some(self.store.get(variable, None)?.stamp)
+    }
+
+    /// The stamp of what [`SharedMemory::read_of`] shows; none before any write.
+    pub fn stamp_of(&self, variable: &str, owner: RobotId) -> Option<Stamp> {
+        Some(self.store.get(variable, Some(owner))?.stamp)
+    }
+
+    /// How many variables and elements are known.
+    pub fn elements(&self) -> usize {
+        self.store.len()
+    }
+
+    /// The settings.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// Writes an element here and now, and to all at the end of this activation.
+    fn set(
+        &mut self,
+        robot: &mut Robot<'_>,
+        variable: &str,
+        owner: Option<RobotId>,
+        value: Payload,
+    ) -> Result<Stamp, WriteError> {
+        let key = store::key(variable, owner);
+        let present = self.store.at(key);
+        let is_other = |element: &Element| {
+            *element.address.variable != *variable || element.address.owner != owner
+        };
+        let refusal = if variable.len() > LONGEST_NAME {
+            Some(WriteError::NameTooLong)
+        } else if value.len() > self.options.longest_value {
+            Some(WriteError::ValueTooLong)
+        } else if present.is_none() && self.store.len() >= self.options.most_elements {
+            Some(WriteError::Full)
+        } else if present.is_some_and(is_other) {
+            Some(WriteError::NameTaken)
+        } else {
+            None
+        };
+        if let Some(error) = refusal {
+            return Err(error);
+        }
+        let address = present.map_or_else(
+            || Address {
+                variable: variable.into(),
+                owner,
+            },
+            |element| element.address.clone(),
+        );
+        Ok(self.put(robot, key, address, value, "write"))
+    }
+
+    /// Makes a value the latest at its address.
+    fn put(
+        &mut self,
+        robot: &mut Robot<'_>,
+        key: u64,
+        address: Address,
+        value: Payload,
+        event: &'static str,
+    ) -> Stamp {
+        let now = robot.now();
+        if let Some(present) = self.store.at(key) {
+            // Only after a corruption can the clock be behind it.
+            self.clock.observe(present.stamp.clock());
+        }
+        let HybridClock { time, count } = self.clock.tick(now);
+        let stamp = Stamp {
+            time,
+            count,
+            writer: robot.id(),
+        };
+        let element = Element {
+            address,
+            stamp,
+            value,
+            mine: true,
+            touched: now,
+        };
+        report::element(robot, self.port, event, &element);
+        self.note_change(robot);
+        self.store.put(key, element);
+        self.unsent.insert(key);
+        robot.set_timer(self.timer(FLUSH_TIMER), Duration::ZERO);
+        stamp
+    }
+
+    fn timer(&self, kind: u16) -> TimerKey {
+        TimerKey {
+            port: self.port,
+            kind,
+            number: 0,
+        }
+    }
+}
+
+impl Primitive for SharedMemory {
+    fn port(&self) -> Port {
+        self.port
+    }
+
+    fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
+        self.flush(robot);
+        match input {
+            Input::Message(message) if message.port == self.port => self.receive(robot, message),
+            Input::Timer(key) if *key == self.timer(GOSSIP_TIMER) => self.announce(robot),
+            Input::Timer(key) if *key == self.timer(REPAIR_TIMER) => self.repair(robot),
+            _ => {}
+        }
+        self.keep_time(robot);
+    }
+}
+
+impl fmt::Display for WriteError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            WriteError::NameTooLong => "the variable's name is too long",
+            WriteError::ValueTooLong => "the value is too long for a datagram",
+            WriteError::Full => "the memory holds as many variables as it may",
+            WriteError::NameTaken => "another variable takes this name's place in the memory",
+        })
+    }
+}
+
+impl core::error::Error for WriteError {}
