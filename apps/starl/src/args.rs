@@ -14,7 +14,7 @@ fn whole(low: u32, high: u32) -> impl Fn(&str) -> Result<u32, String> + Clone + 
     }
 }
 
-/// Distributed robot applications: run, replay and measure them.
+/// Distributed robot applications: write, run, replay and measure them.
 #[derive(Parser, Debug)]
 #[command(name = "starl", version, arg_required_else_help = true)]
 pub struct Arguments {
@@ -30,6 +30,10 @@ pub enum Command {
     Run(RunArguments),
     /// Run again what a trace recorded, and compare record by record
     Replay(ReplayArguments),
+    /// Check programs and libraries of the language
+    Check(CheckArguments),
+    /// Lay programs and libraries out in the one canonical way
+    Fmt(FormatArguments),
     /// Show the examples, programs, robot models and planners
     List(ListArguments),
     /// Measure the simulator's speed and memory
@@ -82,6 +86,31 @@ pub struct ReplayArguments {
     /// Threads to step robots on [default: as for `starl run`]
     #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
     pub threads: Option<u32>,
+}
+
+/// Arguments of `starl check`.
+#[derive(Args, Debug)]
+pub struct CheckArguments {
+    /// Files, or folders of `.starl` files; `-` for standard input
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Exit with status 1 where there are warnings too
+    #[arg(long)]
+    pub deny_warnings: bool,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `starl fmt`.
+#[derive(Args, Debug)]
+pub struct FormatArguments {
+    /// Files, or folders of `.starl` files; `-` for standard input to standard output
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Change nothing; list the files that would change, and exit with status 1 if there are any
+    #[arg(long)]
+    pub check: bool,
 }
 
 /// Arguments of `starl list`.

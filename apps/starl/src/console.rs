@@ -3,7 +3,8 @@
 
 use crate::failure::Failure;
 use crate::output::reason;
-use std::io::{self, ErrorKind, Write};
+use starl_lang::diagnostic::Colour;
+use std::io::{self, ErrorKind, IsTerminal, Write};
 
 /// Writes text to standard output.
 pub fn print(text: &str) -> Result<(), Failure> {
@@ -24,6 +25,37 @@ pub fn print(text: &str) -> Result<(), Failure> {
 /// Writes a message to the error stream.
 pub fn error(message: &str) {
     let _ = writeln!(io::stderr().lock(), "error: {message}");
+}
+
+/// Writes text to the error stream.
+pub fn complain(text: &str) {
+    let _ = io::stderr().lock().write_all(text.as_bytes());
+}
+
+/// Whether standard output is coloured.
+pub fn colour() -> Colour {
+    colour_where(io::stdout().is_terminal())
+}
+
+/// Whether the error stream is coloured.
+pub fn colour_of_errors() -> Colour {
+    colour_where(io::stderr().is_terminal())
+}
+
+/// A terminal is, unless the person does not want it (<https://no-color.org>) or it cannot.
+fn colour_where(is_terminal: bool) -> Colour {
+    let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    let unable = std::env::var_os("TERM").is_some_and(|value| value == "dumb");
+    match is_terminal && !refused && !unable {
+        true => Colour::On,
+        false => Colour::Off,
+    }
+}
+
+/// `1 file`, `2 files`
+pub fn counted(number: usize, thing: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{} {thing}{plural}", grouped(number as u64))
 }
 
 /// A whole number with its digits in groups of three: `1,234,567`.

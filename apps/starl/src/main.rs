@@ -1,4 +1,4 @@
-//! The one command of StarL: runs, replays, lists and measures. See `docs/reference/command.md`.
+//! The one command of StarL: checks, runs, replays, lists and measures. See `docs/reference/command.md`.
 //!
 //! Exit status: 0 the goal was reached and no property violated (or, for other commands, all is as it
 //! should be); 1 it was not; 2 bad input or an output that cannot be written, with one message on the
@@ -6,8 +6,10 @@
 
 mod args;
 mod bench;
+mod check;
 mod console;
 mod failure;
+mod fmt;
 mod json;
 mod list;
 mod output;
@@ -19,6 +21,7 @@ mod recording;
 mod replay;
 mod report;
 mod run;
+mod sources;
 mod summary;
 mod target;
 mod threads;
@@ -33,6 +36,8 @@ fn main() -> ExitCode {
     let result = match &arguments.command {
         Command::Run(arguments) => run::run(arguments),
         Command::Replay(arguments) => replay::replay(arguments),
+        Command::Check(arguments) => check::run(arguments),
+        Command::Fmt(arguments) => fmt::run(arguments),
         Command::List(arguments) => list::list(arguments),
         Command::Bench(arguments) => bench::bench(arguments),
     };

@@ -75,7 +75,8 @@ fn find(target: &str) -> Result<(Source, Box<dyn Loader>), Failure> {
     Ok((Source::new(target, text(path)?), Box::new(Folder(folder))))
 }
 
-fn text(path: &Path) -> Result<String, Failure> {
+/// The text of a file.
+pub fn text(path: &Path) -> Result<String, Failure> {
     let bytes =
         bytes(path).map_err(|error| Failure::file(path, format!("cannot be read: {error}")))?;
     String::from_utf8(bytes).map_err(|error| {

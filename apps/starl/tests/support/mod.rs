@@ -3,8 +3,9 @@
 #![allow(dead_code, reason = "each test uses some of this")]
 
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 /// Two robots that need not go round anything; over within a few simulated seconds.
 pub const SMALL: &str = r#"
@@ -56,6 +57,20 @@ pub fn starl(folder: &Path, arguments: &[&str]) -> Output {
     command(folder, arguments)
         .output()
         .expect("the command was built")
+}
+
+/// Runs the command in a folder with a text on its standard input.
+pub fn starl_reading(folder: &Path, arguments: &[&str], input: &str) -> Output {
+    let mut child = command(folder, arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command was built");
+    let mut stdin = child.stdin.take().expect("it is piped");
+    stdin.write_all(input.as_bytes()).expect("it is read");
+    drop(stdin);
+    child.wait_with_output().expect("it ends")
 }
 
 /// Its exit status.

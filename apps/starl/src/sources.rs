@@ -1,0 +1,178 @@
+//! The texts of programs that a command is given: files, folders of them, or standard input.
+
+use crate::failure::Failure;
+use crate::output::{identity, reason};
+use crate::target;
+use starl_lang::check::{Libraries, StandardLibraries};
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+/// What a file of the language ends with.
+const SUFFIX: &str = "starl";
+
+/// Where a text comes from.
+#[derive(Clone, Debug)]
+pub enum Source {
+    /// `-`
+    Input,
+    /// A file.
+    File(PathBuf),
+}
+
+impl Source {
+    /// What people call it.
+    pub fn name(&self) -> String {
+        match self {
+            Source::Input => "standard input".to_string(),
+            Source::File(path) => path.display().to_string(),
+        }
+    }
+
+    /// Its text.
+    pub fn read(&self) -> Result<String, Failure> {
+        match self {
+            Source::File(path) => target::text(path),
+            Source::Input => {
+                let mut text = String::new();
+                match io::stdin().lock().read_to_string(&mut text) {
+                    Ok(_) => Ok(text),
+                    Err(error) if error.kind() == io::ErrorKind::InvalidData => {
+                        let message = "standard input: is not text in UTF-8";
+                        Err(Failure(message.to_string()))
+                    }
+                    Err(error) => Err(Failure(format!(
+                        "standard input: cannot be read: {}",
+                        reason(&error)
+                    ))),
+                }
+            }
+        }
+    }
+
+    /// The libraries that it may import.
+    pub fn libraries(&self) -> Beside {
+        let folder = match self {
+            Source::Input => None,
+            Source::File(path) => path.parent(),
+        };
+        Beside {
+            folder: folder.unwrap_or(Path::new("")).to_path_buf(),
+            found: RefCell::default(),
+            failures: RefCell::default(),
+        }
+    }
+}
+
+/// Libraries in the folder of what imports them, then those of the standard library.
+pub struct Beside {
+    folder: PathBuf,
+    found: RefCell<BTreeMap<String, PathBuf>>,
+    failures: RefCell<Vec<Failure>>,
+}
+
+impl Beside {
+    /// The files that were brought so far, by the names of their libraries; none of the standard
+    /// library, which are part of the command.
+    pub fn found(&self) -> BTreeMap<String, PathBuf> {
+        self.found.borrow().clone()
+    }
+
+    /// The files that are there but could not be read.
+    pub fn failures(self) -> Vec<Failure> {
+        self.failures.into_inner()
+    }
+}
+
+impl Libraries for Beside {
+    fn source(&self, name: &str) -> Option<String> {
+        let path = self.folder.join(name).with_extension(SUFFIX);
+        if !path.exists() {
+            return StandardLibraries.source(name);
+        }
+        match target::text(&path) {
+            Ok(text) => {
+                self.found.borrow_mut().insert(name.to_string(), path);
+                Some(text)
+            }
+            Err(failure) => {
+                self.failures.borrow_mut().push(failure);
+                None
+            }
+        }
+    }
+}
+
+/// The sources that arguments name, each once, and what is wrong with the others. A folder stands for
+/// the programs and libraries in it and below it, in the order of their paths.
+pub fn find(arguments: &[PathBuf]) -> (Vec<Source>, Vec<Failure>) {
+    let mut sources = Vec::new();
+    let mut failures = Vec::new();
+    let mut known = BTreeSet::new();
+    let mut add = |source: Source| {
+        let is_new = match &source {
+            Source::Input => known.insert(PathBuf::from("-")),
+            Source::File(path) => known.insert(identity(path)),
+        };
+        if is_new {
+            sources.push(source);
+        }
+    };
+    for argument in arguments {
+        if argument.as_os_str() == "-" {
+            add(Source::Input);
+        } else if argument.is_dir() {
+            let mut files = Vec::new();
+            programs(argument, &mut files, &mut failures);
+            if files.is_empty() {
+                let message = format!("there is no `.{SUFFIX}` file in this folder");
+                failures.push(Failure::file(argument, message));
+            }
+            files.into_iter().for_each(|path| add(Source::File(path)));
+        } else {
+            add(Source::File(argument.clone()));
+        }
+    }
+    (sources, failures)
+}
+
+/// The programs and libraries of a folder. What begins with a point is left out, and so are links to
+/// folders, which may lead back.
+fn programs(folder: &Path, files: &mut Vec<PathBuf>, failures: &mut Vec<Failure>) {
+    let entries = fs::read_dir(folder).and_then(Iterator::collect::<io::Result<Vec<_>>>);
+    let mut entries = match entries {
+        Ok(entries) => entries,
+        Err(error) => {
+            let message = format!("cannot be read: {}", reason(&error));
+            failures.push(Failure::file(folder, message));
+            return;
+        }
+    };
+    entries.sort_by_key(fs::DirEntry::file_name);
+    for entry in entries {
+        let path = entry.path();
+        let is_hidden = entry.file_name().as_encoded_bytes().starts_with(b".");
+        let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+        if is_hidden {
+            continue;
+        }
+        if is_folder {
+            programs(&path, files, failures);
+        } else if path.extension().is_some_and(|suffix| suffix == SUFFIX) && !path.is_dir() {
+            files.push(path);
+        }
+    }
+}
+
+/// Tells of all that could not be read or written but the last, which is what the command fails with.
+pub fn fail(mut failures: Vec<Failure>) -> Result<(), Failure> {
+    let Some(last) = failures.pop() else {
+        return Ok(());
+    };
+    for failure in &failures {
+        crate::console::error(&failure.0);
+    }
+    Err(last)
+}
