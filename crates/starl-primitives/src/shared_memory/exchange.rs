@@ -19,6 +19,10 @@ const REPAIR_BURST: usize = 4;
 /// with this pause between: 480 kB/s at most with datagrams of the default length.
 const REPAIR_PAUSE: Duration = Duration::from_millis(10);
 
+/// So often in a row a difference calls for haste while comparing changes nothing here: it may be one
+/// that the network does not let pass.
+const MOST_VAIN: u32 = 8;
+
 /// At most this many datagrams answer one; what they leave out is found in a later comparison.
 const MOST_ANSWERS: usize = 16;
 
@@ -30,7 +34,8 @@ impl SharedMemory {
         }
         let written = core::mem::take(&mut self.unsent);
         let written = written.iter().filter_map(|&key| self.store.at(key));
-        let writes: Vec<Write> = written.filter(|e| e.mine).map(write).collect();
+        let written = written.filter(|element| element.is_mine(robot.id()));
+        let writes: Vec<Write> = written.map(write).collect();
         let mut writes = writes.into_iter().peekable();
         while writes.peek().is_some() {
             let content = self.pack(&mut writes, Write::bytes);
@@ -43,7 +48,6 @@ impl SharedMemory {
     pub(super) fn announce(&mut self, robot: &mut Robot<'_>) {
         let now = robot.now();
         self.store.refresh();
-        self.clock.refresh();
         if self.gossip.equal < self.options.redundancy.max(1) {
             let announcement = Announcement {
                 fingerprint: self.store.fingerprint(),
@@ -66,6 +70,7 @@ impl SharedMemory {
         self.repair_due = None;
         for _ in 0..REPAIR_BURST {
             let lacked = self.repairs.iter().filter_map(|&key| self.store.at(key));
+            let lacked = lacked.filter(|element| element.is_valid());
             let mut lacked = lacked.map(write).peekable();
             if lacked.peek().is_none() {
                 self.repairs.clear();
@@ -127,6 +132,7 @@ impl SharedMemory {
         let now = robot.now();
         let was_quiet = now.since(self.changed) >= self.options.quiet();
         self.changed = now;
+        self.gossip.vain = 0;
         if was_quiet && self.gossip.is_slow(&self.options) {
             self.hurry(robot);
         }
@@ -170,10 +176,7 @@ impl SharedMemory {
                 // Unless they crossed, the sender does not know the later write.
                 let settled = now - self.options.settling();
                 if self.store.at(key).is_some_and(|e| e.touched <= settled) {
-                    self.gossip.differing = Some(from);
-                    if self.gossip.is_slow(&self.options) {
-                        self.hurry(robot);
-                    }
+                    self.differs(robot, from);
                 }
             }
             Merged::FromEarlierLife => {
@@ -194,8 +197,18 @@ impl SharedMemory {
             self.gossip.equal = self.gossip.equal.saturating_add(1);
             return;
         }
+        if theirs.settled && self.is_settled(robot) {
+            self.differs(robot, from);
+        } else {
+            self.gossip.differing = Some(from);
+        }
+    }
+
+    /// Another memory differs, and not because a write is on its way.
+    fn differs(&mut self, robot: &mut Robot<'_>, from: RobotId) {
         self.gossip.differing = Some(from);
-        if theirs.settled && self.is_settled(robot) && self.gossip.is_slow(&self.options) {
+        if self.gossip.is_slow(&self.options) && self.gossip.vain < MOST_VAIN {
+            self.gossip.vain += 1;
             self.hurry(robot);
         }
     }

@@ -23,6 +23,8 @@ pub(super) struct Gossip {
     pub equal: u32,
     /// The last robot in this interval that showed another memory.
     pub differing: Option<RobotId>,
+    /// How often differences have called for haste since this memory last changed.
+    pub vain: u32,
 }
 
 impl Gossip {

@@ -19,6 +19,7 @@
 //! The value of a variable may be lost for good only together with all robots that have it.
 
 mod compare;
+mod corrupt;
 mod exchange;
 mod gossip;
 mod options;
@@ -145,7 +146,7 @@ impl SharedMemory {
     ) -> Result<Stamp, WriteError> {
         let me = robot.id();
         match self.store.get(variable, Some(me)) {
-            Some(present) if present.mine && present.value == value => Ok(present.stamp),
+            Some(present) if present.is_mine(me) && present.value == value => Ok(present.stamp),
             _ => self.set(robot, variable, Some(me), value),
         }
     }
@@ -274,6 +275,7 @@ impl Primitive for SharedMemory {
     }
 
     fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
+        self.clock.refresh();
         self.flush(robot);
         match input {
             Input::Message(message) if message.port == self.port => self.receive(robot, message),

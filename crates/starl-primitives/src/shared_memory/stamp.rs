@@ -55,6 +55,7 @@ impl HybridClock {
 
     /// The next reading, above all before it.
     pub fn tick(&mut self, now: Time) -> HybridClock {
+        self.refresh();
         let now = now.min(LATEST);
         if now > self.time {
             *self = HybridClock {

@@ -10,6 +10,7 @@
 use super::stamp::Stamp;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::sync::Arc;
+use core::cmp::Ordering;
 use core::ops::RangeInclusive;
 use starl_core::random::hash_key;
 use starl_core::{Digest, Payload, RobotId, Time};
@@ -59,9 +60,16 @@ impl Element {
         hash_key(digest.value(), &[])
     }
 
-    /// Whether it is by the same robot as `self`, and this robot wrote `self` since it started.
-    fn is_mine(&self, me: RobotId) -> bool {
-        self.mine && self.stamp.writer == me
+    /// Whether it can have come about by writes: its stamp is one that clocks of ours give, and it is by
+    /// its owner. Only a corruption leaves others behind; they are neither sent nor kept for long.
+    pub fn is_valid(&self) -> bool {
+        let writer = self.stamp.writer;
+        self.stamp.clock().is_valid() && self.address.owner.is_none_or(|owner| owner == writer)
+    }
+
+    /// Whether this robot wrote it since it started.
+    pub fn is_mine(&self, me: RobotId) -> bool {
+        self.mine && self.stamp.writer == me && self.is_valid()
     }
 }
 
@@ -114,6 +122,11 @@ impl Store {
         self.owners.get(variable).into_iter().flatten().copied()
     }
 
+    /// All elements, to be overwritten.
+    pub fn all_mut(&mut self) -> impl Iterator<Item = &mut Element> {
+        self.elements.values_mut()
+    }
+
     /// The elements with keys in a range.
     pub fn range(&self, keys: RangeInclusive<u64>) -> impl Iterator<Item = (u64, &Element)> {
         self.elements
@@ -126,12 +139,15 @@ impl Store {
         self.fingerprint
     }
 
-    /// Computes afresh what follows from the elements, and drops those that no robot would take, which
-    /// only a corruption leaves behind.
+    /// Computes afresh what follows from the elements, and drops those that are not valid.
     pub fn refresh(&mut self) {
-        self.elements
-            .retain(|_, element| element.stamp.clock().is_valid());
+        self.elements.retain(|_, element| element.is_valid());
         self.fingerprint = fingerprint(self.elements.values());
+    }
+
+    /// The fingerprint of all elements, to be overwritten.
+    pub fn fingerprint_mut(&mut self) -> &mut u64 {
+        &mut self.fingerprint
     }
 
     /// Takes in an element that came from another robot.
@@ -140,18 +156,18 @@ impl Store {
         if let Some(present) = self.elements.get(&key) {
             // Two addresses with the same key: the lesser is kept, on all robots alike.
             match element.address.cmp(&present.address) {
-                core::cmp::Ordering::Greater => return Merged::Refused,
-                core::cmp::Ordering::Less => {}
-                core::cmp::Ordering::Equal => {
+                Ordering::Greater => return Merged::Refused,
+                Ordering::Equal if present.is_valid() => {
                     match (element.stamp, &element.value).cmp(&(present.stamp, &present.value)) {
-                        core::cmp::Ordering::Less => return Merged::Older,
-                        core::cmp::Ordering::Equal => return Merged::Known,
-                        core::cmp::Ordering::Greater => {}
+                        Ordering::Less => return Merged::Older,
+                        Ordering::Equal => return Merged::Known,
+                        Ordering::Greater => {}
                     }
                     if element.stamp.writer == me && present.is_mine(me) {
                         return Merged::FromEarlierLife;
                     }
                 }
+                _ => {}
             }
         } else if self.elements.len() >= most {
             return Merged::Refused;

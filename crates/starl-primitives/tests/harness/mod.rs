@@ -4,6 +4,7 @@
 #![allow(dead_code, unused_imports)] // each test uses a part of it
 
 pub mod pilot;
+pub mod sharer;
 mod talker;
 
 pub use talker::{Talker, broadcast, geocast, unicast};
@@ -12,8 +13,8 @@ use starl_core::effect::Effects;
 use starl_core::event::{Name, Value};
 use starl_core::motion::{Body, Obstacles, Workspace};
 use starl_core::{
-    Agent, Destination, Duration, Effect, Estimate, Event, Input, Message, MotionRequest, Point,
-    Pose, Program, Random, RobotId, Sensors, Time, TimerKey, View, WayPoint,
+    Agent, Destination, Duration, Effect, Estimate, Event, Input, Message, MotionRequest, Payload,
+    Point, Pose, Program, Random, Robot, RobotId, Sensors, Time, TimerKey, View, WayPoint,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -92,6 +93,18 @@ struct Node {
 }
 
 impl Node {
+    fn new(id: usize) -> Node {
+        Node {
+            agent: None,
+            position: Point::ZERO,
+            speed: 0.3 + 0.1 * id as f64,
+            target: None,
+            since: Time::ZERO,
+            trip: 0,
+            timers: BTreeMap::new(),
+        }
+    }
+
     fn head_for(&mut self, target: Option<Point>) {
         self.target = target;
         self.trip += 1;
@@ -114,8 +127,16 @@ pub struct World {
     pub now: Time,
     pub records: Vec<(Time, RobotId, Event)>,
     pub way_points: Vec<WayPoint>,
+    /// How far robots' own clocks are ahead, nanoseconds.
+    pub clocks_ahead: BTreeMap<u32, i64>,
     /// Handed to the network.
     pub sent: usize,
+    /// How long these were in all, and the longest, bytes.
+    pub sent_bytes: usize,
+    pub longest_sent: usize,
+    /// All that is sent, if it is to be kept.
+    pub payloads: Vec<Payload>,
+    pub keep_payloads: bool,
     seed: u64,
     random: Random,
     queue: BTreeMap<(Time, u64), Occasion>,
@@ -135,32 +156,38 @@ impl World {
         period: Option<Duration>,
         make: impl Fn() -> Box<dyn Program> + 'static,
     ) -> World {
-        let node = |id: usize| Node {
-            agent: None,
-            position: Point::ZERO,
-            speed: 0.3 + 0.1 * id as f64,
-            target: None,
-            since: Time::ZERO,
-            trip: 0,
-            timers: BTreeMap::new(),
-        };
         let mut world = World {
             wire,
             now: Time::ZERO,
             records: Vec::new(),
             way_points: Vec::new(),
+            clocks_ahead: BTreeMap::new(),
             sent: 0,
+            sent_bytes: 0,
+            longest_sent: 0,
+            payloads: Vec::new(),
+            keep_payloads: false,
             seed,
             random: Random::keyed(seed, &[0]),
             queue: BTreeMap::new(),
             queued: 0,
-            nodes: (0..count).map(node).collect(),
-            fleet: (0..count as u32).map(RobotId).collect(),
+            nodes: Vec::new(),
+            fleet: Vec::new(),
             make: Box::new(make),
             period,
         };
+        world.nodes = (0..count).map(Node::new).collect();
+        world.fleet = (0..count as u32).map(RobotId).collect();
         (0..count).for_each(|robot| world.start(robot));
         world
+    }
+
+    /// One more robot joins the fleet and starts.
+    pub fn join(&mut self) {
+        let robot = self.nodes.len();
+        self.nodes.push(Node::new(robot));
+        self.fleet.push(RobotId(robot as u32));
+        self.start(robot);
     }
 
     /// Starts a robot, or starts it again: with a fresh program and its random stream from the start.
@@ -188,6 +215,11 @@ impl World {
         self.nodes[robot as usize].position
     }
 
+    /// The program of a robot that is up.
+    pub fn program(&self, robot: usize) -> Option<&dyn Program> {
+        Some(self.nodes[robot].agent.as_ref()?.program())
+    }
+
     pub fn corrupt(&mut self, robot: usize) {
         let mut random = Random::keyed(self.seed, &[2, robot as u64, self.now.0]);
         if let Some(agent) = &mut self.nodes[robot].agent {
@@ -201,9 +233,11 @@ impl World {
         node.move_until(self.now);
         let Some(agent) = &mut node.agent else { return };
         let obstacles: Obstacles = [].into();
+        let ahead = self.clocks_ahead.get(&(robot as u32)).copied();
+        let ahead = ahead.unwrap_or_default();
         let view = View {
             id: RobotId(robot as u32),
-            now: self.now,
+            now: Time(self.now.0.saturating_add_signed(ahead)),
             estimate: Estimate {
                 pose: Pose::level(node.position, 0.0),
                 ..Estimate::default()
@@ -305,6 +339,11 @@ impl World {
                 payload,
             } => {
                 self.sent += 1;
+                self.sent_bytes += payload.len();
+                self.longest_sent = self.longest_sent.max(payload.len());
+                if self.keep_payloads {
+                    self.payloads.push(payload.clone());
+                }
                 let from = RobotId(robot as u32);
                 let message = Message {
                     from,
@@ -366,7 +405,8 @@ impl World {
         for _ in 0..copies {
             let lost = self.random.chance(self.wire.loss)
                 || self.wire.cut.contains(&(message.from.0, to as u32))
-                || message.payload.len() > self.wire.longest;
+                || message.payload.len() > self.wire.longest
+                || to >= self.nodes.len();
             let (low, high) = self.wire.delay_ms;
             let delay = self.random.between(low as f64, high as f64) / 1000.0;
             if !lost {
@@ -383,6 +423,28 @@ impl World {
         self.queued += 1;
         self.queue.insert((self.now + after, self.queued), occasion);
     }
+}
+
+/// Calls a primitive on the first robot of a fleet, at time 0 and at the origin; gives the effects.
+pub fn alone(fleet: &[RobotId], call: impl FnOnce(&mut Robot<'_>)) -> Vec<Effect> {
+    let obstacles: Obstacles = [].into();
+    let view = View {
+        id: fleet[0],
+        now: Time::ZERO,
+        estimate: Estimate::default(),
+        body: Body {
+            radius: 0.1,
+            height: 0.2,
+            workspace: Workspace::Ground,
+        },
+        sensors: Sensors::default(),
+        fleet,
+        way_points: &[],
+        obstacles: &obstacles,
+    };
+    let (mut effects, mut random) = (Effects::default(), Random::keyed(0, &[]));
+    call(&mut Robot::new(&view, &mut effects, &mut random));
+    effects.list
 }
 
 pub fn int(value: &Value) -> i64 {

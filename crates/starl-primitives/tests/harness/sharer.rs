@@ -1,0 +1,118 @@
+//! A program that writes shared memory as a test tells it to.
+
+use super::World;
+use starl_core::{Port, Primitive, Program, Random, Robot, RobotId, TimerKey};
+use starl_primitives::SharedMemory;
+use starl_primitives::shared_memory::Options;
+use std::any::Any;
+
+#[derive(Clone)]
+pub struct Sharer {
+    pub memory: SharedMemory,
+}
+
+impl Sharer {
+    pub fn boxed(options: Options) -> impl Fn() -> Box<dyn Program> {
+        move || {
+            let memory = SharedMemory::new("memory", options);
+            Box::new(Sharer { memory })
+        }
+    }
+}
+
+const OWN: u16 = 1 << 15;
+const LONG: u16 = 1 << 14;
+
+/// Tells a sharer to write a value to the variable `x0`, `x1`, ...
+pub fn write(variable: u16, value: u32) -> TimerKey {
+    TimerKey {
+        port: Port::PROGRAM,
+        kind: variable,
+        number: value,
+    }
+}
+
+/// Tells a sharer to write a value to its element of the array `x0`, `x1`, ...
+pub fn write_own(array: u16, value: u32) -> TimerKey {
+    write(array | OWN, value)
+}
+
+/// Tells a sharer to write this many variables, `x0`, `x1`, ..., each with its number as value.
+pub fn write_many(count: u32) -> TimerKey {
+    write(LONG, count)
+}
+
+impl Program for Sharer {
+    fn activate(&mut self, _: &mut Robot<'_>) {}
+
+    fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
+        if key.kind == LONG {
+            for variable in 0..key.number {
+                let value = variable.to_le_bytes();
+                let name = format!("x{variable}");
+                self.memory
+                    .write(robot, &name, value.as_slice().into())
+                    .unwrap();
+            }
+            return;
+        }
+        let name = format!("x{}", key.kind & !OWN);
+        let value = key.number.to_le_bytes().as_slice().into();
+        let written = if key.kind & OWN == 0 {
+            self.memory.write(robot, &name, value)
+        } else {
+            self.memory.write_own(robot, &name, value)
+        };
+        written.unwrap();
+    }
+
+    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
+        visit(&mut self.memory);
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        self.memory.corrupt(random);
+    }
+
+    fn inspect(&self) -> Option<&dyn Any> {
+        Some(self)
+    }
+}
+
+/// The memory of a robot that is up.
+pub fn memory(world: &World, robot: usize) -> &SharedMemory {
+    let program = world.program(robot).expect("the robot is up");
+    let sharer = program
+        .inspect()
+        .and_then(|any| any.downcast_ref::<Sharer>());
+    &sharer.expect("it is a sharer").memory
+}
+
+/// What a robot reads in the variable `x0`, `x1`, ...
+pub fn read(world: &World, robot: usize, variable: u16) -> Option<u32> {
+    memory(world, robot)
+        .read(&format!("x{variable}"))
+        .map(number)
+}
+
+/// What a robot reads in the array `x0`, `x1`, ... as the element of another.
+pub fn read_of(world: &World, robot: usize, array: u16, owner: u32) -> Option<u32> {
+    let memory = memory(world, robot);
+    memory
+        .read_of(&format!("x{array}"), RobotId(owner))
+        .map(number)
+}
+
+/// All of an array that a robot knows.
+pub fn all(world: &World, robot: usize, array: u16) -> Vec<(u32, u32)> {
+    let name = format!("x{array}");
+    let elements = memory(world, robot).all(&name);
+    elements
+        .map(|(owner, value)| (owner.0, number(value)))
+        .collect()
+}
+
+/// A value as its number; values that are not four bytes long come from a corruption.
+fn number(value: &[u8]) -> u32 {
+    value.try_into().map_or(u32::MAX, u32::from_le_bytes)
+}
