@@ -3,9 +3,9 @@
 //! A program is read by [`syntax`] into a tree that holds every character of the source, and a
 //! problem anywhere is a [`diagnostic`]; reading never fails. [`check`] resolves names and types and
 //! gives the [`ir`], from which programs are compiled. [`format`] lays a program out anew. The
-//! [`machine`] runs what a program was compiled to; it alone is always there and needs no standard
-//! library, so that a microcontroller can run programs which were compiled elsewhere. Everything else
-//! comes with the feature `compiler`, which is on by default.
+//! [`machine`] runs what a program was compiled to, on a [`robot`] with its primitives; these two are
+//! always there and need no standard library, so that a microcontroller can run programs which were
+//! compiled elsewhere. Everything else comes with the feature `compiler`, which is on by default.
 
 #![no_std]
 
@@ -24,5 +24,6 @@ pub mod format;
 #[cfg(feature = "compiler")]
 pub mod ir;
 pub mod machine;
+pub mod robot;
 #[cfg(feature = "compiler")]
 pub mod syntax;

@@ -50,6 +50,11 @@ pub trait Host {
     /// it. What is given back is what the call costs in fuel beyond one; an error stops the program.
     fn call(&mut self, function: u32, call: &mut HostCall<'_>) -> Result<u64, Cow<'static, str>>;
 
+    /// Learns that the guard of the action with this number holds: its effect runs next.
+    fn fires(&mut self, action: u32) {
+        let _ = action;
+    }
+
     /// The state of a robot that runs the same program, this one included; none if there is no such
     /// robot.
     fn state_of(&self, robot: RobotId) -> Option<&State> {

@@ -106,8 +106,11 @@ impl<'a> Machine<'a> {
         }
         let action = self.execution.program.bytecode.actions.get(index as usize);
         match action {
-            // The bindings follow the guard's Bool: they are the effect's first registers.
-            Some(action) => self.run(action.effect, 1).map(|()| true),
+            Some(action) => {
+                self.execution.host.fires(index);
+                // The bindings follow the guard's Bool: they are the effect's first registers.
+                self.run(action.effect, 1).map(|()| true)
+            }
             None => Ok(false),
         }
     }

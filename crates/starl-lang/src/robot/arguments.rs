@@ -1,0 +1,99 @@
+//! The arguments of a call, read one after the other.
+
+use crate::machine::{HostCall, Object};
+use alloc::borrow::Cow;
+use starl_core::{Area, Duration, Point, RobotId};
+
+/// What a function of the host gives: the fuel it costs beyond one, or why it refuses.
+pub type Called = Result<u64, Cow<'static, str>>;
+
+/// Arguments that have not been read yet. What is missing reads as zero and empty.
+#[derive(Clone, Copy, Debug)]
+pub struct Arguments<'a> {
+    scalars: &'a [u64],
+    objects: &'a [Object],
+}
+
+impl<'a> Arguments<'a> {
+    /// All arguments of a call.
+    pub fn of(call: &'a HostCall<'_>) -> Arguments<'a> {
+        Arguments {
+            scalars: call.scalars,
+            objects: call.objects,
+        }
+    }
+
+    /// The arguments of a primitive's function after the first, which is the instance's number.
+    pub fn after_instance(call: &'a HostCall<'_>) -> Arguments<'a> {
+        let mut arguments = Arguments::of(call);
+        arguments.int();
+        arguments
+    }
+
+    /// The next scalars and objects, so many of each.
+    pub fn block(&mut self, scalars: usize, objects: usize) -> (&'a [u64], &'a [Object]) {
+        let (block, rest) = self.scalars.split_at(scalars.min(self.scalars.len()));
+        let (object_block, object_rest) = self.objects.split_at(objects.min(self.objects.len()));
+        (self.scalars, self.objects) = (rest, object_rest);
+        (block, object_block)
+    }
+
+    fn scalar(&mut self) -> u64 {
+        let (block, _) = self.block(1, 0);
+        block.first().copied().unwrap_or(0)
+    }
+
+    /// A Bool.
+    pub fn bool(&mut self) -> bool {
+        self.scalar() != 0
+    }
+
+    /// An Int.
+    pub fn int(&mut self) -> i64 {
+        self.scalar() as i64
+    }
+
+    /// A Float.
+    pub fn float(&mut self) -> f64 {
+        f64::from_bits(self.scalar())
+    }
+
+    /// A Duration.
+    pub fn duration(&mut self) -> Duration {
+        Duration(self.scalar())
+    }
+
+    /// A robot.
+    pub fn robot(&mut self) -> RobotId {
+        RobotId(self.scalar() as u32)
+    }
+
+    /// A Point, metres.
+    pub fn point(&mut self) -> Point {
+        Point::new(self.float(), self.float(), self.float())
+    }
+
+    /// A text, collection, area or obstacles.
+    pub fn object(&mut self) -> &'a Object {
+        const EMPTY: &Object = &Object::EMPTY;
+        let (_, block) = self.block(0, 1);
+        block.first().unwrap_or(EMPTY)
+    }
+
+    /// A text.
+    pub fn text(&mut self) -> &'a str {
+        self.object().text()
+    }
+
+    /// An area; a variable that nothing was ever put in may hold none.
+    pub fn area(&mut self) -> Result<&'a Area, Cow<'static, str>> {
+        self.object().area().ok_or("there is no area".into())
+    }
+
+    /// A value or none.
+    pub fn optional<T>(&mut self, read: impl FnOnce(&mut Self) -> T) -> Option<T> {
+        let present = self.bool();
+        let value = read(self); // it takes its place even if there is none
+        present.then_some(value)
+    }
+}

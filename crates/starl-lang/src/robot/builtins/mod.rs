@@ -1,0 +1,207 @@
+//! The built-in functions and names of the language that need the robot. What depends on arguments
+//! alone is compiled to instructions.
+
+mod sensing;
+mod telling;
+
+pub use sensing::{name_of, way_point};
+
+use super::arguments::{Arguments, Called};
+use super::host::RobotHost;
+use super::shape::{Shape, Signature};
+use crate::machine::HostCall;
+
+/// A built-in function or name.
+pub struct Builtin {
+    /// What it is called, takes and gives.
+    pub signature: Signature,
+    /// What it does.
+    pub run: Run,
+}
+
+/// What a built-in does.
+pub type Run = fn(&mut RobotHost<'_, '_>, &mut HostCall<'_>) -> Called;
+
+/// One that only tells.
+const fn query(
+    name: &'static str,
+    parameters: &'static [Shape],
+    result: Shape,
+    run: Run,
+) -> Builtin {
+    let signature = Signature {
+        name,
+        query: true,
+        parameters,
+        fields: false,
+        result: Some(result),
+    };
+    Builtin { signature, run }
+}
+
+/// One that does something.
+const fn effect(
+    name: &'static str,
+    parameters: &'static [Shape],
+    result: Option<Shape>,
+    run: Run,
+) -> Builtin {
+    let signature = Signature {
+        name,
+        query: false,
+        parameters,
+        fields: false,
+        result,
+    };
+    Builtin { signature, run }
+}
+
+/// All of them, in the order of the language's table.
+pub static BUILTINS: &[Builtin] = &[
+    query("me", &[], Shape::Robot, |host, call| {
+        call.set_robot(0, host.context.robot.id());
+        Ok(0)
+    }),
+    query("position", &[], Shape::Point, |host, call| {
+        call.set_point(0, host.context.robot.position());
+        Ok(0)
+    }),
+    query("heading", &[], Shape::Float, |host, call| {
+        call.set_float(0, host.context.robot.heading());
+        Ok(0)
+    }),
+    query("velocity", &[], Shape::Point, |host, call| {
+        call.set_point(0, host.context.robot.velocity());
+        Ok(0)
+    }),
+    query("now", &[], Shape::Time, |host, call| {
+        call.set_nanoseconds(0, host.context.robot.now().0);
+        Ok(0)
+    }),
+    query("peers", &[], Shape::Set(&Shape::Robot), |host, call| {
+        let fleet = host.context.robot.fleet();
+        call.set_object(0, host.context.memo.fleet(fleet));
+        Ok(0)
+    }),
+    query(
+        "robot_name",
+        &[Shape::Robot],
+        Shape::Text,
+        sensing::robot_name,
+    ),
+    query(
+        "bumped",
+        &[],
+        Shape::Optional(&Shape::Side),
+        sensing::bumped,
+    ),
+    query("ranges", &[], Shape::List(&Shape::Float), sensing::ranges),
+    query(
+        "detected",
+        &[],
+        Shape::List(&Shape::Detection),
+        sensing::detected,
+    ),
+    query(
+        "way_points",
+        &[],
+        Shape::List(&Shape::Point),
+        |host, call| {
+            let way_points = host.context.robot.way_points();
+            call.set_object(0, host.context.memo.way_points(way_points));
+            Ok(0)
+        },
+    ),
+    query(
+        "way_point",
+        &[Shape::Text],
+        Shape::Optional(&Shape::Point),
+        |host, call| {
+            let way_points = host.context.robot.way_points();
+            Ok(way_point(way_points, call))
+        },
+    ),
+    query("obstacles", &[], Shape::Obstacles, |host, call| {
+        call.set_object(0, host.context.robot.obstacles().into());
+        Ok(0)
+    }),
+    effect(
+        "random",
+        &[Shape::Float, Shape::Float],
+        Some(Shape::Float),
+        |host, call| {
+            let mut arguments = Arguments::of(call);
+            let (low, high) = (arguments.float(), arguments.float());
+            let number = host.context.robot.random().between(low, high);
+            // Rounding may give `high` itself.
+            call.set_float(0, if number < high { number } else { low });
+            Ok(0)
+        },
+    ),
+    effect(
+        "random_int",
+        &[Shape::Int, Shape::Int],
+        Some(Shape::Int),
+        |host, call| {
+            let mut arguments = Arguments::of(call);
+            let (low, high) = (arguments.int(), arguments.int());
+            if low >= high {
+                return Err(alloc::format!("no Int is from {low} to below {high}").into());
+            }
+            let random = host.context.robot.random();
+            let bits = u64::from(random.bits()) << 32 | u64::from(random.bits());
+            let span = high.wrapping_sub(low) as u64;
+            let offset = (u128::from(bits) * u128::from(span)) >> 64;
+            call.set_int(0, low.wrapping_add(offset as i64));
+            Ok(0)
+        },
+    ),
+    Builtin {
+        signature: Signature {
+            name: "emit",
+            query: false,
+            parameters: &[Shape::Text],
+            fields: true,
+            result: None,
+        },
+        run: telling::emit,
+    },
+    effect("log", &[Shape::Text], None, telling::log),
+    effect(
+        "draw_point",
+        &[Shape::Text, Shape::Point],
+        None,
+        telling::draw_point,
+    ),
+    effect(
+        "draw_line",
+        &[Shape::Text, Shape::List(&Shape::Point)],
+        None,
+        telling::draw_line,
+    ),
+    effect(
+        "draw_circle",
+        &[Shape::Text, Shape::Point, Shape::Float],
+        None,
+        telling::draw_circle,
+    ),
+    effect(
+        "draw_text",
+        &[Shape::Text, Shape::Point],
+        None,
+        telling::draw_text,
+    ),
+    effect("draw_nothing", &[Shape::Text], None, telling::draw_nothing),
+    effect("finish", &[], None, |host, _| {
+        host.context.robot.finish();
+        Ok(0)
+    }),
+    effect("fail", &[Shape::Text], None, telling::fail),
+    effect("stop", &[], None, |host, _| {
+        for bound in host.bound.iter_mut().flatten() {
+            bound.halt(host.context.robot);
+        }
+        host.context.robot.halt();
+        Ok(1)
+    }),
+];

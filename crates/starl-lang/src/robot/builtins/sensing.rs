@@ -1,0 +1,74 @@
+//! What a robot knows of the world.
+
+use crate::machine::{Block, HostCall, Layout, List, Object, Type};
+use crate::robot::arguments::{Arguments, Called};
+use crate::robot::host::RobotHost;
+use alloc::boxed::Box;
+use alloc::string::String;
+use alloc::vec::Vec;
+use starl_core::sensor::Detected;
+use starl_core::{RobotId, WayPoint};
+
+/// A robot's number as a name.
+pub fn name_of(robot: RobotId) -> Object {
+    (&alloc::format!("robot{robot}")[..]).into()
+}
+
+pub fn robot_name(_: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {
+    let robot = Arguments::of(call).robot();
+    call.set_object(0, name_of(robot));
+    Ok(1)
+}
+
+/// Which half of the front is pressed; touches from elsewhere are on neither side.
+pub fn bumped(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {
+    let contact = host.context.robot.sensors().bumper;
+    let side = contact.and_then(|contact| match (contact.left(), contact.right()) {
+        (true, false) => Some(0),
+        (false, true) => Some(1),
+        (true, true) => Some(2),
+        (false, false) => None,
+    });
+    call.set_bool(0, side.is_some());
+    call.set_scalar(1, side.unwrap_or(0));
+    Ok(0)
+}
+
+pub fn ranges(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {
+    let rays = host.context.robot.sensors().proximity.iter();
+    let distances = rays.map(|ray| ray.distance.to_bits());
+    call.set_object(0, List::of_scalars(distances.collect()).into());
+    Ok(0)
+}
+
+pub fn detected(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {
+    let optional = |kind| Type::Optional(Box::new(kind));
+    let parts = [optional(Type::Robot), optional(Type::Int), Type::Point];
+    let mut list = List::new(&Layout::of(&parts));
+    for detection in host.context.robot.sensors().detections {
+        let [robot, thing] = match detection.what {
+            Detected::Robot(robot) => [[1, u64::from(robot.0)], [0, 0]],
+            Detected::Thing(thing) => [[0, 0], [1, u64::from(thing)]],
+        };
+        let p = detection.position;
+        let place = [p.x, p.y, p.z].map(f64::to_bits);
+        let scalars: Vec<u64> = robot.into_iter().chain(thing).chain(place).collect();
+        let _ = list.push(Block {
+            scalars: &scalars,
+            objects: &[],
+        }); // it is as wide as the list's elements
+    }
+    call.set_object(0, list.into());
+    Ok(0)
+}
+
+/// The place of the way-point that the call names; gives what the search costs.
+pub fn way_point(way_points: &[WayPoint], call: &mut HostCall<'_>) -> u64 {
+    let name = String::from(Arguments::of(call).text());
+    let found = way_points.iter().find(|way_point| way_point.name == name);
+    call.set_bool(0, found.is_some());
+    if let Some(found) = found {
+        call.set_point(1, found.position);
+    }
+    way_points.len() as u64 / 8
+}

@@ -1,0 +1,121 @@
+//! The machine's host on a robot: what a running program asks for, the robot and its primitives give.
+
+use super::arguments::{Arguments, Called};
+use super::code::{Code, OnRobot};
+use super::messages::Outgoing;
+use super::primitives::{KINDS, Slot};
+use super::workbench::Memo;
+use crate::machine::{Host, HostCall};
+use alloc::borrow::Cow;
+use starl_core::{Input, Payload, Robot};
+
+/// What functions of the host work with.
+pub struct Context<'a, 'r> {
+    /// The program.
+    pub code: &'a Code,
+    /// The robot that runs it.
+    pub robot: &'a mut Robot<'r>,
+    /// Values that were made before.
+    pub memo: &'a mut Memo,
+    /// The message that the present call is about.
+    message: Option<&'a Outgoing>,
+}
+
+/// A robot as the machine sees it.
+pub struct RobotHost<'a, 'r> {
+    /// What functions work with.
+    pub context: Context<'a, 'r>,
+    /// The bound primitives.
+    pub bound: &'a mut [Slot],
+    /// Whether the program has said that it cannot go on.
+    pub failed: bool,
+}
+
+impl<'a, 'r> Context<'a, 'r> {
+    /// A context without a message.
+    pub fn new(code: &'a Code, robot: &'a mut Robot<'r>, memo: &'a mut Memo) -> Context<'a, 'r> {
+        Context {
+            code,
+            robot,
+            memo,
+            message: None,
+        }
+    }
+
+    /// Reads a message from arguments, as bytes that travel.
+    pub fn message(&self, arguments: &mut Arguments<'_>) -> Result<Payload, Cow<'static, str>> {
+        let outgoing = self.message.ok_or("this sends no message")?;
+        let (scalars, objects) = outgoing.width();
+        let (scalars, objects) = arguments.block(scalars, objects);
+        let payload = outgoing.encode(self.code.program(), scalars, objects);
+        payload.ok_or("the message's fields are of other types".into())
+    }
+}
+
+impl RobotHost<'_, '_> {
+    fn bind(&mut self, kind: u16, call: &HostCall<'_>) -> Called {
+        let instance = Arguments::of(call).int() as usize;
+        let forms = self.context.code.instances();
+        let (Some(form), Some(kind_of)) = (forms.get(instance), KINDS.get(usize::from(kind)))
+        else {
+            return Err("there is no such primitive".into());
+        };
+        if form.kind != kind {
+            return Err("the primitive is of another kind".into());
+        }
+        let mut arguments = Arguments::after_instance(call);
+        let mut bound = (kind_of.bind)(form, &mut self.context, &mut arguments)?;
+        if let Some(primitive) = bound.primitive() {
+            let port = primitive.port();
+            let others = self.bound.iter_mut().enumerate();
+            let mut others = others.filter(|(other, _)| *other != instance);
+            let is_taken = others.any(|(_, slot)| {
+                let other = slot.as_mut().and_then(|bound| bound.primitive());
+                other.is_some_and(|other| other.port() == port)
+            });
+            if is_taken {
+                return Err("another primitive of the program has this name".into());
+            }
+            primitive.handle(self.context.robot, &Input::Start);
+        }
+        if let Some(slot) = self.bound.get_mut(instance) {
+            *slot = Some(bound);
+        }
+        Ok(1)
+    }
+
+    fn member(&mut self, kind: u16, member: u16, call: &mut HostCall<'_>) -> Called {
+        let instance = Arguments::of(call).int() as usize;
+        let form = self.context.code.instances().get(instance);
+        if form.is_none_or(|form| form.kind != kind) {
+            return Err("there is no such primitive".into());
+        }
+        match self.bound.get_mut(instance) {
+            Some(Some(bound)) => bound.call(usize::from(member), &mut self.context, call),
+            _ => Err("the primitive is not bound yet".into()),
+        }
+    }
+}
+
+impl Host for RobotHost<'_, '_> {
+    fn call(&mut self, function: u32, call: &mut HostCall<'_>) -> Called {
+        let code = self.context.code;
+        let Some(joint) = code.joint(function) else {
+            return Err("there is no such function".into());
+        };
+        self.context.message = joint.message.as_ref();
+        match joint.on_robot {
+            Some(OnRobot::Builtin(run)) => run(self, call),
+            Some(OnRobot::Bind(kind)) => self.bind(kind, call),
+            Some(OnRobot::Member { kind, member }) => self.member(kind, member, call),
+            None => Err("only properties ask this of robots".into()),
+        }
+    }
+
+    fn fires(&mut self, action: u32) {
+        let actions = &self.context.code.program().bytecode().actions;
+        if let Some(action) = actions.get(action as usize) {
+            self.context.robot.action(action.name.clone());
+        }
+    }
+}

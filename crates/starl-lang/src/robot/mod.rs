@@ -1,0 +1,28 @@
+//! StarL programs on robots: the machine's host.
+//!
+//! [`Code`] is bytecode that was verified and joined to what robots offer; [`RobotProgram`] runs it on
+//! one robot as a [`starl_core::Program`], so that every host of native programs runs StarL programs
+//! too; [`properties`] judges what the program claims of itself.
+//!
+//! What robots offer is in two tables: the language's built-in names, and kinds of primitives. Both
+//! say of each function what it takes and gives, so that loading refuses bytecode that was compiled for
+//! others. Nothing that comes from the network makes a program stop: what is no message of the program
+//! is ignored. A run-time error stops the program of this one robot and names the place in its source.
+
+mod arguments;
+mod builtins;
+mod code;
+mod corruption;
+mod host;
+mod messages;
+mod parameter;
+mod primitives;
+mod program;
+pub mod properties;
+mod shape;
+mod words;
+mod workbench;
+
+pub use code::Code;
+pub use parameter::ParameterError;
+pub use program::RobotProgram;

@@ -1,0 +1,122 @@
+//! What the scenario sets: values of a program's parameters.
+
+use super::code::Code;
+use super::words::type_name;
+use crate::machine::{
+    Host, HostCall, Limits, Machine, Parameter, Program, RuntimeError, State, Value, Variable,
+    Workspace,
+};
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::fmt;
+
+/// Why a program cannot run with the parameters that it was given.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ParameterError {
+    /// The program has no such parameter.
+    Unknown {
+        /// What was given.
+        name: String,
+        /// The parameters that there are.
+        known: Vec<String>,
+    },
+    /// The value is not of the parameter's type.
+    WrongType {
+        /// The parameter.
+        name: String,
+        /// Its type as the language writes it, e.g. `List[Point]`.
+        expected: String,
+        /// The value that was given.
+        found: String,
+    },
+    /// The parameter has no default and was not given.
+    Missing {
+        /// The parameter.
+        name: String,
+        /// Its type as the language writes it.
+        expected: String,
+    },
+    /// A default could not be worked out; the text says where and why.
+    Default(String),
+}
+
+impl fmt::Display for ParameterError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ParameterError::Unknown { name, known } => {
+                write!(f, "the program has no parameter `{name}`")?;
+                match known.is_empty() {
+                    true => f.write_str("; it has none"),
+                    false => write!(f, "; it has {}", known.join(", ")),
+                }
+            }
+            ParameterError::WrongType {
+                name,
+                expected,
+                found,
+            } => write!(f, "the parameter `{name}` is {expected}, not {found}"),
+            ParameterError::Missing { name, expected } => {
+                write!(f, "the parameter `{name}`, {expected}, is not given")
+            }
+            ParameterError::Default(text) => f.write_str(text),
+        }
+    }
+}
+
+impl core::error::Error for ParameterError {}
+
+/// A state with the defaults of the parameters.
+pub(super) fn defaults(program: &Program) -> Result<State, RuntimeError> {
+    let mut state = program.new_state();
+    let mut workspace = Workspace::new();
+    let limits = Limits::default();
+    Machine::new(program, &mut state, &mut workspace, &mut Nobody, limits).defaults()?;
+    Ok(state)
+}
+
+/// A state with these values of the parameters, and the defaults of others.
+pub(super) fn state(code: &Code, given: &[(&str, Value)]) -> Result<State, ParameterError> {
+    let program = code.program();
+    let parameters = || {
+        let variables = program.bytecode().variables.iter();
+        variables.filter(|variable| variable.parameter != Parameter::No)
+    };
+    let expected = |variable: &Variable| type_name(program.bytecode(), &variable.kind);
+    let is_given = |variable: &&Variable| given.iter().any(|(name, _)| *name == variable.name);
+    let mut missing = parameters().filter(|variable| variable.parameter == Parameter::Required);
+    if let Some(missing) = missing.find(|variable| !is_given(variable)) {
+        return Err(ParameterError::Missing {
+            name: missing.name.clone(),
+            expected: expected(missing),
+        });
+    }
+    let initial = code.initial();
+    let mut state = initial
+        .map_err(|text| ParameterError::Default(text.into()))?
+        .clone();
+    for (name, value) in given {
+        let Some(variable) = parameters().find(|variable| variable.name == *name) else {
+            return Err(ParameterError::Unknown {
+                name: (*name).into(),
+                known: parameters().map(|known| known.name.clone()).collect(),
+            });
+        };
+        if !program.set(&mut state, name, value) {
+            return Err(ParameterError::WrongType {
+                name: (*name).into(),
+                expected: expected(variable),
+                found: alloc::format!("{value}"),
+            });
+        }
+    }
+    Ok(state)
+}
+
+/// The host of what needs no robot.
+struct Nobody;
+
+impl Host for Nobody {
+    fn call(&mut self, _: u32, _: &mut HostCall<'_>) -> super::arguments::Called {
+        Err("a default cannot depend on the robot".into())
+    }
+}

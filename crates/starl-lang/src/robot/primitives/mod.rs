@@ -1,0 +1,209 @@
+//! Primitives as programs see them: what can be bound, what a bound one is asked and told, what it
+//! reports.
+//!
+//! A kind is one file here with an implementation of [`Kind`], and one line of [`KINDS`]; everything
+//! else is the same for all of them. The language's own table of primitives says the same of each kind
+//! to the checker.
+
+mod messaging;
+mod reach_avoid;
+
+use super::arguments::{Arguments, Called};
+use super::code::Instance;
+use super::host::Context;
+use super::shape::{Shape, Signature};
+use crate::machine::{HostCall, Object};
+use alloc::borrow::Cow;
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use dyn_clone::DynClone;
+use starl_core::{Primitive, Robot};
+
+/// The place of a primitive on a robot: none until it is bound.
+pub type Slot = Option<Box<dyn Bound>>;
+
+/// A method or flag of a kind of primitive.
+pub struct Member<P: 'static> {
+    /// What it is called, takes and gives.
+    pub signature: Signature,
+    /// What it does; arguments begin with the instance's number.
+    pub run: fn(&mut P, &mut Context<'_, '_>, &mut HostCall<'_>) -> Called,
+}
+
+/// Something that a kind of primitive reports.
+#[derive(Debug)]
+pub struct Event {
+    /// What it is called.
+    pub name: &'static str,
+    /// What it carries.
+    pub parameters: &'static [Shape],
+}
+
+/// An event that happened.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// Which of the kind's events.
+    pub event: usize,
+    /// The scalars of what it carries.
+    pub scalars: Vec<u64>,
+    /// The objects of what it carries.
+    pub objects: Vec<Object>,
+}
+
+/// A kind of primitive.
+pub trait Kind: Clone + Send + Sync + Sized + 'static {
+    /// Its name.
+    const NAME: &'static str;
+    /// What it is bound with.
+    const CONSTRUCTOR: &'static [Shape];
+    /// Its methods and flags.
+    const MEMBERS: &'static [Member<Self>];
+    /// What it reports.
+    const EVENTS: &'static [Event] = &[];
+
+    /// Binds an instance.
+    fn bind(
+        instance: &Instance,
+        context: &mut Context<'_, '_>,
+        arguments: &mut Arguments<'_>,
+    ) -> Result<Self, Cow<'static, str>>;
+
+    /// The state machine; none if it has none of its own.
+    fn primitive(&mut self) -> Option<&mut dyn Primitive>;
+
+    /// Hands over what has happened since the last call.
+    fn take_reports(&mut self, take: &mut dyn FnMut(Report)) {
+        let _ = take;
+    }
+
+    /// Ceases to move the robot.
+    fn halt(&mut self, robot: &mut Robot<'_>) {
+        let _ = robot;
+    }
+}
+
+/// A bound primitive of some kind.
+pub trait Bound: DynClone + Send + Sync {
+    /// See [`Kind::primitive`].
+    fn primitive(&mut self) -> Option<&mut dyn Primitive>;
+    /// Runs the member with this number.
+    fn call(
+        &mut self,
+        member: usize,
+        context: &mut Context<'_, '_>,
+        call: &mut HostCall<'_>,
+    ) -> Called;
+    /// See [`Kind::take_reports`].
+    fn take_reports(&mut self, take: &mut dyn FnMut(Report));
+    /// See [`Kind::halt`].
+    fn halt(&mut self, robot: &mut Robot<'_>);
+}
+
+dyn_clone::clone_trait_object!(Bound);
+
+impl<P: Kind> Bound for P {
+    fn primitive(&mut self) -> Option<&mut dyn Primitive> {
+        Kind::primitive(self)
+    }
+
+    fn call(
+        &mut self,
+        member: usize,
+        context: &mut Context<'_, '_>,
+        call: &mut HostCall<'_>,
+    ) -> Called {
+        match P::MEMBERS.get(member) {
+            Some(member) => (member.run)(self, context, call),
+            None => Err("the primitive has no such member".into()),
+        }
+    }
+
+    fn take_reports(&mut self, take: &mut dyn FnMut(Report)) {
+        Kind::take_reports(self, take);
+    }
+
+    fn halt(&mut self, robot: &mut Robot<'_>) {
+        Kind::halt(self, robot);
+    }
+}
+
+/// An entry of the table of kinds.
+pub struct Entry {
+    /// The kind's name.
+    pub name: &'static str,
+    /// What it is bound with.
+    pub constructor: &'static [Shape],
+    /// The signature of the member with this number.
+    pub member: fn(usize) -> Option<&'static Signature>,
+    /// What it reports.
+    pub events: &'static [Event],
+    /// Binds an instance.
+    pub bind: Bind,
+}
+
+type Bind = fn(
+    &Instance,
+    &mut Context<'_, '_>,
+    &mut Arguments<'_>,
+) -> Result<Box<dyn Bound>, Cow<'static, str>>;
+
+impl Entry {
+    const fn of<P: Kind>() -> Entry {
+        Entry {
+            name: P::NAME,
+            constructor: P::CONSTRUCTOR,
+            member: |index| P::MEMBERS.get(index).map(|member| &member.signature),
+            events: P::EVENTS,
+            bind: |instance, context, arguments| {
+                Ok(Box::new(P::bind(instance, context, arguments)?))
+            },
+        }
+    }
+
+    /// The signatures of all its members.
+    pub fn members(&self) -> impl Iterator<Item = &'static Signature> + use<> {
+        (0..).map_while(self.member)
+    }
+}
+
+/// All kinds of primitives.
+pub static KINDS: &[Entry] = &[
+    Entry::of::<starl_primitives::ReachAvoid>(),
+    Entry::of::<messaging::Sender<starl_primitives::Broadcast>>(),
+    Entry::of::<messaging::Sender<starl_primitives::Geocast>>(),
+    Entry::of::<messaging::Sender<starl_primitives::Unicast>>(),
+];
+
+/// A method: it may change something.
+const fn method<P>(
+    name: &'static str,
+    parameters: &'static [Shape],
+    result: Option<Shape>,
+    run: fn(&mut P, &mut Context<'_, '_>, &mut HostCall<'_>) -> Called,
+) -> Member<P> {
+    let signature = Signature {
+        name,
+        query: false,
+        parameters,
+        fields: false,
+        result,
+    };
+    Member { signature, run }
+}
+
+/// A flag, or a method that only tells.
+const fn query<P>(
+    name: &'static str,
+    parameters: &'static [Shape],
+    result: Shape,
+    run: fn(&mut P, &mut Context<'_, '_>, &mut HostCall<'_>) -> Called,
+) -> Member<P> {
+    let signature = Signature {
+        name,
+        query: true,
+        parameters,
+        fields: false,
+        result: Some(result),
+    };
+    Member { signature, run }
+}

@@ -1,0 +1,105 @@
+//! ReachAvoid in programs.
+
+use super::{Arguments, Context, Instance, Kind, Member, method, query};
+use crate::machine::Body;
+use crate::robot::shape::Shape;
+use alloc::borrow::Cow;
+use starl_core::{Primitive, Robot};
+use starl_primitives::ReachAvoid;
+use starl_primitives::reach_avoid::Options;
+
+impl Kind for ReachAvoid {
+    const NAME: &'static str = "ReachAvoid";
+
+    /// Vicinity, pass radius and distance off the path, metres; time without progress; re-plans.
+    const CONSTRUCTOR: &'static [Shape] = &[
+        Shape::Optional(&Shape::Float),
+        Shape::Optional(&Shape::Float),
+        Shape::Optional(&Shape::Float),
+        Shape::Optional(&Shape::Duration),
+        Shape::Optional(&Shape::Int),
+    ];
+
+    const MEMBERS: &'static [Member<ReachAvoid>] = &[
+        method(
+            "reach_avoid",
+            &[Shape::Point, Shape::Obstacles],
+            None,
+            |motion, context, call| {
+                let mut arguments = Arguments::after_instance(call);
+                let target = arguments.point();
+                let unsafe_set = match arguments.object().body() {
+                    Some(Body::Obstacles(obstacles)) => obstacles.clone(),
+                    _ => [].into(),
+                };
+                motion.reach_avoid(context.robot, target, unsafe_set);
+                Ok(10)
+            },
+        ),
+        method("stop", &[], None, |motion, context, _| {
+            motion.stop(context.robot);
+            Ok(1)
+        }),
+        query("active", &[], Shape::Bool, |motion, _, call| {
+            call.set_bool(0, motion.active());
+            Ok(0)
+        }),
+        query("done", &[], Shape::Bool, |motion, _, call| {
+            call.set_bool(0, motion.done());
+            Ok(0)
+        }),
+        query("failed", &[], Shape::Bool, |motion, _, call| {
+            call.set_bool(0, motion.failed());
+            Ok(0)
+        }),
+    ];
+
+    fn bind(
+        instance: &Instance,
+        _: &mut Context<'_, '_>,
+        arguments: &mut Arguments<'_>,
+    ) -> Result<ReachAvoid, Cow<'static, str>> {
+        let default = Options::default();
+        let options = Options {
+            vicinity: length(arguments, "vicinity", default.vicinity)?,
+            pass_radius: length(arguments, "pass_radius", default.pass_radius)?,
+            off_path: length(arguments, "off_path", default.off_path)?,
+            stuck_after: arguments
+                .optional(Arguments::duration)
+                .unwrap_or(default.stuck_after),
+            most_replans: match arguments.optional(Arguments::int) {
+                None => default.most_replans,
+                Some(number @ 0..) => u32::try_from(number).unwrap_or(u32::MAX),
+                Some(_) => return Err("`most_replans` is less than 0".into()),
+            },
+            ..default
+        };
+        if options.stuck_after.is_zero() {
+            return Err("`stuck_after` is no time at all".into());
+        }
+        Ok(ReachAvoid::new(&instance.name, options))
+    }
+
+    fn primitive(&mut self) -> Option<&mut dyn Primitive> {
+        Some(self)
+    }
+
+    fn halt(&mut self, robot: &mut Robot<'_>) {
+        if self.active() {
+            self.stop(robot);
+        }
+    }
+}
+
+/// A length, which is more than nothing.
+fn length(
+    arguments: &mut Arguments<'_>,
+    name: &str,
+    default: f64,
+) -> Result<f64, Cow<'static, str>> {
+    match arguments.optional(Arguments::float) {
+        None => Ok(default),
+        Some(metres) if metres > 0.0 && metres.is_finite() => Ok(metres),
+        Some(_) => Err(alloc::format!("`{name}` is not more than 0").into()),
+    }
+}

@@ -1,0 +1,227 @@
+//! The program of one robot: its variables and its primitives, run by the machine.
+
+use super::code::{Code, Instance};
+use super::corruption;
+use super::host::{Context, RobotHost};
+use super::parameter::{self, ParameterError};
+use super::primitives::{Bound, Report, Slot};
+use super::workbench::Workbench;
+use crate::machine::{Limits, Machine, RuntimeError, State, Value};
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use core::any::Any;
+use core::mem;
+use starl_core::{Input, Message, Payload, Port, Primitive, Program, Random, Robot};
+
+/// A StarL program on one robot.
+///
+/// Events of primitives are handled before anything else; a message runs its handlers as it comes, and
+/// actions wait for the next activation. A run-time error stops the robot and ends its program with
+/// the place in the source.
+#[derive(Clone)]
+pub struct RobotProgram {
+    code: Code,
+    state: State,
+    bound: Box<[Slot]>,
+    /// Events of primitives that wait for their handlers: the instance's number and what happened.
+    reports: Vec<(u32, Report)>,
+    phase: Phase,
+}
+
+/// How far the program is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    /// It has not started.
+    New,
+    /// It runs.
+    Running,
+    /// It has said that it cannot go on, or something went wrong.
+    Failed,
+}
+
+impl RobotProgram {
+    /// A program that has not started, with these values of its parameters and the defaults of
+    /// others.
+    pub fn new(code: &Code, parameters: &[(&str, Value)]) -> Result<RobotProgram, ParameterError> {
+        Ok(RobotProgram {
+            state: parameter::state(code, parameters)?,
+            bound: code.instances().iter().map(|_| None).collect(),
+            code: code.clone(),
+            reports: Vec::new(),
+            phase: Phase::New,
+        })
+    }
+
+    /// Its variables.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// What it runs.
+    pub fn code(&self) -> &Code {
+        &self.code
+    }
+
+    /// Whether it has started, so that its variables have their first values.
+    pub fn has_started(&self) -> bool {
+        self.phase != Phase::New
+    }
+
+    /// Runs a part of the program, after the handlers of what primitives have reported.
+    fn run(&mut self, robot: &mut Robot<'_>, part: Part<'_>) {
+        if self.phase == Phase::Failed {
+            return;
+        }
+        let code = &self.code;
+        let reports = mem::take(&mut self.reports);
+        let mut bench = robot.take_scratch::<Workbench>();
+        let Workbench { workspace, memo } = &mut *bench;
+        let mut host = RobotHost {
+            context: Context::new(code, robot, memo),
+            bound: &mut self.bound,
+            failed: false,
+        };
+        let (program, limits) = (code.program(), Limits::default());
+        let mut machine = Machine::new(program, &mut self.state, workspace, &mut host, limits);
+        let result = handle_reports(code.instances(), &reports, &mut machine)
+            .and_then(|()| part.run(code, &mut machine));
+        let has_failed = host.failed;
+        if let Err(error) = result {
+            robot.halt();
+            if !has_failed {
+                robot.fail(code.describe(&error));
+            }
+            self.phase = Phase::Failed;
+        }
+        robot.return_scratch(bench);
+    }
+}
+
+/// What is run at once.
+enum Part<'a> {
+    /// The first values of variables, bindings of primitives, and `init`.
+    Start,
+    /// All actions, one after the other.
+    Actions,
+    /// All handlers of a message; nothing, if it is no message of the program.
+    Message(&'a Message),
+}
+
+impl Part<'_> {
+    fn run(self, code: &Code, machine: &mut Machine<'_>) -> Result<(), RuntimeError> {
+        let program = code.program();
+        match self {
+            Part::Start => machine.start(),
+            Part::Actions => {
+                let count = program.bytecode().actions.len() as u32;
+                (0..count).try_for_each(|action| machine.action(action).map(|_| ()))
+            }
+            Part::Message(message) => {
+                let Some(arrival) = code.inbox().decode(program, &message.payload) else {
+                    return Ok(());
+                };
+                let from = [u64::from(message.from.0)];
+                let scalars: Vec<u64> = from.into_iter().chain(arrival.scalars).collect();
+                let mut handlers = arrival.handlers.iter();
+                handlers
+                    .try_for_each(|&handler| machine.handler(handler, &scalars, &arrival.objects))
+            }
+        }
+    }
+}
+
+/// Runs the handlers of what primitives have reported, in the order in which it happened.
+fn handle_reports(
+    instances: &[Instance],
+    reports: &[(u32, Report)],
+    machine: &mut Machine<'_>,
+) -> Result<(), RuntimeError> {
+    for (instance, report) in reports {
+        let handlers = instances
+            .get(*instance as usize)
+            .map_or(&[][..], |instance| &instance.handlers);
+        for (_, handler) in handlers.iter().filter(|(event, _)| *event == report.event) {
+            machine.handler(*handler, &report.scalars, &report.objects)?;
+        }
+    }
+    Ok(())
+}
+
+impl Program for RobotProgram {
+    fn start(&mut self, robot: &mut Robot<'_>) {
+        self.phase = Phase::Running;
+        self.run(robot, Part::Start);
+    }
+
+    fn activate(&mut self, robot: &mut Robot<'_>) {
+        self.run(robot, Part::Actions);
+    }
+
+    fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
+        // Programs talk through primitives; nothing else is heard.
+        if message.port != Port::PROGRAM {
+            self.run(robot, Part::Message(message));
+        }
+    }
+
+    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
+        let forms = self.code.instances().iter();
+        for ((number, form), slot) in forms.enumerate().zip(&mut self.bound) {
+            let Some(bound) = slot else { continue };
+            let Some(port) = bound.primitive().map(|primitive| primitive.port()) else {
+                continue;
+            };
+            visit(&mut Attended {
+                bound: &mut **bound,
+                port,
+                form,
+                number: number as u32,
+                reports: &mut self.reports,
+            });
+        }
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        corruption::corrupt(self.code.program(), &mut self.state, random);
+    }
+
+    fn inspect(&self) -> Option<&dyn Any> {
+        Some(self)
+    }
+}
+
+/// A primitive whose reports are taken down after each input. Where the program handles them the
+/// robot delivers an empty message to itself, so that they are handled at once.
+struct Attended<'a> {
+    bound: &'a mut dyn Bound,
+    port: Port,
+    form: &'a Instance,
+    number: u32,
+    reports: &'a mut Vec<(u32, Report)>,
+}
+
+impl Primitive for Attended<'_> {
+    fn port(&self) -> Port {
+        self.port
+    }
+
+    fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
+        if let Some(primitive) = self.bound.primitive() {
+            primitive.handle(robot, input);
+        }
+        let before = self.reports.len();
+        self.bound.take_reports(&mut |report| {
+            if self
+                .form
+                .handlers
+                .iter()
+                .any(|(event, _)| *event == report.event)
+            {
+                self.reports.push((self.number, report));
+            }
+        });
+        if self.reports.len() > before {
+            robot.deliver(robot.id(), self.port, Payload::new());
+        }
+    }
+}

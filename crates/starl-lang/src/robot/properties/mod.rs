@@ -1,0 +1,64 @@
+//! What a program claims of itself, judged on the true state of affairs.
+//!
+//! A [`Judge`] is shown the fleet again and again, as often as its state changes, and says what does
+//! not hold. It knows no simulator: a [`Fleet`] is whatever can tell the robots' variables and poses.
+//!
+//! Meaning, with the moments at which the judge is shown the fleet for time:
+//! - `always p` holds if p is true at every moment;
+//! - `eventually p within d` if p is true at some moment no later than d after the start;
+//! - `always p leads_to q within d` if for each moment at which p is true there is one, the same or a
+//!   later one but by no more than d, at which q is true.
+//!
+//! Without `within` nothing is ever too late, so that what has not come stays open. A property about
+//! each robot, each two robots and so on is judged for each such row of robots by itself, the rows in
+//! which a robot occurs twice included, and is reported once for each for which it does not hold.
+//! Robots count from when their programs have started.
+
+mod judge;
+mod observables;
+mod violation;
+
+pub use judge::{Judge, Standing};
+pub(super) use observables::{OBSERVABLES, Run};
+pub use violation::{Reason, Violation};
+
+use crate::machine::State;
+use starl_core::motion::Obstacles;
+use starl_core::{Point, Pose, RobotId, WayPoint};
+
+/// The true state of robots that run a program.
+pub trait Fleet {
+    /// The robots that run the program, in ascending order.
+    fn robots(&self) -> &[RobotId];
+
+    /// The variables of a robot; of one that is down what they were last. None if it has not started,
+    /// or does not run the program.
+    fn state_of(&self, robot: RobotId) -> Option<&State>;
+
+    /// A robot's true pose; none if there is no such robot.
+    fn pose(&self, robot: RobotId) -> Option<Pose>;
+
+    /// A robot's true velocity, metres per second; none if there is no such robot.
+    fn velocity(&self, robot: RobotId) -> Option<Point>;
+
+    /// Whether a robot's program has reached its goal.
+    fn has_finished(&self, robot: RobotId) -> bool;
+
+    /// Whether a robot is there and has not crashed.
+    fn is_up(&self, robot: RobotId) -> bool;
+
+    /// All robots of the application; none if they are those of [`Fleet::robots`].
+    fn everyone(&self) -> Option<&[RobotId]> {
+        None
+    }
+
+    /// The application's way-points, if they are known here.
+    fn way_points(&self) -> Option<&[WayPoint]> {
+        None
+    }
+
+    /// The obstacles of the world, if they are known here.
+    fn obstacles(&self) -> Option<Obstacles> {
+        None
+    }
+}

@@ -1,0 +1,160 @@
+//! Types of what the host offers to programs, and whether an import's types are those.
+//!
+//! The host's tables are written with these, in the order of the language's own tables.
+
+use crate::machine::{Bytecode, Enum, Import, ObjectType, Type};
+use alloc::string::String;
+use alloc::vec::Vec;
+
+/// A type that a function of the host takes or gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// `Bool`
+    Bool,
+    /// `Int`
+    Int,
+    /// `Float`
+    Float,
+    /// `Time`
+    Time,
+    /// `Duration`
+    Duration,
+    /// `RobotId`
+    Robot,
+    /// `Point`
+    Point,
+    /// `String`
+    Text,
+    /// `Area`
+    Area,
+    /// `Obstacles`
+    Obstacles,
+    /// The enum `Side` of the prelude.
+    Side,
+    /// The record `Detection` of the prelude.
+    Detection,
+    /// A list.
+    List(&'static Shape),
+    /// A set.
+    Set(&'static Shape),
+    /// A map.
+    Map(&'static Shape, &'static Shape),
+    /// A value or none.
+    Optional(&'static Shape),
+    /// Any message, whose name is the import's label.
+    Message,
+    /// Any value.
+    Any,
+}
+
+/// What a function of the host is called, takes and gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Signature {
+    /// Its name.
+    pub name: &'static str,
+    /// Whether it changes nothing.
+    pub query: bool,
+    /// The types of its arguments.
+    pub parameters: &'static [Shape],
+    /// Whether any values with names may follow.
+    pub fields: bool,
+    /// The type of its result, if it has one.
+    pub result: Option<Shape>,
+}
+
+/// The sides of a robot, as the prelude has them.
+pub const SIDES: [&str; 3] = ["left", "right", "both"];
+
+/// The types that bytecode declares.
+pub struct Declared {
+    enums: Vec<Enum>,
+    objects: Vec<ObjectType>,
+}
+
+impl Declared {
+    /// Those of this bytecode.
+    pub fn of(bytecode: &Bytecode) -> Declared {
+        Declared {
+            enums: bytecode.enums.clone(),
+            objects: bytecode.types.clone(),
+        }
+    }
+
+    /// The variants of an enum.
+    pub fn variants(&self, index: u16) -> &[String] {
+        let declared = self.enums.get(usize::from(index));
+        declared.map_or(&[], |declared| &declared.variants)
+    }
+
+    /// An object type.
+    pub fn object(&self, index: u16) -> Option<&ObjectType> {
+        self.objects.get(usize::from(index))
+    }
+
+    /// Whether an import is of a function with this signature; `leading` arguments come before those
+    /// of the signature and are Ints.
+    pub fn matches(&self, import: &Import, signature: &Signature, leading: usize) -> bool {
+        let Some((first, arguments)) = import.arguments.split_at_checked(leading) else {
+            return false;
+        };
+        let count = signature.parameters.len();
+        let Some((own, fields)) = arguments.split_at_checked(count) else {
+            return false;
+        };
+        let takes_message = signature.parameters.contains(&Shape::Message);
+        let labels = if takes_message { 1 } else { fields.len() };
+        first.iter().all(|kind| *kind == Type::Int)
+            && import.query == signature.query
+            && (fields.is_empty() || signature.fields)
+            && import.labels.len() == labels
+            && self.all(signature.parameters, own)
+            && match (signature.result, &import.results[..]) {
+                (None, []) => true,
+                (Some(shape), [kind]) => self.is(shape, kind),
+                _ => false,
+            }
+    }
+
+    /// Whether types are of these shapes, one by one.
+    pub fn all(&self, shapes: &[Shape], kinds: &[Type]) -> bool {
+        let mut pairs = shapes.iter().zip(kinds);
+        shapes.len() == kinds.len() && pairs.all(|(shape, kind)| self.is(*shape, kind))
+    }
+
+    fn is(&self, shape: Shape, kind: &Type) -> bool {
+        match (shape, kind) {
+            (Shape::Any, _)
+            | (Shape::Bool, Type::Bool)
+            | (Shape::Int, Type::Int)
+            | (Shape::Float, Type::Float)
+            | (Shape::Time, Type::Time)
+            | (Shape::Duration, Type::Duration)
+            | (Shape::Robot, Type::Robot)
+            | (Shape::Point, Type::Point)
+            | (Shape::Message, Type::Record(_)) => true,
+            (Shape::Side, Type::Enum(index)) => self.variants(*index) == SIDES,
+            (Shape::Detection, Type::Record(fields)) => {
+                let kinds: Vec<Type> = fields.iter().map(|(_, kind)| kind.clone()).collect();
+                const PARTS: [Shape; 3] = [
+                    Shape::Optional(&Shape::Robot),
+                    Shape::Optional(&Shape::Int),
+                    Shape::Point,
+                ];
+                self.all(&PARTS, &kinds)
+            }
+            (Shape::Optional(shape), Type::Optional(kind)) => self.is(*shape, kind),
+            (_, Type::Object(index)) => match (shape, self.object(*index)) {
+                (Shape::Text, Some(ObjectType::Text))
+                | (Shape::Area, Some(ObjectType::Area))
+                | (Shape::Obstacles, Some(ObjectType::Obstacles)) => true,
+                (Shape::List(shape), Some(ObjectType::List(kind)))
+                | (Shape::Set(shape), Some(ObjectType::Set(kind))) => self.is(*shape, kind),
+                (Shape::Map(key, value), Some(ObjectType::Map(key_kind, value_kind))) => {
+                    self.is(*key, key_kind) && self.is(*value, value_kind)
+                }
+                _ => false,
+            },
+            _ => false,
+        }
+    }
+}

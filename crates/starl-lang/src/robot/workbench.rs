@@ -1,0 +1,55 @@
+//! What is kept between activations to save work, for all robots that take turns on one thread.
+//!
+//! Invariant: nothing here makes a difference to what a program does. Registers are empty when an
+//! activation begins, and a value that was made before is given again only where a new one would be
+//! equal.
+
+use crate::machine::{List, Object, Workspace};
+use alloc::vec::Vec;
+use starl_core::{Point, RobotId, WayPoint};
+
+/// Registers, and values that were made before.
+#[derive(Clone, Default)]
+pub struct Workbench {
+    /// Registers.
+    pub workspace: Workspace,
+    /// Values.
+    pub memo: Memo,
+}
+
+/// Values that robots of one fleet have in common, made once for all of them.
+#[derive(Clone, Default)]
+pub struct Memo {
+    way_points: (Vec<Point>, Object),
+    fleet: (Vec<RobotId>, Object),
+}
+
+impl Memo {
+    /// The places of the way-points as a list.
+    pub fn way_points(&mut self, way_points: &[WayPoint]) -> Object {
+        let (known, list) = &mut self.way_points;
+        let places = way_points.iter().map(|way_point| way_point.position);
+        let bits = |p: Point| [p.x, p.y, p.z].map(f64::to_bits);
+        if !known.iter().copied().map(bits).eq(places.clone().map(bits)) {
+            *known = places.collect();
+            *list = List::of_points(known).into();
+        }
+        list.clone()
+    }
+
+    /// The robots of the fleet, which are in ascending order, as a set.
+    pub fn fleet(&mut self, fleet: &[RobotId]) -> Object {
+        let (known, set) = &mut self.fleet;
+        if known != fleet {
+            *known = fleet.into();
+            *set = robots(fleet.iter().copied());
+        }
+        set.clone()
+    }
+}
+
+/// A list of robots; a set, if they are in ascending order.
+pub fn robots(robots: impl IntoIterator<Item = RobotId>) -> Object {
+    let numbers = robots.into_iter().map(|robot| u64::from(robot.0));
+    List::of_scalars(numbers.collect()).into()
+}
