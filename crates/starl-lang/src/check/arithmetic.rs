@@ -62,18 +62,8 @@ impl Checker {
             let message = format!("`{sign}` does not mix {l} and {r}");
             let problem = Diagnostic::new(Code::MixedNumbers, span, message);
             let problem = problem.label(int.span, "this is an Int");
-            self.report(match int.kind {
-                ExpressionKind::Int(_) => {
-                    let float = format!("{}.0", self.text(int.span));
-                    problem.replace(format!("write `{float}`"), int.span, float)
-                }
-                _ => problem.mend(around(
-                    "convert it with `Float(...)`",
-                    int.span,
-                    "Float(",
-                    ")",
-                )),
-            });
+            let problem = self.as_float(problem, int);
+            self.report(problem);
             return;
         }
         let compares = matches!(
@@ -93,8 +83,11 @@ impl Checker {
         let problem = Diagnostic::new(Code::OperatorTypes, span, message);
         let look_the_same = l == r && left.ty != right.ty;
         let problem = problem.label(left.span, l).label(right.span, r);
+        let is_scaling = matches!(operator, BinaryOperator::Multiply | BinaryOperator::Divide);
         self.report(match (&left.ty, &right.ty, operator) {
             _ if look_the_same => problem.note(SAME_NAME),
+            (Type::Point, Type::Int, _) if is_scaling => self.as_float(problem, right),
+            (Type::Int, Type::Point, BinaryOperator::Multiply) => self.as_float(problem, left),
             (Type::String, _, BinaryOperator::Add) => problem.mend(around(
                 "make a text of it with `String(...)`",
                 right.span,
@@ -117,6 +110,22 @@ impl Checker {
             }
             _ => problem,
         });
+    }
+
+    /// The problem with a mend that makes the Int a Float.
+    pub fn as_float(&self, problem: Diagnostic, int: &Expression) -> Diagnostic {
+        match int.kind {
+            ExpressionKind::Int(_) => {
+                let float = format!("{}.0", self.text(int.span));
+                problem.replace(format!("write `{float}`"), int.span, float)
+            }
+            _ => problem.mend(around(
+                "convert it with `Float(...)`",
+                int.span,
+                "Float(",
+                ")",
+            )),
+        }
     }
 }
 

@@ -27,6 +27,10 @@ impl Checker {
             let is_library = tree.items().any(|item| matches!(item, Item::Library(_)));
             for item in tree.items() {
                 if (is_library || file > 0) && !self.may_be_in_library(&item) {
+                    // What uses it is not to blame.
+                    if let Some(name) = item_name(&item) {
+                        self.declare(&name, Entity::Broken);
+                    }
                     continue;
                 }
                 self.collect_item(item, None);
@@ -380,6 +384,18 @@ pub(super) fn name_of(node: &impl Named) -> Option<Name> {
         text: token.text().into(),
         span: token.text_range().into(),
     })
+}
+
+/// The name by which others use what is declared.
+fn item_name(item: &Item) -> Option<Name> {
+    match item {
+        Item::Message(node) => name_of(node),
+        Item::Parameter(node) => name_of(node),
+        Item::Variable(node) => name_of(node),
+        Item::Shared(node) => name_of(node),
+        Item::Binding(node) => name_of(node),
+        _ => None,
+    }
 }
 
 /// The first word of a declaration.

@@ -38,9 +38,9 @@ impl Checker {
             None => self.message_event(first),
         };
         let names: Vec<ast::Name> = node.parameters().collect();
-        if let Some(parts) = &parts {
-            self.check_parts(&event, parts, names.len(), span, first.text());
-        }
+        // With a part too few or too many it cannot be known which name is for which.
+        let parts =
+            parts.filter(|parts| self.check_parts(&event, parts, names.len(), span, first.text()));
         let ((parameters, body), locals) = self.in_body(Where::Effect, |checker| {
             let mut parameters = Vec::new();
             for (number, name) in names.iter().enumerate() {
@@ -191,11 +191,19 @@ impl Checker {
         (Event::Primitive { binding: id, event }, Some(parts))
     }
 
-    /// Reports too many or too few names. Of what a primitive reports the last parts may be left out.
-    fn check_parts(&mut self, event: &Event, parts: &Parts, given: usize, span: Span, name: &str) {
+    /// Whether there is a name for each part; reports too many or too few. Of what a primitive reports
+    /// the last parts may be left out.
+    fn check_parts(
+        &mut self,
+        event: &Event,
+        parts: &Parts,
+        given: usize,
+        span: Span,
+        name: &str,
+    ) -> bool {
         let may_be_fewer = matches!(event, Event::Primitive { .. });
         if given == parts.len() || may_be_fewer && given < parts.len() {
-            return;
+            return true;
         }
         let names: Vec<&str> = parts.iter().map(|(name, _)| name.as_str()).collect();
         let message = format!(
@@ -214,5 +222,6 @@ impl Checker {
                 "for a part of `{name}` that is not wanted write `_`"
             )),
         });
+        false
     }
 }

@@ -3,7 +3,7 @@
 use alloc::boxed::Box;
 use alloc::format;
 
-use super::report::{around, broken};
+use super::report::broken;
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::{Expression, ExpressionKind, Type};
@@ -88,13 +88,7 @@ impl Checker {
             }
             (Type::Int, Type::Float) => {
                 let problem = problem(Code::MixedNumbers, format!("{role} is an Int, not a Float"));
-                match value.kind {
-                    ExpressionKind::Int(_) => {
-                        let float = format!("{}.0", self.text(span));
-                        problem.replace(format!("write `{float}`"), span, float)
-                    }
-                    _ => problem.mend(around("convert it with `Float(...)`", span, "Float(", ")")),
-                }
+                self.as_float(problem, value)
             }
             (Type::Float, Type::Int) => {
                 let problem = problem(Code::MixedNumbers, format!("{role} is a Float, not an Int"));

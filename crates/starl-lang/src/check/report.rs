@@ -1,11 +1,13 @@
 //! How the checker tells of problems: whatever concerns an error that was reported is not told.
 
+use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use super::CheckedFile;
 use super::state::Checker;
-use crate::diagnostic::{Code, Diagnostic, Edit, Mend, Span, closest};
+use crate::diagnostic::{Code, Diagnostic, Edit, LineIndex, Mend, Severity, Span, closest};
 use crate::ir::{Expression, ExpressionKind, Type};
 
 impl Checker {
@@ -35,6 +37,21 @@ impl Checker {
     pub fn may_be_unread(&self, word: &str) -> bool {
         self.files[self.file as usize].unread.contains(word)
     }
+}
+
+/// Forgets what is wrong with lines that could not be read: it may be right once they can. A statement
+/// that does nothing was read.
+pub(super) fn forget_consequences(file: &mut CheckedFile) {
+    let index = LineIndex::new(&file.source);
+    let lines =
+        |problem: &Diagnostic| index.line(problem.span.start)..=index.line(problem.span.end);
+    let errors = file.parse.diagnostics().iter();
+    let unread: BTreeSet<u32> = errors
+        .filter(|problem| problem.severity() == Severity::Error)
+        .filter(|problem| problem.code != Code::NoEffect)
+        .flat_map(lines)
+        .collect();
+    (file.diagnostics).retain(|problem| !lines(problem).any(|line| unread.contains(&line)));
 }
 
 /// An expression with an error that was reported.

@@ -5,6 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::body::Body;
+use super::report::forget_consequences;
 use super::resolution::Resolutions;
 use super::scope::{Entity, Scope};
 use super::surroundings::Surroundings;
@@ -149,6 +150,7 @@ impl Checker {
     pub fn finish(mut self) -> Checked {
         self.report_broken_libraries();
         for file in &mut self.files {
+            forget_consequences(&mut file.checked);
             let diagnostics = &mut file.checked.diagnostics;
             diagnostics.extend(file.checked.parse.diagnostics().iter().cloned());
             diagnostics.sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));

@@ -27,6 +27,15 @@ macro_rules! codes {
                 }
             }
 
+            /// The page that explains it, in Markdown: when it comes and why, and an example with its
+            /// mend.
+            #[must_use]
+            pub const fn page(self) -> &'static str {
+                match self {
+                    $(Self::$name => include_str!(concat!("../../../../docs/errors/", $number, ".md")),)+
+                }
+            }
+
             /// What the code means, in a sentence.
             #[must_use]
             pub fn title(self) -> &'static str {

@@ -1,10 +1,11 @@
-//! What is wrong with a tree that its parts do not show: where `some` stands.
+//! What is wrong with a tree that its parts do not show: where `some` stands, and which problems are
+//! the consequences of others.
 
 use alloc::vec::Vec;
 
 use super::SyntaxKind::*;
 use super::SyntaxNode;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Span};
 
 /// Adds what is wrong with the tree.
 pub(super) fn validate(root: &SyntaxNode, diagnostics: &mut Vec<Diagnostic>) {
@@ -41,4 +42,24 @@ fn decides(node: &SyntaxNode) -> bool {
         }
         _ => false,
     }
+}
+
+/// Forgets the brackets that are not closed on a line whose end is a string that does not end: it has
+/// swallowed what closes them.
+pub(super) fn forget_swallowed(text: &str, diagnostics: &mut Vec<Diagnostic>) {
+    let is_open = |problem: &&Diagnostic| {
+        problem.code == Code::MalformedString && problem.span.of(text).starts_with('"')
+    };
+    let open = diagnostics.iter().filter(is_open);
+    let strings: Vec<Span> = open.map(|problem| problem.span).collect();
+    let is_swallowed = |open: Span| {
+        strings.iter().any(|string| {
+            open.end <= string.start && !Span::new(open.end, string.start).of(text).contains('\n')
+        })
+    };
+    diagnostics.retain(|problem| {
+        problem.code != Code::UnbalancedBracket
+            || problem.span.of(text).starts_with([')', ']', '}'])
+            || !is_swallowed(problem.span)
+    });
 }
