@@ -89,3 +89,40 @@ fn an_owner_sets_right_what_others_garbled() {
         }
     }
 }
+
+/// Whatever it believes of when it sent what.
+#[test]
+fn a_corrupted_memory_is_passed_on() {
+    for seed in 0..100 {
+        let make = Sharer::boxed(Options::default());
+        let mut world = World::new(2, seed, Wire::perfect(), Some(PERIOD), make);
+        for variable in 0..8 {
+            world.command(0, write(variable, 5));
+        }
+        world.run_for(Duration::from_seconds(10));
+        world.crash(1);
+        world.corrupt(0);
+        world.run_for(Duration::from_seconds(10));
+        let kept = memory(&world, 0).elements();
+        world.start(1);
+        world.run_for(Duration::from_seconds(10));
+        assert_eq!(memory(&world, 1).elements(), kept, "seed {seed}");
+    }
+}
+
+#[test]
+fn a_write_after_a_corruption_is_later_than_what_it_replaces() {
+    for seed in 0..100 {
+        let mut world = corrupted(seed, Wire::perfect(), &[0]);
+        for variable in 0..8 {
+            let name = format!("x{variable}");
+            let before = memory(&world, 0).stamp(&name);
+            world.command(0, write(variable, 77));
+            let after = memory(&world, 0).stamp(&name);
+            // No clock of ours shows more than 146 years.
+            let is_possible = before.is_none_or(|stamp| stamp.time.0 <= u64::MAX >> 2);
+            assert!(!is_possible || before < after, "seed {seed}");
+            assert_eq!(read(&world, 0, variable), Some(77));
+        }
+    }
+}

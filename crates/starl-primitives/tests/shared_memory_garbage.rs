@@ -119,10 +119,56 @@ fn no_datagram_brings_about_a_flood() {
 }
 
 #[test]
-fn effects_of_a_primitive_alone_are_transmissions_timers_and_records() {
-    // A memory that nobody starts begins to compare with its first input.
+fn a_memory_that_nobody_starts_begins_with_its_first_input() {
     let mut memory = SharedMemory::new("memory", Options::default());
-    let fleet = [RobotId(0), RobotId(1)];
-    let effects = harness::alone(&fleet, |robot| memory.handle(robot, &Input::Activate));
-    assert!(matches!(effects[..], [Effect::SetTimer { .. }]));
+    let effects = harness::alone(0, |robot| memory.handle(robot, &Input::Activate));
+    assert!(matches!(
+        effects[..],
+        [Effect::Record(_), Effect::SetTimer { .. }]
+    ));
+}
+
+#[test]
+fn a_memory_takes_no_more_than_it_holds() {
+    let options = Options {
+        most_elements: 10,
+        ..Options::default()
+    };
+    let mut world = world(2, options);
+    world.keep_payloads = true;
+    let mut large = self::world(2, Options::default());
+    large.keep_payloads = true;
+    large.command(0, write_many(20));
+    large.run_for(Duration::ZERO);
+    for payload in std::mem::take(&mut large.payloads) {
+        world.input(1, &arrives(0, payload));
+    }
+    assert_eq!(memory(&world, 1).elements(), 10);
+}
+
+/// No robot gives two values the same stamp, unless its state was corrupted. Even then all agree.
+#[test]
+fn of_two_values_with_the_same_stamp_all_take_the_same() {
+    for swapped in [false, true] {
+        let mut world = world(3, Options::default());
+        world.wire.loss = 1.0;
+        world.keep_payloads = true;
+        world.command(0, write(0, 7));
+        world.run_for(Duration::ZERO);
+        let one = world.payloads.pop().unwrap();
+        let mut other = one.clone();
+        // The value comes last.
+        let place = other.len() - 4;
+        assert_eq!(other[place], 7);
+        other[place] = 8;
+        let robots = if swapped { [2, 1] } else { [1, 2] };
+        world.input(robots[0], &arrives(0, one));
+        world.input(robots[1], &arrives(0, other));
+        world.wire.loss = 0.0;
+        world.crash(0);
+        world.run_for(Duration::from_seconds(10));
+        for robot in 1..3 {
+            assert_eq!(read(&world, robot, 0), Some(8));
+        }
+    }
 }

@@ -6,8 +6,6 @@ use starl_core::{Payload, RobotId};
 use starl_primitives::SharedMemory;
 use starl_primitives::shared_memory::{Options, WriteError};
 
-const FLEET: [RobotId; 2] = [RobotId(0), RobotId(1)];
-
 fn bytes(value: &[u8]) -> Payload {
     value.into()
 }
@@ -15,7 +13,7 @@ fn bytes(value: &[u8]) -> Payload {
 #[test]
 fn an_initial_value_is_read_until_something_is_written() {
     let mut memory = SharedMemory::new("memory", Options::default());
-    harness::alone(&FLEET, |robot| {
+    harness::alone(0, |robot| {
         assert_eq!(memory.read("a"), None);
         memory.initialize(robot, "a", bytes(b"first"));
         assert_eq!(memory.read("a"), Some(&b"first"[..]));
@@ -42,7 +40,7 @@ fn an_initial_value_is_read_until_something_is_written() {
 #[test]
 fn each_write_has_a_later_stamp() {
     let mut memory = SharedMemory::new("memory", Options::default());
-    harness::alone(&FLEET, |robot| {
+    harness::alone(0, |robot| {
         let stamps: Vec<_> = (0..100)
             .map(|n: u8| memory.write(robot, "a", bytes(&[n / 2])).unwrap())
             .collect();
@@ -58,7 +56,7 @@ fn what_cannot_be_kept_or_sent_is_refused() {
         ..Options::default()
     };
     let mut memory = SharedMemory::new("memory", options);
-    harness::alone(&FLEET, |robot| {
+    harness::alone(0, |robot| {
         let long_name = "n".repeat(256);
         let refused = memory.write(robot, &long_name, bytes(b""));
         assert_eq!(refused, Err(WriteError::NameTooLong));

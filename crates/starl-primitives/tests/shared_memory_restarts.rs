@@ -100,3 +100,32 @@ fn what_only_a_crashed_robot_knew_lives_on_in_no_one() {
         assert_eq!(read(&world, robot, 0), None);
     }
 }
+
+/// It reads an old write of its own and writes the same again. A later one of its own, from before the
+/// crash, that comes after that counts as earlier.
+#[test]
+fn writing_again_what_it_reads_after_a_restart_is_a_write() {
+    let mut world = world(1, Wire::perfect());
+    world.wire.cut.extend([(0, 2), (1, 2), (2, 1)]);
+    world.command(0, write_own(0, 1));
+    world.run_for(Duration::from_seconds(5));
+    world.wire.cut.clear();
+    world.wire.cut.extend([(0, 1), (1, 2), (2, 1)]);
+    world.command(0, write_own(0, 2));
+    world.run_for(Duration::from_seconds(5));
+    world.crash(0);
+    world.wire.cut.clear();
+    world.wire.cut.extend([(0, 2), (2, 0), (1, 2), (2, 1)]);
+    world.clocks_ahead.insert(0, -(world.now.0 as i64));
+    world.start(0);
+    world.run_for(Duration::from_seconds(5));
+    assert_eq!(read_of(&world, 0, 0, 0), Some(1));
+    world.command(0, write_own(0, 1));
+    world.run_for(Duration::from_seconds(5));
+    assert_eq!(read_of(&world, 2, 0, 0), Some(2));
+    world.wire.cut.clear();
+    world.run_for(Duration::from_seconds(10));
+    for robot in 0..3 {
+        assert_eq!(read_of(&world, robot, 0, 0), Some(1));
+    }
+}

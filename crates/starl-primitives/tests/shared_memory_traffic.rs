@@ -99,3 +99,33 @@ fn a_network_that_carries_no_repairs_is_not_flooded_with_them() {
     assert_eq!(read(&world, 1, 0), None);
     assert!(world.sent - sent < 2 * 600, "{}", world.sent - sent);
 }
+
+/// Two memories that share nothing, and one that joins them, are sent no faster than networks like it.
+#[test]
+fn large_differences_are_sent_piece_by_piece() {
+    let mut world = world(3, 6, Wire::perfect());
+    world.crash(2);
+    for (one, other) in [(0, 1), (1, 0)] {
+        world.wire.cut.insert((one, other));
+    }
+    world.command(0, write_many(8000));
+    world.command(1, write_many(8000));
+    world.run_for(Duration::from_seconds(10));
+    world.wire.cut.clear();
+    world.start(2);
+    let mut most = 0;
+    for _ in 0..10_000 {
+        let sent = world.sent;
+        world.run_for(Duration::from_millis(1));
+        most = most.max(world.sent - sent);
+    }
+    assert!(most <= 100, "{most} datagrams within a millisecond");
+    world.run_for(Duration::from_seconds(50));
+    let (one, other) = (memory(&world, 0), memory(&world, 2));
+    assert_eq!(one.elements(), 8000);
+    for variable in 0..8000 {
+        let name = format!("x{variable}");
+        assert_eq!(one.stamp(&name), other.stamp(&name));
+        assert_eq!(one.stamp(&name), memory(&world, 1).stamp(&name));
+    }
+}

@@ -42,7 +42,7 @@ pub(super) fn describe(store: &Store, range: Range) -> Option<Part> {
 
 /// Compares parts of another memory with this one. What this one got since `settled` may be on its way
 /// to the other anyhow and does not count as newer.
-pub(super) fn compare(store: &Store, parts: &[Part], settled: Time, now: Time) -> Difference {
+pub(super) fn compare(store: &Store, parts: &[Part], settled: Time) -> Difference {
     let mut difference = Difference::default();
     for part in parts {
         match part {
@@ -57,7 +57,7 @@ pub(super) fn compare(store: &Store, parts: &[Part], settled: Time, now: Time) -
             Part::Listed(range, items) => {
                 if let Some(keys) = range.keys() {
                     compare_list(store, keys, items, &mut difference, |element| {
-                        element.touched <= settled || element.touched > now
+                        element.touched <= settled
                     });
                 }
             }

@@ -35,7 +35,7 @@ impl SharedMemory {
         self.repairs = (0..random.below(4)).map(|_| word(random)).collect();
         self.repair_due = random.chance(0.5).then(|| time(random));
         self.gossip.interval = Duration(word(random));
-        self.gossip.due = random.chance(0.5).then(|| time(random));
+        self.gossip.begun = random.chance(0.5);
         self.gossip.vain = random.bits();
         self.gossip.equal = random.bits();
         self.gossip.differing = random.chance(0.5).then(|| RobotId(random.bits()));

@@ -23,8 +23,9 @@ const REPAIR_PAUSE: Duration = Duration::from_millis(10);
 /// that the network does not let pass.
 const MOST_VAIN: u32 = 8;
 
-/// At most this many datagrams answer one; what they leave out is found in a later comparison.
-const MOST_ANSWERS: usize = 16;
+/// At most this many datagrams of a kind answer one, so that a comparison in up to five steps does not
+/// grow into a flood; what they leave out is found in a later comparison.
+const MOST_ANSWERS: usize = 2;
 
 impl SharedMemory {
     /// Sends what this robot has written.
@@ -47,7 +48,8 @@ impl SharedMemory {
     /// one that differs.
     pub(super) fn announce(&mut self, robot: &mut Robot<'_>) {
         let now = robot.now();
-        self.store.refresh();
+        self.store.refresh(now);
+        self.changed = self.changed.min(now);
         if self.gossip.equal < self.options.redundancy.max(1) {
             let announcement = Announcement {
                 fingerprint: self.store.fingerprint(),
@@ -60,7 +62,7 @@ impl SharedMemory {
                 self.send_parts(robot, peer, whole.into_iter().collect());
             }
         }
-        let after = self.gossip.next(&self.options, now, robot.random());
+        let after = self.gossip.next(&self.options, robot.random());
         robot.set_timer(self.timer(GOSSIP_TIMER), after);
     }
 
@@ -91,7 +93,8 @@ impl SharedMemory {
     /// Arms the timers that should be armed and are not.
     pub(super) fn keep_time(&mut self, robot: &mut Robot<'_>) {
         let now = robot.now();
-        if self.gossip.is_lost(&self.options, now) {
+        if !self.gossip.begun {
+            report::start(robot, self.port);
             self.hurry(robot);
         }
         let pending = |due| due <= now + REPAIR_PAUSE && due + REPAIR_PAUSE >= now;
@@ -117,11 +120,10 @@ impl SharedMemory {
             Content::Announcement(theirs) => self.heard(robot, from, theirs),
             Content::Comparison(parts) => self.compare(robot, from, &parts),
             Content::Wanted(keys) => {
-                let now = robot.now();
-                let settled = now - self.options.settling();
+                let settled = robot.now() - self.options.settling();
                 self.repairs.extend(keys.into_iter().filter(|&key| {
                     let element = self.store.at(key);
-                    element.is_some_and(|e| e.touched <= settled || e.touched > now)
+                    element.is_some_and(|element| element.touched <= settled)
                 }));
             }
         }
@@ -214,13 +216,12 @@ impl SharedMemory {
     }
 
     fn compare(&mut self, robot: &mut Robot<'_>, from: RobotId, parts: &[Part]) {
-        let now = robot.now();
-        let settled = now - self.options.settling();
+        let settled = robot.now() - self.options.settling();
         let Difference {
             parts,
             newer,
             wanted,
-        } = compare::compare(&self.store, parts, settled, now);
+        } = compare::compare(&self.store, parts, settled);
         self.repairs.extend(newer);
         self.send_parts(robot, from, parts);
         let mut wanted = wanted.into_iter().peekable();
@@ -244,15 +245,13 @@ impl SharedMemory {
 
     /// Compares memories soon.
     fn hurry(&mut self, robot: &mut Robot<'_>) {
-        let now = robot.now();
-        let after = self.gossip.begin(&self.options, now, robot.random());
+        let after = self.gossip.begin(&self.options, robot.random());
         robot.set_timer(self.timer(GOSSIP_TIMER), after);
     }
 
     /// Whether nothing has changed for so long that no write should be on its way.
     fn is_settled(&self, robot: &Robot<'_>) -> bool {
-        let now = robot.now();
-        self.changed > now || self.changed <= now - self.options.settling()
+        self.changed <= robot.now() - self.options.settling()
     }
 
     /// As many as one datagram takes, but at least one.

@@ -10,15 +10,15 @@
 //! Where ours differs: the next interval begins with the announcement, not with the end of this one.
 
 use super::Options;
-use starl_core::{Duration, Random, RobotId, Time};
+use starl_core::{Duration, Random, RobotId};
 
 /// The rhythm of announcements.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Gossip {
     /// The present interval.
     pub interval: Duration,
-    /// When this robot announces its memory, by its own clock.
-    pub due: Option<Time>,
+    /// Whether the timer of announcements was ever armed. It is armed anew whenever it fires.
+    pub begun: bool,
     /// How many memories equal to its own were announced in this interval.
     pub equal: u32,
     /// The last robot in this interval that showed another memory.
@@ -29,17 +29,17 @@ pub(super) struct Gossip {
 
 impl Gossip {
     /// Begins the shortest interval; gives the time until the announcement.
-    pub fn begin(&mut self, options: &Options, now: Time, random: &mut Random) -> Duration {
-        let interval = options.intervals().0;
-        self.enter(interval, now, random)
+    pub fn begin(&mut self, options: &Options, random: &mut Random) -> Duration {
+        self.begun = true;
+        self.enter(options.intervals().0, random)
     }
 
     /// Begins the next interval, twice as long; gives the time until the announcement.
-    pub fn next(&mut self, options: &Options, now: Time, random: &mut Random) -> Duration {
+    pub fn next(&mut self, options: &Options, random: &mut Random) -> Duration {
         let (shortest, longest) = options.intervals();
         self.differing = None;
         let doubled = (self.interval * 2).max(shortest).min(longest);
-        self.enter(doubled, now, random)
+        self.enter(doubled, random)
     }
 
     /// Whether the shortest interval is still to be begun when something calls for it.
@@ -47,20 +47,9 @@ impl Gossip {
         self.interval > options.intervals().0
     }
 
-    /// Whether the announcement is neither due in the time that it can be, nor has just been: the
-    /// timer is not armed.
-    pub fn is_lost(&self, options: &Options, now: Time) -> bool {
-        let longest = options.intervals().1;
-        self.due
-            .is_none_or(|due| due > now + longest || due + longest < now)
-    }
-
-    fn enter(&mut self, interval: Duration, now: Time, random: &mut Random) -> Duration {
-        let after = interval.seconds() * random.between(0.5, 1.0);
-        let after = Duration::from_seconds_f64(after);
+    fn enter(&mut self, interval: Duration, random: &mut Random) -> Duration {
         self.interval = interval;
         self.equal = 0;
-        self.due = Some(now + after);
-        after
+        Duration::from_seconds_f64(interval.seconds() * random.between(0.5, 1.0))
     }
 }

@@ -8,6 +8,11 @@ use starl_core::{Digest, Port, Robot, Value};
 
 const KIND: &str = "shared_memory";
 
+/// The memory begins, empty.
+pub(super) fn start(robot: &mut Robot<'_>, port: Port) {
+    robot.emit_primitive(KIND, port, "start", []);
+}
+
 /// An element was written or has changed.
 pub(super) fn element(robot: &mut Robot<'_>, port: Port, name: &'static str, element: &Element) {
     let stamp = element.stamp;

@@ -139,9 +139,13 @@ impl Store {
         self.fingerprint
     }
 
-    /// Computes afresh what follows from the elements, and drops those that are not valid.
-    pub fn refresh(&mut self) {
+    /// Computes afresh what follows from the elements, and sets right what only a corruption leaves
+    /// behind: elements that are not valid, or were touched in the future.
+    pub fn refresh(&mut self, now: Time) {
         self.elements.retain(|_, element| element.is_valid());
+        for element in self.elements.values_mut() {
+            element.touched = element.touched.min(now);
+        }
         self.fingerprint = fingerprint(self.elements.values());
     }
 

@@ -425,11 +425,11 @@ impl World {
     }
 }
 
-/// Calls a primitive on the first robot of a fleet, at time 0 and at the origin; gives the effects.
-pub fn alone(fleet: &[RobotId], call: impl FnOnce(&mut Robot<'_>)) -> Vec<Effect> {
+/// Calls a primitive on a robot of a fleet of two, at time 0 and at the origin; gives the effects.
+pub fn alone(id: u32, call: impl FnOnce(&mut Robot<'_>)) -> Vec<Effect> {
     let obstacles: Obstacles = [].into();
     let view = View {
-        id: fleet[0],
+        id: RobotId(id),
         now: Time::ZERO,
         estimate: Estimate::default(),
         body: Body {
@@ -438,7 +438,7 @@ pub fn alone(fleet: &[RobotId], call: impl FnOnce(&mut Robot<'_>)) -> Vec<Effect
             workspace: Workspace::Ground,
         },
         sensors: Sensors::default(),
-        fleet,
+        fleet: &[RobotId(0), RobotId(1)],
         way_points: &[],
         obstacles: &obstacles,
     };
