@@ -1,6 +1,6 @@
 //! The command line.
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 const MOST_THREADS: u32 = 1_024;
@@ -34,6 +34,8 @@ pub enum Command {
     Check(CheckArguments),
     /// Lay programs and libraries out in the one canonical way
     Fmt(FormatArguments),
+    /// Draw a program as a state machine, for Mermaid or Graphviz
+    Explain(ExplainArguments),
     /// Show the examples, programs, robot models and planners
     List(ListArguments),
     /// Measure the simulator's speed and memory
@@ -111,6 +113,32 @@ pub struct FormatArguments {
     /// Change nothing; list the files that would change, and exit with status 1 if there are any
     #[arg(long)]
     pub check: bool,
+}
+
+/// Arguments of `starl explain`.
+#[derive(Args, Debug)]
+pub struct ExplainArguments {
+    /// An example's name (see `starl list`) or a program: a file ending in .starl; `-` for standard
+    /// input
+    pub program: String,
+    /// The enum variable whose values are the states [default: the one that most actions ask for]
+    #[arg(long, value_name = "NAME")]
+    pub variable: Option<String>,
+    /// The language of the drawing [default: by the file's suffix, else mermaid]
+    #[arg(long, value_enum)]
+    pub format: Option<Drawing>,
+    /// Write to this file (.mmd, .dot, .gv) rather than to standard output
+    #[arg(long, value_name = "PATH")]
+    pub output: Option<PathBuf>,
+}
+
+/// Languages that diagrams are drawn in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Drawing {
+    /// A state diagram for Mermaid, which GitHub and many editors show
+    Mermaid,
+    /// A graph for Graphviz: `dot -Tsvg`
+    Dot,
 }
 
 /// Arguments of `starl list`.

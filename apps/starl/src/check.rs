@@ -7,7 +7,8 @@ use crate::output::identity;
 use crate::sources::{self, Source};
 use serde::Serialize;
 use starl_lang::check::{Checked, CheckedFile, check};
-use starl_lang::diagnostic::{Diagnostic, Severity, render, reports};
+use starl_lang::diagnostic::{Colour, Diagnostic, Severity, has_errors, render, reports};
+use starl_lang::ir::Program;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
@@ -37,39 +38,36 @@ pub fn run(arguments: &CheckArguments) -> Result<bool, Failure> {
 }
 
 /// A source that was checked.
-struct Examined {
+pub struct Examined {
+    /// The program, with errors in it if there are any.
+    pub program: Program,
     /// The source, then the libraries that it imports from files.
-    files: Vec<Examinee>,
+    pub files: Vec<Examinee>,
     /// Libraries that are there but could not be read.
-    failures: Vec<Failure>,
+    pub failures: Vec<Failure>,
 }
 
 /// A file that was checked.
-struct Examinee {
+pub struct Examinee {
     name: String,
-    /// None of standard input.
+    /// None of what is no file.
     identity: Option<PathBuf>,
     is_library: bool,
     checked: CheckedFile,
 }
 
-fn examine(source: &Source) -> Result<Examined, Failure> {
+/// Checks a source, and tells nothing.
+pub fn examine(source: &Source) -> Result<Examined, Failure> {
     let text = source.read()?;
     let libraries = source.libraries();
-    let Checked { files, .. } = check(&text, &libraries);
+    let Checked { files, program, .. } = check(&text, &libraries);
     let found = libraries.found();
     let mut examinees = Vec::new();
     for (number, checked) in files.into_iter().enumerate() {
-        let examinee = match (number, source) {
-            (0, Source::Input) => Examinee {
+        let examinee = match number {
+            0 => Examinee {
                 name: source.name(),
-                identity: None,
-                is_library: false,
-                checked,
-            },
-            (0, Source::File(path)) => Examinee {
-                name: source.name(),
-                identity: Some(identity(path)),
+                identity: source.identity(),
                 is_library: false,
                 checked,
             },
@@ -87,9 +85,27 @@ fn examine(source: &Source) -> Result<Examined, Failure> {
         examinees.push(examinee);
     }
     Ok(Examined {
+        program,
         files: examinees,
         failures: libraries.failures(),
     })
+}
+
+impl Examinee {
+    /// All that is wrong with it, as a person reads it.
+    pub fn render(&self, colour: Colour) -> String {
+        let CheckedFile {
+            source,
+            diagnostics,
+            ..
+        } = &self.checked;
+        render(&self.name, source, diagnostics, colour)
+    }
+
+    /// Whether it keeps the program from running.
+    pub fn has_errors(&self) -> bool {
+        has_errors(&self.checked.diagnostics)
+    }
 }
 
 /// What was found so far.
@@ -106,12 +122,8 @@ struct Findings {
 
 impl Findings {
     fn new(sources: &[Source]) -> Findings {
-        let own = sources.iter().filter_map(|source| match source {
-            Source::Input => None,
-            Source::File(path) => Some(identity(path)),
-        });
         Findings {
-            told: own.collect(),
+            told: sources.iter().filter_map(Source::identity).collect(),
             files: 0,
             errors: 0,
             warnings: 0,
@@ -121,25 +133,20 @@ impl Findings {
 
     fn add(&mut self, file: Examinee, as_json: bool) -> Result<(), Failure> {
         if file.is_library
-            && let Some(identity) = file.identity
+            && let Some(identity) = file.identity.clone()
             && !self.told.insert(identity)
         {
             return Ok(());
         }
-        let CheckedFile {
-            source,
-            diagnostics,
-            ..
-        } = &file.checked;
-        self.count(diagnostics);
+        let checked = &file.checked;
+        self.count(&checked.diagnostics);
         if as_json {
-            let values = reports(&file.name, source, diagnostics);
+            let values = reports(&file.name, &checked.source, &checked.diagnostics);
             let values = values.iter().map(serde_json::to_value);
             self.reports.extend(values.filter_map(Result::ok));
             return Ok(());
         }
-        let text = render(&file.name, source, diagnostics, console::colour());
-        console::print(&text)
+        console::print(&file.render(console::colour()))
     }
 
     fn count(&mut self, diagnostics: &[Diagnostic]) {

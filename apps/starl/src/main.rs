@@ -1,4 +1,4 @@
-//! The one command of StarL: checks, runs, replays, lists and measures. See `docs/reference/command.md`.
+//! The one command of StarL: checks, explains, runs, replays, lists and measures. See `docs/reference/command.md`.
 //!
 //! Exit status: 0 the goal was reached and no property violated (or, for other commands, all is as it
 //! should be); 1 it was not; 2 bad input or an output that cannot be written, with one message on the
@@ -8,6 +8,7 @@ mod args;
 mod bench;
 mod check;
 mod console;
+mod explain;
 mod failure;
 mod fmt;
 mod json;
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
         Command::Replay(arguments) => replay::replay(arguments),
         Command::Check(arguments) => check::run(arguments),
         Command::Fmt(arguments) => fmt::run(arguments),
+        Command::Explain(arguments) => explain::run(arguments),
         Command::List(arguments) => list::list(arguments),
         Command::Bench(arguments) => bench::bench(arguments),
     };

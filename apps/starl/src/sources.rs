@@ -1,9 +1,10 @@
-//! The texts of programs that a command is given: files, folders of them, or standard input.
+//! The texts of programs that a command is given: files, folders of them, examples, or standard input.
 
 use crate::failure::Failure;
 use crate::output::{identity, reason};
 use crate::target;
-use starl_lang::check::{Libraries, StandardLibraries};
+use starl_catalog::examples::Example;
+use starl_lang::check::{Libraries, NoLibraries, StandardLibraries, check};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -20,6 +21,8 @@ pub enum Source {
     Input,
     /// A file.
     File(PathBuf),
+    /// A file of an example, which is part of the command.
+    Example(&'static Example, &'static str),
 }
 
 impl Source {
@@ -28,6 +31,15 @@ impl Source {
         match self {
             Source::Input => "standard input".to_string(),
             Source::File(path) => path.display().to_string(),
+            Source::Example(_, name) => (*name).to_string(),
+        }
+    }
+
+    /// The file on disk, the same however it is named; none of what is no file.
+    pub fn identity(&self) -> Option<PathBuf> {
+        match self {
+            Source::File(path) => Some(identity(path)),
+            Source::Input | Source::Example(..) => None,
         }
     }
 
@@ -35,6 +47,10 @@ impl Source {
     pub fn read(&self) -> Result<String, Failure> {
         match self {
             Source::File(path) => target::text(path),
+            Source::Example(example, name) => {
+                let text = of_example(example, name);
+                text.ok_or_else(|| Failure(format!("{name}: is not text in UTF-8")))
+            }
             Source::Input => {
                 let mut text = String::new();
                 match io::stdin().lock().read_to_string(&mut text) {
@@ -55,11 +71,12 @@ impl Source {
     /// The libraries that it may import.
     pub fn libraries(&self) -> Beside {
         let folder = match self {
-            Source::Input => None,
-            Source::File(path) => path.parent(),
+            Source::Input => Folder::Disk(PathBuf::new()),
+            Source::File(path) => Folder::Disk(path.with_file_name("")),
+            Source::Example(example, _) => Folder::Example(example),
         };
         Beside {
-            folder: folder.unwrap_or(Path::new("")).to_path_buf(),
+            folder,
             found: RefCell::default(),
             failures: RefCell::default(),
         }
@@ -68,9 +85,14 @@ impl Source {
 
 /// Libraries in the folder of what imports them, then those of the standard library.
 pub struct Beside {
-    folder: PathBuf,
+    folder: Folder,
     found: RefCell<BTreeMap<String, PathBuf>>,
     failures: RefCell<Vec<Failure>>,
+}
+
+enum Folder {
+    Disk(PathBuf),
+    Example(&'static Example),
 }
 
 impl Beside {
@@ -88,7 +110,13 @@ impl Beside {
 
 impl Libraries for Beside {
     fn source(&self, name: &str) -> Option<String> {
-        let path = self.folder.join(name).with_extension(SUFFIX);
+        let file = format!("{name}.{SUFFIX}");
+        let path = match &self.folder {
+            Folder::Disk(folder) => folder.join(file),
+            Folder::Example(example) => {
+                return of_example(example, &file).or_else(|| StandardLibraries.source(name));
+            }
+        };
         if !path.exists() {
             return StandardLibraries.source(name);
         }
@@ -105,6 +133,22 @@ impl Libraries for Beside {
     }
 }
 
+/// The program of an example: the first of its files that is one.
+pub fn of(example: &'static Example) -> Option<Source> {
+    let names = example.files.iter().map(|(name, _)| *name);
+    let mut programs = names.filter(|name| name.ends_with(&format!(".{SUFFIX}")));
+    let program = programs.find(|name| {
+        let text = of_example(example, name).unwrap_or_default();
+        !check(&text, &NoLibraries).program.is_library
+    });
+    program.map(|name| Source::Example(example, name))
+}
+
+fn of_example(example: &Example, name: &str) -> Option<String> {
+    let (_, content) = example.files.iter().find(|(own, _)| *own == name)?;
+    String::from_utf8(content.to_vec()).ok()
+}
+
 /// The sources that arguments name, each once, and what is wrong with the others. A folder stands for
 /// the programs and libraries in it and below it, in the order of their paths.
 pub fn find(arguments: &[PathBuf]) -> (Vec<Source>, Vec<Failure>) {
@@ -113,8 +157,8 @@ pub fn find(arguments: &[PathBuf]) -> (Vec<Source>, Vec<Failure>) {
     let mut known = BTreeSet::new();
     let mut add = |source: Source| {
         let is_new = match &source {
-            Source::Input => known.insert(PathBuf::from("-")),
             Source::File(path) => known.insert(identity(path)),
+            _ => known.insert(PathBuf::from(source.name())),
         };
         if is_new {
             sources.push(source);

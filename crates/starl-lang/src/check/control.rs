@@ -11,7 +11,7 @@ use alloc::vec::Vec;
 use super::feasible::{enum_variables, truth};
 use super::scope::Entity;
 use super::state::Checker;
-use super::transitions::{Given, Transitions};
+use super::transitions::{Given, Transitions, first_values};
 use crate::diagnostic::{Code, Diagnostic, has_errors};
 use crate::ir::*;
 
@@ -184,15 +184,19 @@ impl Control {
 
     /// Whether some action or handler leaves the state.
     fn is_left(&self, program: &Program, variable: VariableId, value: u16) -> bool {
-        let leaves = |transitions: &Transitions| {
-            let given = transitions.given.get(&variable);
+        let leaves = |statements: &[Statement]| {
+            let assumed = Some((variable, value));
+            let mut transitions = Transitions::assuming(statements, program, assumed);
+            let given = transitions.given.remove(&variable);
             given.is_some_and(|given| given.values.iter().any(|next| *next != value))
         };
+        let writes = |transitions: &Transitions| transitions.given.contains_key(&variable);
         let mut writers = self.writers.get(&variable).into_iter().flatten();
+        let mut handlers = program.handlers.iter().zip(&self.handlers);
         writers.any(|number| {
-            let guard = &program.actions[*number].guard;
-            leaves(&self.actions[*number]) && truth(guard, Some((variable, value))) != Some(false)
-        }) || self.handlers.iter().any(leaves)
+            let action = &program.actions[*number];
+            truth(&action.guard, Some((variable, value))) != Some(false) && leaves(&action.effect)
+        }) || handlers.any(|(handler, transitions)| writes(transitions) && leaves(&handler.body))
     }
 
     /// Whether the program is said to be at its end in the state, or where it is entered.
@@ -214,25 +218,6 @@ impl Control {
             .iter()
             .any(|handler| handler.ends && enters(handler))
     }
-}
-
-/// The first values of the enum variables; the scenario may give any role.
-fn first_values(program: &Program) -> BTreeMap<VariableId, Given> {
-    let mut first: BTreeMap<VariableId, Given> = BTreeMap::new();
-    for (number, variable) in program.variables.iter().enumerate() {
-        let Type::Enum(id) = variable.ty else {
-            continue;
-        };
-        let own = VariableId(number as u32);
-        let given = first.entry(own).or_default();
-        let is_role = (program.roles.as_ref()).is_some_and(|roles| roles.variable == own);
-        match &variable.initial {
-            Some(value) => given.value(value),
-            None if is_role => given.values.extend(0..program[id].variants.len() as u16),
-            None => given.values.extend([0]),
-        }
-    }
-    first
 }
 
 /// Whether the expression compares the variable of a robot with the value.

@@ -6,10 +6,10 @@ use alloc::collections::BTreeSet;
 use crate::ir::{Expression, ExpressionKind, Operator, Type, VariableId};
 
 /// What is assumed: the value of an enum variable.
-pub(super) type Assumption = Option<(VariableId, u16)>;
+pub(crate) type Assumption = Option<(VariableId, u16)>;
 
 /// Whether the condition holds; none if that depends on more than what is assumed.
-pub(super) fn truth(condition: &Expression, assumed: Assumption) -> Option<bool> {
+pub(crate) fn truth(condition: &Expression, assumed: Assumption) -> Option<bool> {
     match &condition.kind {
         ExpressionKind::Bool(value) => Some(*value),
         ExpressionKind::Not(inner) => truth(inner, assumed).map(|value| !value),
@@ -65,7 +65,7 @@ fn variant(expression: &Expression, assumed: Assumption) -> Option<u16> {
 }
 
 /// The enum variables that the condition compares with something.
-pub(super) fn enum_variables(condition: &Expression, found: &mut BTreeSet<VariableId>) {
+pub(crate) fn enum_variables(condition: &Expression, found: &mut BTreeSet<VariableId>) {
     match &condition.kind {
         ExpressionKind::Variable(id) if matches!(condition.ty, Type::Enum(_)) => {
             found.insert(*id);

@@ -1,0 +1,76 @@
+//! `starl explain`: the state machine of a program, drawn.
+
+use crate::args::{Drawing, ExplainArguments};
+use crate::check::examine;
+use crate::console;
+use crate::failure::Failure;
+use crate::output::Output;
+use crate::sources::{self, Source};
+use starl_catalog::examples::{self, EXAMPLES};
+use starl_lang::explain::StateMachine;
+use starl_sim::read::suggest;
+use std::path::{Path, PathBuf};
+
+/// Draws a program. False if it has errors, of which is told.
+pub fn run(arguments: &ExplainArguments) -> Result<bool, Failure> {
+    let source = find(&arguments.program)?;
+    let examined = examine(&source)?;
+    sources::fail(examined.failures)?;
+    if examined.files.iter().any(|file| file.has_errors()) {
+        for file in &examined.files {
+            console::complain(&file.render(console::colour_of_errors()));
+        }
+        let name = source.name();
+        console::error(&format!("{name}: has errors, and is not drawn"));
+        return Ok(false);
+    }
+    let variable = arguments.variable.as_deref();
+    let machine = StateMachine::of(&examined.program, variable)
+        .map_err(|refusal| Failure(format!("{}: {refusal}", source.name())))?;
+    let drawing = (arguments.format)
+        .or_else(|| by_suffix(arguments.output.as_deref()?))
+        .unwrap_or(Drawing::Mermaid);
+    let text = match drawing {
+        Drawing::Mermaid => machine.mermaid(),
+        Drawing::Dot => machine.dot(),
+    };
+    match &arguments.output {
+        Some(path) => {
+            let (output, file) = Output::create(path)?;
+            output.write(file, text.as_bytes())?;
+        }
+        None => console::print(&text)?,
+    }
+    Ok(true)
+}
+
+fn by_suffix(path: &Path) -> Option<Drawing> {
+    match path.extension()?.to_str()? {
+        "dot" | "gv" => Some(Drawing::Dot),
+        _ => None,
+    }
+}
+
+/// What the argument means; an example goes before a file.
+fn find(program: &str) -> Result<Source, Failure> {
+    if let Some(example) = examples::find(program) {
+        return sources::of(example).ok_or_else(|| {
+            Failure(format!(
+                "{program}: this example is not written in the language"
+            ))
+        });
+    }
+    let path = PathBuf::from(program);
+    match program {
+        "-" => Ok(Source::Input),
+        _ if path.is_dir() => Err(Failure::file(&path, "is a folder; name the program in it")),
+        _ if path.exists() => Ok(Source::File(path)),
+        _ => {
+            let names: Vec<&str> = EXAMPLES.iter().map(|example| example.name).collect();
+            let help = suggest::help(program, &names, "the examples are").unwrap_or_default();
+            Err(Failure(format!(
+                "{program}: there is no example or program called this; {help}"
+            )))
+        }
+    }
+}
