@@ -20,6 +20,8 @@ pub mod compile;
 #[cfg(feature = "compiler")]
 pub mod diagnostic;
 #[cfg(feature = "compiler")]
+pub mod editor;
+#[cfg(feature = "compiler")]
 pub mod explain;
 #[cfg(feature = "compiler")]
 pub mod format;

@@ -232,6 +232,20 @@ impl Checker {
         }
     }
 
+    /// The same for something that is built in.
+    pub fn resolve_arguments(
+        &mut self,
+        arguments: &[ast::Argument],
+        text: &'static str,
+        signature: &Signature,
+    ) {
+        self.resolve_names(arguments, |_, name| {
+            let mut parameters = signature.parameters.iter();
+            let found = parameters.find(|parameter| parameter.name == name)?;
+            Some(Symbol::Argument(text, found.name))
+        });
+    }
+
     /// Looks for errors in the arguments of what cannot be called.
     pub fn check_anyway(&mut self, arguments: &[ast::Argument]) {
         for argument in arguments {

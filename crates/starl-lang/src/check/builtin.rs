@@ -33,6 +33,7 @@ impl Checker {
             let ty = self.shape_type(&signature.result, &Letters::new());
             return made(ExpressionKind::Error, something(ty), span);
         }
+        self.resolve_arguments(arguments, builtin.text(), &signature);
         let arranged = self.arrange(&Parameters::of(&signature), arguments, span);
         let mut letters = Letters::new();
         let values = self.shaped_arguments(&signature, arranged.values, &mut letters, span);

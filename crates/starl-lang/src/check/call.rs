@@ -232,6 +232,7 @@ impl Checker {
             self.check_anyway(arguments);
             return self.primitive_value(id, member, Vec::new(), &signature, at, span);
         }
+        self.resolve_arguments(arguments, member.text, &signature);
         let arranged = self.arrange(&Parameters::of(&signature), arguments, span);
         let values = self.shaped_arguments(&signature, arranged.values, &mut Letters::new(), span);
         self.primitive_value(id, member, values, &signature, at, span)
@@ -267,6 +268,7 @@ impl Checker {
             self.report(problem.expected(expected.unwrap_or_default()));
             letters.clear();
         }
+        self.resolve_arguments(arguments, method.text(), &signature);
         let arranged = self.arrange(&Parameters::of(&signature), arguments, span);
         let arguments = self.shaped_arguments(&signature, arranged.values, &mut letters, span);
         let arguments: Vec<Expression> = arguments.into_iter().flatten().collect();

@@ -228,6 +228,7 @@ impl Checker {
                 self.resolve(at, symbol);
             }
             let signature = Signature::read(primitive.constructor);
+            self.resolve_arguments(&arguments, primitive.constructor, &signature);
             let (values, locals) = self.in_body(Where::Binding, |checker| {
                 let arranged =
                     checker.arrange(&Parameters::of(&signature), &arguments, call.span());

@@ -59,6 +59,9 @@ pub enum Symbol {
     Coordinate(&'static str),
     /// What properties may say of every robot.
     RobotMember(&'static str),
+    /// The parameter of something that is built in, where an argument is given by its name: the
+    /// signature as text, and the name.
+    Argument(&'static str, &'static str),
 }
 
 impl Symbol {

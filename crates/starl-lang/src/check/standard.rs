@@ -3,6 +3,7 @@
 //! They import nothing, so that a library of the same name beside a program changes nothing in them.
 
 use alloc::string::String;
+use alloc::vec::Vec;
 
 use super::Libraries;
 
@@ -18,5 +19,10 @@ impl Libraries for StandardLibraries {
         let mut libraries = STANDARD.iter();
         let (_, text) = libraries.find(|(own, _)| *own == name)?;
         Some((*text).into())
+    }
+
+    fn names(&self) -> Vec<String> {
+        let names = STANDARD.iter().map(|(name, _)| String::from(*name));
+        names.collect()
     }
 }

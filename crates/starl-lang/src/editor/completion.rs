@@ -1,0 +1,149 @@
+//! What a name that is being typed may be.
+//!
+//! A word that nothing has, the probe, takes the place of the name, and the checker says what stands
+//! around it ([`crate::check::surroundings`]); where it does not come there, the tree does.
+
+mod candidates;
+mod context;
+
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use crate::check::{Checked, Libraries, Surroundings, Symbol, surroundings};
+use crate::diagnostic::Span;
+use crate::syntax::{SyntaxKind, SyntaxToken, parse};
+use candidates::Candidates;
+use context::Context;
+
+/// How something is called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Call {
+    /// Not at all.
+    No,
+    /// Without arguments.
+    Empty,
+    /// With arguments.
+    Arguments,
+}
+
+/// Something that may be typed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Completion {
+    /// The word.
+    pub label: String,
+    /// What it stands for; none for a word of the language.
+    pub symbol: Option<Symbol>,
+    /// How it is declared.
+    pub detail: String,
+    /// What is said of it, in Markdown.
+    pub documentation: String,
+    /// How it is called.
+    pub call: Call,
+    /// What comes first is likelier.
+    pub rank: u8,
+}
+
+/// What may be typed at a place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Completions {
+    /// The word that is replaced, perhaps empty.
+    pub span: Span,
+    /// By rising rank, and then by label.
+    pub items: Vec<Completion>,
+}
+
+/// What may be typed at a place of a text.
+#[must_use]
+pub fn completions(text: &str, offset: u32, libraries: &dyn Libraries) -> Completions {
+    let span = word_at(text, offset);
+    let mut items = match context_at(text, span, offset, libraries) {
+        Some((context, checked)) => Candidates::new(&checked).of(&context, libraries),
+        None => Vec::new(),
+    };
+    items.sort_by(|a, b| (a.rank, &a.label).cmp(&(b.rank, &b.label)));
+    items.dedup_by(|a, b| a.label == b.label);
+    Completions { span, items }
+}
+
+/// The word that a place is in, or at an end of.
+fn word_at(text: &str, offset: u32) -> Span {
+    let is_part = |byte: &u8| *byte == b'_' || byte.is_ascii_alphanumeric();
+    let at = (offset as usize).min(text.len());
+    let bytes = text.as_bytes();
+    let before = bytes[..at].iter().rev().take_while(|byte| is_part(byte));
+    let after = bytes[at..].iter().take_while(|byte| is_part(byte));
+    Span::new((at - before.count()) as u32, (at + after.count()) as u32)
+}
+
+/// What stands around the word; none where no name is typed: in comments, texts and numbers.
+fn context_at(
+    text: &str,
+    span: Span,
+    offset: u32,
+    libraries: &dyn Libraries,
+) -> Option<(Context, Checked)> {
+    if is_inert(text, offset)
+        || span
+            .of(text)
+            .starts_with(|first: char| first.is_ascii_digit())
+    {
+        return None;
+    }
+    let (before, after) = (&text[..span.start as usize], &text[span.end as usize..]);
+    let mut probe = "probe_".to_string();
+    while text.contains(&probe) {
+        probe.push('_');
+    }
+    let probed = [before, &probe, after].concat();
+    let (checked, found) = surroundings(&probed, span.start, libraries);
+    let root = checked.files[0].parse.syntax();
+    let token = root.token_at_offset(span.start.into()).right_biased()?;
+    let context = context::of(&token, found)?;
+    Some((context, checked))
+}
+
+/// Whether the place is in a comment or a literal.
+fn is_inert(text: &str, offset: u32) -> bool {
+    let root = parse(text).syntax();
+    if offset > text.len() as u32 {
+        return true;
+    }
+    let Some(token) = root.token_at_offset(offset.into()).left_biased() else {
+        return false;
+    };
+    let span = Span::from(token.text_range());
+    match token.kind() {
+        SyntaxKind::Comment | SyntaxKind::DocComment | SyntaxKind::MalformedString => {
+            span.start < offset
+        }
+        SyntaxKind::StringLiteral => span.start < offset && offset < span.end,
+        kind => kind.is_number() && span.start < offset,
+    }
+}
+
+/// Whether only white space stands before the token in its line.
+fn begins_line(token: &SyntaxToken) -> bool {
+    let mut before = token.prev_token();
+    while let Some(found) = before {
+        match found.kind() {
+            SyntaxKind::Newline | SyntaxKind::LineBreak => return true,
+            SyntaxKind::Whitespace | SyntaxKind::Indent | SyntaxKind::Dedent => {}
+            _ => return found.text().ends_with('\n'),
+        }
+        before = found.prev_token();
+    }
+    true
+}
+
+/// What the checker said, or nothing more than that a value stands there.
+fn anything() -> Surroundings {
+    Surroundings::Value(crate::check::Reach {
+        locals: Vec::new(),
+        expected: None,
+        purity: crate::check::Purity::Effect,
+        sees_state: true,
+        sees_parameters: true,
+        sees_primitives: true,
+        in_property: false,
+    })
+}

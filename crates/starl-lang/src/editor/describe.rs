@@ -1,0 +1,376 @@
+//! What a name stands for, in the words of its declaration.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use super::index::headers;
+use crate::check::{Checked, PRIMITIVES, Symbol};
+use crate::ir::{EnumId, RecordId, Site, Type};
+use crate::syntax::ast::{self, AstNode, Documented, Item};
+use crate::syntax::{SyntaxKind, SyntaxNode};
+
+/// Up to which length a value is part of what is shown of a declaration.
+const LONGEST_VALUE: usize = 60;
+
+/// What a name stands for.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Description {
+    /// How it is declared, in the language: `function f(a: Int) -> Int`.
+    pub signature: String,
+    /// What is said of it, in Markdown; empty if nothing is.
+    pub documentation: String,
+    /// Of a local what kind it is.
+    pub of_locals: Option<&'static str>,
+}
+
+impl Description {
+    fn new(signature: impl Into<String>, documentation: impl Into<String>) -> Self {
+        Self {
+            signature: signature.into(),
+            documentation: documentation.into(),
+            of_locals: None,
+        }
+    }
+}
+
+/// Built-in types with what is said of them.
+pub(super) const TYPES: &[(&str, &str, &str)] = &[
+    ("Bool", "Bool", "`true` or `false`."),
+    (
+        "Int",
+        "Int",
+        "A whole number of 64 bits; overflow is a run-time error.",
+    ),
+    (
+        "Float",
+        "Float",
+        "A number with a fraction; lengths are in metres, angles in radians.",
+    ),
+    ("String", "String", "A text."),
+    (
+        "Point",
+        "Point",
+        "A place or a direction: `x`, `y` and `z`, metres.",
+    ),
+    ("Time", "Time", "A time on this robot's clock."),
+    (
+        "Duration",
+        "Duration",
+        "How long something takes, such as `500ms`; never negative.",
+    ),
+    ("RobotId", "RobotId", "A robot of the fleet."),
+    ("Area", "Area", "A part of the floor plane."),
+    ("Obstacles", "Obstacles", "What is to be kept clear of."),
+    ("List", "List[T]", "Elements in a row, counted from 0."),
+    (
+        "Set",
+        "Set[T]",
+        "Elements that are there once each, in rising order.",
+    ),
+    (
+        "Map",
+        "Map[K, V]",
+        "A value for each key, in the rising order of the keys.",
+    ),
+];
+
+/// What properties may say of every robot.
+pub(super) const ROBOT_MEMBERS: &[(&str, &str, &str)] = &[
+    (
+        "position",
+        "position: Point",
+        "Where the robot is, metres: the true position where the host knows it.",
+    ),
+    (
+        "heading",
+        "heading: Float",
+        "Where the robot looks, radians from the x axis.",
+    ),
+    (
+        "velocity",
+        "velocity: Point",
+        "How the robot moves, metres per second.",
+    ),
+    (
+        "finished",
+        "finished: Bool",
+        "Whether the robot's program has said that it reached its goal.",
+    ),
+    (
+        "up",
+        "up: Bool",
+        "Whether the robot runs, rather than having crashed.",
+    ),
+    ("id", "id: RobotId", "The robot's number."),
+];
+
+pub(super) fn describe(checked: &Checked, symbol: Symbol) -> Description {
+    let program = &checked.program;
+    let typed = |ty: &Type| program.type_name(ty);
+    match symbol {
+        Symbol::Enum(id) => {
+            let name = program[id].name.clone().unwrap_or_default();
+            Description::new(enum_text(checked, id, &name), &*program[id].documentation)
+        }
+        Symbol::Variant(id, number) => variant(checked, id, number),
+        Symbol::Record(id) => {
+            Description::new(record_text(checked, id), &*program[id].documentation)
+        }
+        Symbol::Field(id, number) => field(checked, id, number),
+        Symbol::Parameter(id) => {
+            let found = &program[id];
+            let text = format!("param {}: {}", found.name, typed(&found.ty));
+            let text = with_value(checked, text, found.site);
+            Description::new(text, &*found.documentation)
+        }
+        Symbol::Constant(id) => {
+            let found = &program[id];
+            let text = format!("const {}: {}", found.name, typed(&found.ty));
+            let text = with_value(checked, text, found.site);
+            Description::new(text, &*found.documentation)
+        }
+        Symbol::Variable(id) => {
+            let found = &program[id];
+            let text = format!("{}: {}", found.name, typed(&found.ty));
+            let text = with_value(checked, text, found.site);
+            Description::new(text, &*found.documentation)
+        }
+        Symbol::Shared(id) => {
+            let found = &program[id];
+            let (word, index) = match found.is_single_writer {
+                true => ("allread", "[RobotId]"),
+                false => ("allwrite", ""),
+            };
+            let text = format!("{word} {}{index}: {}", found.name, typed(&found.ty));
+            let text = with_value(checked, text, found.site);
+            Description::new(text, &*found.documentation)
+        }
+        Symbol::Binding(id) => binding(checked, id),
+        Symbol::Function(id) => {
+            let found = &program[id];
+            let parameters: Vec<String> = (found.locals.iter())
+                .take(found.parameters as usize)
+                .map(|local| format!("{}: {}", local.name, typed(&local.ty)))
+                .collect();
+            let text = format!(
+                "function {}({}) -> {}",
+                found.name,
+                parameters.join(", "),
+                typed(&found.result)
+            );
+            Description::new(text, &*found.documentation)
+        }
+        Symbol::Local(site) => local(checked, site),
+        Symbol::Action(number) => match program.actions.get(number as usize) {
+            Some(action) => Description::new(format!("{}()", action.name), &*action.documentation),
+            None => Description::default(),
+        },
+        Symbol::Property(number) => match program.properties.get(number as usize) {
+            Some(property) => Description::new(
+                property.name.clone().unwrap_or_default(),
+                &*property.documentation,
+            ),
+            None => Description::default(),
+        },
+        Symbol::File(file) => header(checked, file),
+        _ => built_in(symbol),
+    }
+}
+
+/// What every program has.
+fn built_in(symbol: Symbol) -> Description {
+    let of_table = |table: &[(&str, &str, &str)], name: &str| {
+        let found = table.iter().find(|(own, ..)| *own == name);
+        found.map_or(Description::default(), |(_, signature, documentation)| {
+            Description::new(*signature, *documentation)
+        })
+    };
+    match symbol {
+        Symbol::Builtin(builtin) => Description::new(builtin.text(), builtin.documentation()),
+        Symbol::Type(name) => of_table(TYPES, name),
+        Symbol::Method(method) => Description::new(method.text(), method.documentation()),
+        Symbol::Primitive(number) => {
+            let primitive = &PRIMITIVES[number];
+            Description::new(primitive.constructor, primitive.documentation)
+        }
+        Symbol::Member(primitive, number) => {
+            let primitive = &PRIMITIVES[primitive];
+            let member = &primitive.members[number];
+            let text = format!("{}.{}", primitive.name(), member.text);
+            Description::new(text, member.documentation)
+        }
+        Symbol::Event(primitive, number) => {
+            let primitive = &PRIMITIVES[primitive];
+            let event = &primitive.events[number];
+            let text = format!("on {}.{}", primitive.name(), event.text);
+            Description::new(text, event.documentation)
+        }
+        Symbol::Coordinate(axis) => {
+            Description::new(format!("Point.{axis}: Float"), "A coordinate, metres.")
+        }
+        Symbol::Argument(signature, name) => argument(signature, name),
+        Symbol::RobotMember(name) => of_table(ROBOT_MEMBERS, name),
+        _ => Description::default(),
+    }
+}
+
+/// A parameter, by the signature that it is of.
+fn argument(signature: &str, name: &str) -> Description {
+    let inside = signature.split_once('(').map_or("", |(_, inside)| inside);
+    let is_own = |part: &&str| part.trim_start().starts_with(name);
+    let found = inside.split(", ").find(is_own).unwrap_or(name);
+    let text = found.split(')').next().unwrap_or(found);
+    Description::new(text.trim(), format!("`{signature}`"))
+}
+
+fn enum_text(checked: &Checked, id: EnumId, name: &str) -> String {
+    let variants: Vec<&str> = (checked.program[id].variants.iter())
+        .map(|variant| variant.name.as_str())
+        .collect();
+    match name {
+        "" => format!("enum {{{}}}", variants.join(", ")),
+        _ => format!("enum {name} {{{}}}", variants.join(", ")),
+    }
+}
+
+fn record_text(checked: &Checked, id: RecordId) -> String {
+    let record = &checked.program[id];
+    let fields: Vec<String> = (record.fields.iter())
+        .map(|field| format!("{}: {}", field.name, checked.program.type_name(&field.ty)))
+        .collect();
+    match record.is_message {
+        true => format!("message {}({})", record.name, fields.join(", ")),
+        false => format!("record {} {{{}}}", record.name, fields.join(", ")),
+    }
+}
+
+fn variant(checked: &Checked, id: EnumId, number: u16) -> Description {
+    let program = &checked.program;
+    let declared = &program[id];
+    let Some(variant) = declared.variants.get(number as usize) else {
+        return Description::default();
+    };
+    let roles =
+        (program.roles.as_ref()).filter(|roles| program[roles.variable].ty == Type::Enum(id));
+    if let Some(role) = roles.and_then(|roles| roles.roles.get(number as usize)) {
+        return Description::new(format!("role {}", role.name), &*role.documentation);
+    }
+    let of = declared.name.clone();
+    let text = match &of {
+        Some(of) => format!("{of}.{}", variant.name),
+        None => variant.name.clone(),
+    };
+    let whole = enum_text(checked, id, of.as_deref().unwrap_or_default());
+    Description::new(text, format!("`{whole}`"))
+}
+
+fn field(checked: &Checked, id: RecordId, number: u32) -> Description {
+    let record = &checked.program[id];
+    let Some(field) = record.fields.get(number as usize) else {
+        return Description::default();
+    };
+    let ty = checked.program.type_name(&field.ty);
+    let text = format!("{}.{}: {ty}", record.name, field.name);
+    let node = node_at(checked, field.site);
+    let node = node.and_then(|node| node.ancestors().find_map(ast::Field::cast));
+    Description::new(
+        text,
+        node.map_or(String::new(), |node| node.documentation()),
+    )
+}
+
+fn binding(checked: &Checked, id: crate::ir::BindingId) -> Description {
+    let found = &checked.program[id];
+    let node = node_at(checked, found.site);
+    let node = node.and_then(|node| node.ancestors().find_map(ast::BindingDeclaration::cast));
+    let text = node.map_or(found.name.clone(), |node| {
+        one_line(
+            node.span()
+                .of(&checked.files[found.site.file as usize].source),
+        )
+    });
+    let of_kind = found.primitive.map_or("", |kind| kind.documentation);
+    let parts = [found.documentation.as_str(), of_kind];
+    let parts: Vec<&str> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+    Description::new(text, parts.join("\n\n"))
+}
+
+fn local(checked: &Checked, site: Site) -> Description {
+    let locals = &checked.resolutions.locals;
+    let found = locals.iter().find(|(own, _)| *own == site);
+    let ty = found.map_or("?".into(), |(_, ty)| checked.program.type_name(ty));
+    let name = checked.files.get(site.file as usize);
+    let name = name.map_or("", |file| site.span.of(&file.source));
+    let node = node_at(checked, site);
+    let (what, documentation) = match &node {
+        Some(node) => (local_kind(node), parameter_documentation(node)),
+        None => ("a local variable", String::new()),
+    };
+    let text = match what {
+        "a local variable" => format!("let {name}: {ty}"),
+        _ => format!("{name}: {ty}"),
+    };
+    Description {
+        of_locals: Some(what),
+        ..Description::new(text, documentation)
+    }
+}
+
+/// What kind of local is declared by the name.
+pub(super) fn local_kind(name: &SyntaxNode) -> &'static str {
+    match name.parent().map(|parent| parent.kind()) {
+        Some(SyntaxKind::Parameter) => "a parameter",
+        Some(SyntaxKind::LoopVariables) => "what a loop is at",
+        Some(SyntaxKind::HandlerParameterList) => "what the handler was given",
+        Some(SyntaxKind::QuantifierExpression) => "a robot",
+        Some(SyntaxKind::SomeExpression) => "the value of an optional",
+        _ => "a local variable",
+    }
+}
+
+fn parameter_documentation(name: &SyntaxNode) -> String {
+    let parameter = name.parent().and_then(ast::Parameter::cast);
+    parameter.map_or(String::new(), |parameter| parameter.documentation())
+}
+
+fn header(checked: &Checked, file: u32) -> Description {
+    let Some(found) = checked.files.get(file as usize) else {
+        return Description::default();
+    };
+    let mut items = found.parse.tree().items();
+    let item = items.find(|item| matches!(item, Item::Program(_) | Item::Library(_)));
+    let is_program = matches!(item, Some(Item::Program(_)));
+    let word = if is_program { "program" } else { "library" };
+    let documentation = item.map_or(String::new(), |item| item.documentation());
+    let site = headers(checked).find(|(number, _)| *number == file);
+    let name = site.map_or(found.name.as_str(), |(_, site)| site.span.of(&found.source));
+    Description::new(format!("{word} {name}"), documentation)
+}
+
+/// The declaration with its value as it is written, if there is one and it is short.
+fn with_value(checked: &Checked, text: String, site: Site) -> String {
+    let declaration = node_at(checked, site).and_then(|name| name.parent());
+    let value = declaration.and_then(|node| node.children().find_map(ast::Expression::cast));
+    let written =
+        value.map(|value| one_line(value.span().of(&checked.files[site.file as usize].source)));
+    match written {
+        Some(written) if written.len() <= LONGEST_VALUE => format!("{text} = {written}"),
+        _ => text,
+    }
+}
+
+fn one_line(text: &str) -> String {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    words.join(" ").to_string()
+}
+
+/// The node that is a name at a place.
+pub(super) fn node_at(checked: &Checked, site: Site) -> Option<SyntaxNode> {
+    let file = checked.files.get(site.file as usize)?;
+    let root = file.parse.syntax();
+    let token = root
+        .token_at_offset(site.span.start.into())
+        .right_biased()?;
+    token.parent()
+}
