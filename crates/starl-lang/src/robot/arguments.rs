@@ -38,6 +38,11 @@ impl<'a> Arguments<'a> {
         (block, object_block)
     }
 
+    /// All that has not been read.
+    pub fn rest(self) -> (&'a [u64], &'a [Object]) {
+        (self.scalars, self.objects)
+    }
+
     fn scalar(&mut self) -> u64 {
         let (block, _) = self.block(1, 0);
         block.first().copied().unwrap_or(0)

@@ -21,6 +21,8 @@ struct Inner {
     program: Program,
     joints: Vec<Joint>,
     instances: Vec<Instance>,
+    /// The name of the memory that shared variables lie in, if there are any.
+    memory: Option<String>,
     inbox: Inbox,
     /// The parameters' defaults; or what went wrong when they were worked out.
     initial: Result<State, String>,
@@ -84,6 +86,7 @@ impl Code {
         Ok(Code(Arc::new(Inner {
             initial: initial.map_err(|error| place(&program, &error)),
             joints: joiner.joints.into_inner(),
+            memory: memory_name(program.bytecode(), &instances),
             program,
             instances,
             inbox,
@@ -108,6 +111,11 @@ impl Code {
     /// The primitives that the program binds.
     pub(super) fn instances(&self) -> &[Instance] {
         &self.0.instances
+    }
+
+    /// The name of the memory that shared variables lie in, if there are any.
+    pub(super) fn memory(&self) -> Option<&str> {
+        self.0.memory.as_deref()
     }
 
     /// The messages that the program handles.
@@ -163,6 +171,14 @@ fn instances(bytecode: &Bytecode, declared: &Declared) -> Result<Vec<Instance>, 
         });
     }
     Ok(instances)
+}
+
+fn memory_name(bytecode: &Bytecode, instances: &[Instance]) -> Option<String> {
+    let kinds = instances
+        .iter()
+        .filter_map(|i| KINDS.get(usize::from(i.kind)));
+    let is_needed = kinds.into_iter().any(|kind| kind.shared);
+    is_needed.then(|| format!("{}/shared", bytecode.name))
 }
 
 /// Joins imports and remembers to what.

@@ -1,13 +1,15 @@
 //! The machine's host on a robot: what a running program asks for, the robot and its primitives give.
 
 use super::arguments::{Arguments, Called};
-use super::code::{Code, OnRobot};
+use super::code::{Code, Instance, OnRobot};
 use super::messages::Outgoing;
 use super::primitives::{KINDS, Slot};
 use super::workbench::Memo;
 use crate::machine::{Host, HostCall};
 use alloc::borrow::Cow;
-use starl_core::{Input, Payload, Robot};
+use alloc::boxed::Box;
+use starl_core::{Input, Payload, Port, Primitive, Robot};
+use starl_primitives::SharedMemory;
 
 /// What functions of the host work with.
 pub struct Context<'a, 'r> {
@@ -17,7 +19,11 @@ pub struct Context<'a, 'r> {
     pub robot: &'a mut Robot<'r>,
     /// Values that were made before.
     pub memo: &'a mut Memo,
-    /// The message that the present call is about.
+    /// The memory of the program's shared variables, if it has any.
+    pub shared: &'a mut Option<Box<SharedMemory>>,
+    /// The primitive that the present call is about.
+    pub instance: Option<&'a Instance>,
+    /// The message that it is about.
     message: Option<&'a Outgoing>,
 }
 
@@ -33,11 +39,18 @@ pub struct RobotHost<'a, 'r> {
 
 impl<'a, 'r> Context<'a, 'r> {
     /// A context without a message.
-    pub fn new(code: &'a Code, robot: &'a mut Robot<'r>, memo: &'a mut Memo) -> Context<'a, 'r> {
+    pub fn new(
+        code: &'a Code,
+        robot: &'a mut Robot<'r>,
+        memo: &'a mut Memo,
+        shared: &'a mut Option<Box<SharedMemory>>,
+    ) -> Context<'a, 'r> {
         Context {
             code,
             robot,
             memo,
+            shared,
+            instance: None,
             message: None,
         }
     }
@@ -63,19 +76,14 @@ impl RobotHost<'_, '_> {
         if form.kind != kind {
             return Err("the primitive is of another kind".into());
         }
+        self.context.instance = Some(form);
         let mut arguments = Arguments::after_instance(call);
         let mut bound = (kind_of.bind)(form, &mut self.context, &mut arguments)?;
         if let Some(primitive) = bound.primitive() {
-            let port = primitive.port();
-            let others = self.bound.iter_mut().enumerate();
-            let mut others = others.filter(|(other, _)| *other != instance);
-            let is_taken = others.any(|(_, slot)| {
-                let other = slot.as_mut().and_then(|bound| bound.primitive());
-                other.is_some_and(|other| other.port() == port)
-            });
-            if is_taken {
+            if self.is_taken(primitive.port(), instance) {
                 return Err("another primitive of the program has this name".into());
             }
+            // It hears of the start, as those do that are there before it.
             primitive.handle(self.context.robot, &Input::Start);
         }
         if let Some(slot) = self.bound.get_mut(instance) {
@@ -84,12 +92,24 @@ impl RobotHost<'_, '_> {
         Ok(1)
     }
 
+    /// Whether another primitive than this instance listens at the port.
+    fn is_taken(&mut self, port: Port, instance: usize) -> bool {
+        let memory = self.context.shared.as_ref().map(|memory| memory.port());
+        let mut others = self.bound.iter_mut().enumerate();
+        memory == Some(port)
+            || others.any(|(other, slot)| {
+                let primitive = slot.as_mut().and_then(|bound| bound.primitive());
+                other != instance && primitive.is_some_and(|primitive| primitive.port() == port)
+            })
+    }
+
     fn member(&mut self, kind: u16, member: u16, call: &mut HostCall<'_>) -> Called {
         let instance = Arguments::of(call).int() as usize;
         let form = self.context.code.instances().get(instance);
         if form.is_none_or(|form| form.kind != kind) {
             return Err("there is no such primitive".into());
         }
+        self.context.instance = form;
         match self.bound.get_mut(instance) {
             Some(Some(bound)) => bound.call(usize::from(member), &mut self.context, call),
             _ => Err("the primitive is not bound yet".into()),

@@ -12,6 +12,8 @@ use alloc::vec::Vec;
 use core::any::Any;
 use core::mem;
 use starl_core::{Input, Message, Payload, Port, Primitive, Program, Random, Robot};
+use starl_primitives::SharedMemory;
+use starl_primitives::shared_memory::Options;
 
 /// A StarL program on one robot.
 ///
@@ -23,6 +25,8 @@ pub struct RobotProgram {
     code: Code,
     state: State,
     bound: Box<[Slot]>,
+    /// What shared variables lie in.
+    shared: Option<Box<SharedMemory>>,
     /// Events of primitives that wait for their handlers: the instance's number and what happened.
     reports: Vec<(u32, Report)>,
     phase: Phase,
@@ -47,6 +51,7 @@ impl RobotProgram {
             state: parameter::state(code, parameters)?,
             bound: code.instances().iter().map(|_| None).collect(),
             code: code.clone(),
+            shared: None,
             reports: Vec::new(),
             phase: Phase::New,
         })
@@ -77,7 +82,7 @@ impl RobotProgram {
         let mut bench = robot.take_scratch::<Workbench>();
         let Workbench { workspace, memo } = &mut *bench;
         let mut host = RobotHost {
-            context: Context::new(code, robot, memo),
+            context: Context::new(code, robot, memo, &mut self.shared),
             bound: &mut self.bound,
             failed: false,
         };
@@ -150,6 +155,13 @@ fn handle_reports(
 impl Program for RobotProgram {
     fn start(&mut self, robot: &mut Robot<'_>) {
         self.phase = Phase::Running;
+        self.bound.fill_with(|| None);
+        self.reports.clear();
+        let memory = self.code.memory();
+        self.shared = memory.map(|name| Box::new(SharedMemory::new(name, Options::default())));
+        if let Some(memory) = &mut self.shared {
+            memory.handle(robot, &Input::Start);
+        }
         self.run(robot, Part::Start);
     }
 
@@ -179,10 +191,16 @@ impl Program for RobotProgram {
                 reports: &mut self.reports,
             });
         }
+        if let Some(memory) = &mut self.shared {
+            visit(&mut **memory);
+        }
     }
 
     fn corrupt(&mut self, random: &mut Random) {
         corruption::corrupt(self.code.program(), &mut self.state, random);
+        if let Some(memory) = &mut self.shared {
+            memory.corrupt(random);
+        }
     }
 
     fn inspect(&self) -> Option<&dyn Any> {

@@ -7,6 +7,7 @@
 
 mod messaging;
 mod reach_avoid;
+mod shared;
 
 use super::arguments::{Arguments, Called};
 use super::code::Instance;
@@ -60,6 +61,8 @@ pub trait Kind: Clone + Send + Sync + Sized + 'static {
     const MEMBERS: &'static [Member<Self>];
     /// What it reports.
     const EVENTS: &'static [Event] = &[];
+    /// Whether instances lie in the program's shared memory.
+    const SHARED: bool = false;
 
     /// Binds an instance.
     fn bind(
@@ -137,6 +140,8 @@ pub struct Entry {
     pub member: fn(usize) -> Option<&'static Signature>,
     /// What it reports.
     pub events: &'static [Event],
+    /// Whether instances lie in the program's shared memory.
+    pub shared: bool,
     /// Binds an instance.
     pub bind: Bind,
 }
@@ -154,6 +159,7 @@ impl Entry {
             constructor: P::CONSTRUCTOR,
             member: |index| P::MEMBERS.get(index).map(|member| &member.signature),
             events: P::EVENTS,
+            shared: P::SHARED,
             bind: |instance, context, arguments| {
                 Ok(Box::new(P::bind(instance, context, arguments)?))
             },
@@ -172,6 +178,8 @@ pub static KINDS: &[Entry] = &[
     Entry::of::<messaging::Sender<starl_primitives::Broadcast>>(),
     Entry::of::<messaging::Sender<starl_primitives::Geocast>>(),
     Entry::of::<messaging::Sender<starl_primitives::Unicast>>(),
+    Entry::of::<shared::SingleWriter>(),
+    Entry::of::<shared::MultiWriter>(),
 ];
 
 /// A method: it may change something.

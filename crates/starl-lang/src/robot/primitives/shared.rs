@@ -1,0 +1,222 @@
+//! Shared variables in programs: each is an instance of one of two kinds, and all of a program lie in
+//! one memory.
+//!
+//! What other robots wrote comes from the network. A value that is none of the variable's type is as
+//! one that was never written.
+
+use super::{Arguments, Context, Instance, Kind, Member, method, query};
+use crate::machine::{Block, Body, HostCall, Layout, List, Map, Object, ObjectType, Program, Type};
+use crate::robot::arguments::Called;
+use crate::robot::shape::Shape;
+use crate::robot::workbench::robots;
+use alloc::borrow::Cow;
+use alloc::boxed::Box;
+use alloc::string::ToString;
+use alloc::vec::Vec;
+use starl_core::{Payload, Primitive, Robot, RobotId};
+use starl_primitives::SharedMemory;
+use starl_primitives::shared_memory::WriteError;
+
+/// A variable of which each robot writes an element of its own.
+#[derive(Clone, Debug)]
+pub struct SingleWriter;
+
+/// A variable that all robots write.
+#[derive(Clone, Debug)]
+pub struct MultiWriter {
+    /// What is read before any write.
+    initial: Option<Payload>,
+}
+
+/// The consistency, none for the memory's own.
+const CONSISTENCY: &[Shape] = &[Shape::Optional(&Shape::Text)];
+
+fn check_consistency(arguments: &mut Arguments<'_>) -> Result<(), Cow<'static, str>> {
+    match arguments.optional(Arguments::text) {
+        None | Some("eventual") => Ok(()),
+        Some(other) => Err(alloc::format!("shared variables have no consistency `{other}`").into()),
+    }
+}
+
+/// The memory, the robot, and the name of the variable that the call is about.
+fn memory<'c, 'r>(
+    context: &'c mut Context<'_, 'r>,
+) -> Result<(&'c mut SharedMemory, &'c mut Robot<'r>, &'c str), Cow<'static, str>> {
+    match (context.shared.as_deref_mut(), context.instance) {
+        (Some(memory), Some(instance)) => Ok((memory, context.robot, &instance.variable)),
+        _ => Err("the shared variable is not bound yet".into()),
+    }
+}
+
+/// The last argument, a value of the variable's type, as bytes.
+fn value(context: &Context<'_, '_>, call: &HostCall<'_>) -> Result<Payload, Cow<'static, str>> {
+    let kinds = call.import.arguments.get(1..).unwrap_or_default();
+    let (scalars, objects) = Arguments::after_instance(call).rest();
+    let bytes = context.code.program().encode(kinds, scalars, objects);
+    bytes.ok_or("the value is of another type".into())
+}
+
+fn written<T>(result: Result<T, WriteError>) -> Called {
+    match result {
+        Ok(_) => Ok(10),
+        Err(error) => Err(error.to_string().into()),
+    }
+}
+
+/// Gives a value that was read, which is an optional: its scalars and objects.
+fn give(program: &Program, call: &mut HostCall<'_>, bytes: &[Option<&[u8]>]) -> Called {
+    let [Type::Optional(kind)] = &call.import.results[..] else {
+        return Err("a shared variable is read as an optional".into());
+    };
+    let kinds = core::slice::from_ref(&**kind);
+    let mut candidates = bytes.iter().flatten();
+    let found = candidates.find_map(|bytes| program.decode(kinds, bytes));
+    call.scalars.fill(0);
+    call.objects.fill(Object::EMPTY);
+    let Some((scalars, objects)) = found else {
+        return Ok(1);
+    };
+    let cost = 1 + (scalars.len() + objects.len()) as u64;
+    call.set_bool(0, true);
+    for (index, scalar) in scalars.into_iter().enumerate() {
+        call.set_scalar(1 + index, scalar);
+    }
+    for (index, object) in objects.into_iter().enumerate() {
+        call.set_object(index, object);
+    }
+    Ok(cost)
+}
+
+/// All elements that are known as a map.
+fn give_all(context: &mut Context<'_, '_>, call: &mut HostCall<'_>) -> Called {
+    let program = context.code.program();
+    let [Type::Object(index)] = call.import.results[..] else {
+        return Err("all elements are read as a map".into());
+    };
+    let kind = program.bytecode().types.get(usize::from(index));
+    let Some(ObjectType::Map(_, kind)) = kind else {
+        return Err("all elements are read as a map".into());
+    };
+    let kinds = core::slice::from_ref(kind);
+    let mut owners: Vec<RobotId> = Vec::new();
+    let mut values = List::new(&Layout::of(kinds));
+    let (memory, _, variable) = memory(context)?;
+    for (owner, bytes) in memory.all(variable) {
+        let Some((scalars, objects)) = program.decode(kinds, bytes) else {
+            continue;
+        };
+        let block = Block {
+            scalars: &scalars,
+            objects: &objects,
+        };
+        if values.push(block) {
+            owners.push(owner);
+        }
+    }
+    let cost = 10 * owners.len() as u64;
+    let map = match owners.is_empty() {
+        true => Object::EMPTY,
+        false => Body::Map(Box::new(Map {
+            keys: robots(owners),
+            values: values.into(),
+        }))
+        .into(),
+    };
+    call.set_object(0, map);
+    Ok(cost)
+}
+
+impl Kind for SingleWriter {
+    const NAME: &'static str = "SingleWriter";
+    const CONSTRUCTOR: &'static [Shape] = CONSISTENCY;
+    const MEMBERS: &'static [Member<SingleWriter>] = &[
+        method("initialize", &[Shape::Any], None, |_, context, call| {
+            let value = value(context, call)?;
+            let (memory, robot, variable) = memory(context)?;
+            memory.initialize_elements(robot, variable, value);
+            Ok(10)
+        }),
+        method("write", &[Shape::Any], None, |_, context, call| {
+            let value = value(context, call)?;
+            let (memory, robot, variable) = memory(context)?;
+            written(memory.write_own(robot, variable, value))
+        }),
+        query(
+            "element",
+            &[Shape::Robot],
+            Shape::Optional(&Shape::Any),
+            |_, context, call| {
+                let robot = Arguments::after_instance(call).robot();
+                let program = context.code.program();
+                let (memory, _, variable) = memory(context)?;
+                give(program, call, &[memory.read_of(variable, robot)])
+            },
+        ),
+        query(
+            "all",
+            &[],
+            Shape::Map(&Shape::Robot, &Shape::Any),
+            |_, context, call| give_all(context, call),
+        ),
+    ];
+
+    fn bind(
+        _: &Instance,
+        _: &mut Context<'_, '_>,
+        arguments: &mut Arguments<'_>,
+    ) -> Result<SingleWriter, Cow<'static, str>> {
+        check_consistency(arguments)?;
+        Ok(SingleWriter)
+    }
+
+    const SHARED: bool = true;
+
+    fn primitive(&mut self) -> Option<&mut dyn Primitive> {
+        None
+    }
+}
+
+impl Kind for MultiWriter {
+    const NAME: &'static str = "MultiWriter";
+    const CONSTRUCTOR: &'static [Shape] = CONSISTENCY;
+    const MEMBERS: &'static [Member<MultiWriter>] = &[
+        method("initialize", &[Shape::Any], None, |own, context, call| {
+            let value = value(context, call)?;
+            own.initial = Some(value.clone());
+            let (memory, robot, variable) = memory(context)?;
+            memory.initialize(robot, variable, value);
+            Ok(10)
+        }),
+        method("write", &[Shape::Any], None, |_, context, call| {
+            let value = value(context, call)?;
+            let (memory, robot, variable) = memory(context)?;
+            written(memory.write(robot, variable, value))
+        }),
+        query(
+            "read",
+            &[],
+            Shape::Optional(&Shape::Any),
+            |own, context, call| {
+                let program = context.code.program();
+                let (memory, _, variable) = memory(context)?;
+                let initial = own.initial.as_deref();
+                give(program, call, &[memory.read(variable), initial])
+            },
+        ),
+    ];
+
+    fn bind(
+        _: &Instance,
+        _: &mut Context<'_, '_>,
+        arguments: &mut Arguments<'_>,
+    ) -> Result<MultiWriter, Cow<'static, str>> {
+        check_consistency(arguments)?;
+        Ok(MultiWriter { initial: None })
+    }
+
+    const SHARED: bool = true;
+
+    fn primitive(&mut self) -> Option<&mut dyn Primitive> {
+        None
+    }
+}
