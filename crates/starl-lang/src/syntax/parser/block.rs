@@ -17,7 +17,7 @@ pub(super) fn indented(parser: &mut Parser<'_>, owner: &str) {
     parser.finish();
 }
 
-/// The statements after `eff`, `init`, `then` or `else`: on its line, indented under it, or both.
+/// The statements after `eff`, `init` or `atomic`: on its line, indented under it, or both.
 pub(super) fn after_word(parser: &mut Parser<'_>, owner: &str, goes_on: bool) {
     slips::header_colon(parser, Colon::Remove);
     if parser.at_line_end() {
@@ -29,6 +29,16 @@ pub(super) fn after_word(parser: &mut Parser<'_>, owner: &str, goes_on: bool) {
         lines(parser);
     }
     parser.finish();
+}
+
+/// What belongs to `else`: a statement on its line, or a block.
+pub(super) fn after_else(parser: &mut Parser<'_>) {
+    slips::header_colon(parser, Colon::Remove);
+    if parser.at_line_end() {
+        indented(parser, "`else`");
+    } else {
+        single(parser);
+    }
 }
 
 /// Exactly one statement, on the line.
@@ -130,7 +140,7 @@ fn on_line(parser: &mut Parser<'_>, first: statement::Place) {
 fn after_inline_if(parser: &mut Parser<'_>) {
     let message = "this is done whether the condition holds or not";
     let problem = Diagnostic::new(Code::AfterInlineIf, parser.span(), message);
-    let note = "`then` takes one statement: put this one on a line of its own, or both in a block";
+    let note = "`then` and `else` take one statement: put this one on a line of its own, or both in a block";
     parser.report(problem.note(note));
 }
 

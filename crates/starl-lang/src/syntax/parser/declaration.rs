@@ -180,7 +180,10 @@ pub(super) fn is_init(parser: &Parser<'_>) -> bool {
     match parser.nth(1) {
         Colon => parser.nth(2) == Newline && !matches!(parser.nth(4), PreKeyword | EffKeyword),
         Newline => !matches!(parser.nth(3), PreKeyword | EffKeyword),
-        next => matches!(next, Identifier | IfKeyword | ForKeyword | LetKeyword),
+        next => matches!(
+            next,
+            Identifier | IfKeyword | ForKeyword | LetKeyword | ReturnKeyword
+        ),
     }
 }
 

@@ -94,7 +94,7 @@ fn local_rest(parser: &mut Parser<'_>) {
 fn result(parser: &mut Parser<'_>) {
     parser.start(ReturnStatement);
     parser.bump();
-    if !parser.at_line_end() {
+    if !parser.at_line_end() && !parser.at(ElseKeyword) {
         value(parser);
     }
     parser.finish();
@@ -133,7 +133,7 @@ fn branches(parser: &mut Parser<'_>, place: Place) {
         }
         parser.start(ElseBranch);
         parser.bump();
-        block::after_word(parser, "`else`", false);
+        block::after_else(parser);
         parser.finish();
         break;
     }
@@ -201,7 +201,9 @@ fn after_colon(parser: &Parser<'_>) -> bool {
 /// A statement that begins with a name.
 fn from_name(parser: &mut Parser<'_>) {
     let next = parser.nth(1);
-    if parser.word() == "atomic" && matches!(next, Newline | Colon | Identifier) {
+    let opens = matches!(next, Newline | Colon | Identifier);
+    let opens = opens || matches!(next, IfKeyword | ForKeyword | LetKeyword | ReturnKeyword);
+    if parser.word() == "atomic" && opens {
         parser.start(AtomicStatement);
         parser.bump();
         block::after_word(parser, "`atomic`", false);
