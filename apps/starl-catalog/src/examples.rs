@@ -2,6 +2,7 @@
 //!
 //! To add an example, write its folder under `examples/` and a line in [`EXAMPLES`].
 
+use crate::language::SUFFIX;
 use starl_sim::read::{Loader, Source};
 
 /// An example: a scenario and the files that it names.
@@ -18,6 +19,10 @@ pub struct Example {
     /// The files that the scenario names, by the paths it has for them.
     pub files: &'static [(&'static str, &'static [u8])],
 }
+
+/// A scenario for programs that come without one: a few robots on the floor, and way-points. It names
+/// no program.
+pub const DEFAULT_SCENARIO: &str = include_str!("default.toml");
 
 /// All examples.
 pub const EXAMPLES: [Example; 1] = [Example {
@@ -40,6 +45,14 @@ pub const EXAMPLES: [Example; 1] = [Example {
         ),
     ],
 }];
+
+impl Example {
+    /// The programs in the StarL language that it brings, by path.
+    pub fn programs(&self) -> impl Iterator<Item = &'static str> {
+        let paths = self.files.iter().map(|file| file.0);
+        paths.filter(|path| path.ends_with(SUFFIX))
+    }
+}
 
 /// The example of this name.
 pub fn find(name: &str) -> Option<&'static Example> {

@@ -2,12 +2,14 @@
 //! scenario that names them is read and started.
 //!
 //! The command and the WebAssembly module link this, so that a name means the same to both. Nothing
-//! here touches a clock or a file: an example brings the files that its scenario names.
+//! here touches a clock or a file: an example brings the files that its scenario names, and a program
+//! in the StarL language is brought by the loader that brings the others.
 
 pub mod examples;
+pub mod language;
 mod parameters;
 pub mod programs;
 mod start;
 
 pub use parameters::Complaint;
-pub use start::{read, run, simulation};
+pub use start::{Application, Refusal, read};

@@ -153,7 +153,7 @@ impl<'a> Parameters<'a> {
     }
 }
 
-fn complaint(name: &str, message: &str, help: String) -> Complaint {
+pub(crate) fn complaint(name: &str, message: &str, help: String) -> Complaint {
     Complaint {
         field: format!("parameters.{name}"),
         message: message.to_string(),
@@ -161,7 +161,7 @@ fn complaint(name: &str, message: &str, help: String) -> Complaint {
     }
 }
 
-fn describe(value: &Parameter) -> String {
+pub(crate) fn describe(value: &Parameter) -> String {
     match value {
         Parameter::Bool(flag) => flag.to_string(),
         Parameter::Int(number) => number.to_string(),

@@ -1,57 +1,153 @@
 //! Reads scenarios and starts them with the programs they name.
 //!
-//! Invariant: a scenario that [`read`] returns can be started: its programs exist and take the
-//! parameters that it gives them.
+//! Invariant: a scenario that [`read`] returns can be started: its programs exist, are compiled if
+//! they are in the StarL language, and take the parameters that it gives them.
 
+use crate::language::{Findings, Programs};
 use crate::parameters::Complaint;
 use crate::programs;
 use starl_core::Program;
+use starl_lang::diagnostic::Colour;
 use starl_sim::engine::StartError;
 use starl_sim::read::{self, Loader, Problem, Problems, Request, Resolved};
 use starl_sim::scenario::Group;
 use starl_sim::{Run, Scenario, Simulation};
+use std::fmt;
+
+/// A scenario with its programs, ready to be started any number of times.
+#[derive(Clone, Debug)]
+pub struct Application {
+    resolved: Resolved,
+    programs: Programs,
+    warnings: Vec<Findings>,
+}
+
+/// All that is wrong with a scenario and its programs.
+#[derive(Clone, Debug)]
+pub struct Refusal {
+    /// What the compiler has found in the programs.
+    pub findings: Vec<Findings>,
+    /// What is wrong with the scenario itself.
+    pub problems: Vec<Problem>,
+}
 
 /// Reads a scenario, its programs and their parameters included.
 ///
 /// # Errors
 /// All that is wrong with it.
-pub fn read(request: &Request, loader: &dyn Loader) -> Result<Resolved, Problems> {
-    let resolved = read::scenario(request, loader)?;
-    let groups = resolved.scenario.fleet.groups.iter().enumerate();
-    let mut problems: Vec<Problem> = groups
-        .filter_map(|(index, group)| {
-            let complaint = programs::make(group).err()?;
-            Some(blame(&resolved, index, complaint))
-        })
+pub fn read(request: &Request, loader: &dyn Loader) -> Result<Application, Refusal> {
+    let mut resolved = read::scenario(request, loader)?;
+    let (programs, review) = Programs::compile(&mut resolved, loader);
+    let mut problems: Vec<Problem> = review
+        .complaints
+        .into_iter()
+        .map(|(group, complaint)| blame(&resolved, group, complaint))
         .collect();
+    let is_broken = review.findings.iter().any(Findings::are_errors);
+    let is_whole = problems.is_empty() && !is_broken;
+    let application = Application {
+        resolved,
+        programs,
+        warnings: review.findings,
+    };
+    for (index, group) in application.scenario().fleet.groups.iter().enumerate() {
+        // Of programs that could not be compiled all is said already.
+        let was_compiled = is_whole || !group.program.ends_with(crate::language::SUFFIX);
+        if let (true, Err(complaint)) = (was_compiled, application.make(group)) {
+            problems.push(blame(&application.resolved, index, complaint));
+        }
+    }
     // What several groups have from the scenario is wrong once.
     problems.sort();
     problems.dedup();
-    match problems.is_empty() {
-        true => Ok(resolved),
-        false => Err(Problems(problems)),
+    match problems.is_empty() && !is_broken {
+        true => Ok(application),
+        false => Err(Refusal {
+            findings: application.warnings,
+            problems,
+        }),
     }
 }
 
-/// A scenario at its start, under watch.
-///
-/// # Errors
-/// Where it was not [`read()`] here: a group whose program cannot be made.
-pub fn run(scenario: Scenario) -> Result<Run, StartError> {
-    Run::new(scenario, &make)
+impl Application {
+    /// What was read.
+    pub fn resolved(&self) -> &Resolved {
+        &self.resolved
+    }
+
+    /// What the scenario says.
+    pub fn scenario(&self) -> &Scenario {
+        &self.resolved.scenario
+    }
+
+    /// What the compiler warns of.
+    pub fn warnings(&self) -> &[Findings] {
+        &self.warnings
+    }
+
+    /// A run at its start, watched by all that the scenario asks for.
+    ///
+    /// # Errors
+    /// None that [`read()`] has not found before.
+    pub fn run(&self) -> Result<Run, StartError> {
+        let mut run = Run::new(self.scenario().clone(), &|group| self.program(group))?;
+        if self.scenario().properties.program {
+            let monitors = self.programs.monitors(self.scenario());
+            monitors
+                .into_iter()
+                .for_each(|monitor| run.add_monitor(monitor));
+        }
+        Ok(run)
+    }
+
+    /// A simulation at its start, not watched.
+    ///
+    /// # Errors
+    /// As for [`Application::run`].
+    pub fn simulation(&self) -> Result<Simulation, StartError> {
+        Simulation::new(self.scenario().clone(), &|group| self.program(group))
+    }
+
+    fn program(&self, group: &Group) -> Result<Box<dyn Program>, String> {
+        self.make(group).map_err(|complaint| complaint.message)
+    }
+
+    fn make(&self, group: &Group) -> Result<Box<dyn Program>, Complaint> {
+        match self.programs.make(group, &self.scenario().fleet) {
+            Some(program) => Ok(Box::new(program?)),
+            None => programs::make(group),
+        }
+    }
 }
 
-/// A scenario at its start, not watched.
-///
-/// # Errors
-/// As for [`run`].
-pub fn simulation(scenario: Scenario) -> Result<Simulation, StartError> {
-    Simulation::new(scenario, &make)
+impl From<Problems> for Refusal {
+    fn from(problems: Problems) -> Refusal {
+        Refusal {
+            findings: Vec::new(),
+            problems: problems.0,
+        }
+    }
 }
 
-fn make(group: &Group) -> Result<Box<dyn Program>, String> {
-    programs::make(group).map_err(|complaint| complaint.message)
+impl Refusal {
+    /// How many errors the compiler has found, and in which files.
+    pub fn broken_files(&self) -> impl Iterator<Item = &Findings> {
+        self.findings
+            .iter()
+            .filter(|findings| findings.are_errors())
+    }
 }
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for findings in self.broken_files() {
+            f.write_str(&findings.render(Colour::Off))?;
+        }
+        write!(f, "{}", Problems(self.problems.clone()))
+    }
+}
+
+impl std::error::Error for Refusal {}
 
 /// Names the place where what a group's program complains of was written.
 fn blame(resolved: &Resolved, index: usize, complaint: Complaint) -> Problem {
@@ -67,5 +163,6 @@ fn blame(resolved: &Resolved, index: usize, complaint: Complaint) -> Problem {
         true => field,
         false => format!("robots.{index}.{field}"),
     };
-    resolved.problem(&field, &message, Some(&help))
+    let help = (!help.is_empty()).then_some(&*help);
+    resolved.problem(&field, &message, help)
 }

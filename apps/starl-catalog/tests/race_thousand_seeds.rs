@@ -23,8 +23,10 @@ fn race(seed: u64, fleet: Option<&str>, sets: &[&str]) -> Option<String> {
         robots: fleet.map(String::from),
         ..Request::new(example.source())
     };
-    let resolved = starl_catalog::read(&request, example).unwrap();
-    let mut run = starl_catalog::run(resolved.scenario).unwrap();
+    let mut run = starl_catalog::read(&request, example)
+        .unwrap()
+        .run()
+        .unwrap();
     while !run.is_over() {
         run.step();
     }

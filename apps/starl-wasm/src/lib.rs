@@ -90,9 +90,9 @@ fn carry_out(request: &Request) -> Result<Answer, String> {
         robots: request.robots.clone(),
         ..read::Request::new(example.source())
     };
-    let resolved =
-        starl_catalog::read(&wanted, example).map_err(|problems| problems.to_string())?;
-    let mut run = starl_catalog::run(resolved.scenario).map_err(|error| error.message)?;
+    let application =
+        starl_catalog::read(&wanted, example).map_err(|refusal| refusal.to_string())?;
+    let mut run = application.run().map_err(|error| error.message)?;
     while !run.is_over() {
         run.step();
     }

@@ -26,7 +26,7 @@ pub struct Arguments {
 /// What to do.
 #[derive(Subcommand, Debug)]
 pub enum Command {
-    /// Run an example or a scenario file in the simulator
+    /// Run an example, a scenario file or a program in the simulator
     Run(RunArguments),
     /// Run again what a trace recorded, and compare record by record
     Replay(ReplayArguments),
@@ -45,8 +45,12 @@ pub enum Command {
 /// Arguments of `starl run`.
 #[derive(Args, Debug)]
 pub struct RunArguments {
-    /// An example's name (see `starl list`) or a scenario file
+    /// An example's name (see `starl list`), a scenario file, or a program: a file ending in .starl
     pub target: String,
+    /// What to run a program in: a scenario file or an example's name [default: the program's own
+    /// name with .toml, or else a few robots on an empty floor]
+    #[arg(long, value_name = "SCENARIO")]
+    pub scenario: Option<String>,
     /// Another fleet: models with how many of each, e.g. create=2,drone=2
     #[arg(long, value_name = "MODEL=N,...")]
     pub robots: Option<String>,

@@ -12,10 +12,17 @@ use std::fmt::{self, Write};
 
 #[derive(Serialize)]
 struct Listing {
-    examples: Vec<Named>,
+    examples: Vec<Example>,
     programs: Vec<Named>,
     models: Vec<Model>,
     planners: Vec<&'static str>,
+}
+
+#[derive(Serialize)]
+struct Example {
+    name: &'static str,
+    summary: &'static str,
+    programs: Vec<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -96,9 +103,10 @@ pub fn list(arguments: &ListArguments) -> Result<bool, Failure> {
     let listing = Listing {
         examples: EXAMPLES
             .iter()
-            .map(|example| Named {
+            .map(|example| Example {
                 name: example.name,
                 summary: example.summary,
+                programs: example.programs().collect(),
             })
             .collect(),
         programs: PROGRAMS
@@ -149,10 +157,21 @@ fn model(kind: &models::Kind) -> Option<Model> {
 
 fn write(text: &mut String, listing: &Listing) -> fmt::Result {
     writeln!(text, "Examples, for `starl run NAME`:")?;
-    for Named { name, summary } in &listing.examples {
+    for Example {
+        name,
+        summary,
+        programs,
+    } in &listing.examples
+    {
         writeln!(text, "  {name:12}  {summary}")?;
+        if !programs.is_empty() {
+            writeln!(text, "{:16}runs {}", "", programs.join(", "))?;
+        }
     }
-    writeln!(text, "\nPrograms, for `program` in a scenario:")?;
+    writeln!(
+        text,
+        "\nPrograms, for `program` in a scenario, besides files ending in .starl:"
+    )?;
     for Named { name, summary } in &listing.programs {
         writeln!(text, "  {name:12}  {summary}")?;
     }

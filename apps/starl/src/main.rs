@@ -13,6 +13,7 @@ mod failure;
 mod fmt;
 mod json;
 mod list;
+mod origin;
 mod output;
 mod outputs;
 mod paths;

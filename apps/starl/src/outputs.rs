@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::output::{Output, identity};
 use crate::paths::Paths;
 use crate::report::Report;
-use crate::{plot, recording, target};
+use crate::{plot, recording};
 use starl_core::Record;
 use starl_sim::Run;
 use starl_sim::read::Resolved;
@@ -60,13 +60,14 @@ struct PlotOutput {
 }
 
 impl Outputs {
-    /// Opens what the arguments ask for.
+    /// Opens what the arguments ask for; `read` are the files that the run was read from.
     pub fn open(
         arguments: &RunArguments,
         resolved: &Resolved,
+        read: &[PathBuf],
         picture: Option<Picture>,
     ) -> Result<Outputs, Failure> {
-        refuse_to_overwrite(arguments, &target::files(arguments, resolved))?;
+        refuse_to_overwrite(arguments, read)?;
         let trace = |path: &PathBuf| -> Result<TraceOutput, Failure> {
             let (output, file) = Output::create(path)?;
             let header = recording::header(resolved);

@@ -9,9 +9,9 @@ use crate::failure::Failure;
 use crate::output::reason;
 use crate::report::Ending;
 use crate::{recording, run, threads};
+use starl_catalog::Application;
 use starl_core::Record;
 use starl_sim::Run;
-use starl_sim::read::Resolved;
 use starl_trace::{Comparison, Difference, Header, Reader, Summary, TraceError};
 use std::fs::File;
 use std::io::BufReader;
@@ -21,9 +21,9 @@ use std::path::Path;
 pub fn replay(arguments: &ReplayArguments) -> Result<bool, Failure> {
     let path = arguments.trace.as_path();
     let (header, summary) = read_through(path)?;
-    let resolved = inputs(path, &header)?;
-    let threads = threads::count(arguments.threads, resolved.scenario.fleet.len());
-    let mut run = run::start(&resolved)?;
+    let application = inputs(path, &header)?;
+    let threads = threads::count(arguments.threads, application.scenario().fleet.len());
+    let mut run = run::start(&application)?;
     run.set_parallel(threads > 1);
     let found = threads::with(threads, || compare(path, &mut run, &summary))??;
     let verdict = found.map_or_else(
@@ -64,7 +64,7 @@ fn read_through(path: &Path) -> Result<(Header, Summary), Failure> {
 }
 
 /// What the recorded run was started with.
-fn inputs(path: &Path, header: &Header) -> Result<Resolved, Failure> {
+fn inputs(path: &Path, header: &Header) -> Result<Application, Failure> {
     let because = |what: String| {
         Failure::file(
             path,
@@ -72,7 +72,7 @@ fn inputs(path: &Path, header: &Header) -> Result<Resolved, Failure> {
         )
     };
     let inputs = recording::inputs(header).map_err(because)?;
-    starl_catalog::read(&inputs.request, &inputs).map_err(|problems| because(problems.to_string()))
+    starl_catalog::read(&inputs.request, &inputs).map_err(|refusal| because(refusal.to_string()))
 }
 
 /// Runs again up to the recorded end.

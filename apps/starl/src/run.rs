@@ -5,9 +5,10 @@ use crate::failure::Failure;
 use crate::outputs::{Outputs, Picture};
 use crate::progress::Progress;
 use crate::report::{Circumstances, Report};
+use crate::target::Selection;
 use crate::{console, json, summary, target, threads};
+use starl_catalog::Application;
 use starl_sim::Run;
-use starl_sim::read::Resolved;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -15,14 +16,15 @@ use std::time::Instant;
 /// Runs what the arguments say; whether the goal was reached and no property violated.
 pub fn run(arguments: &RunArguments) -> Result<bool, Failure> {
     let picture = arguments.plot.as_deref().map(Picture::of).transpose()?;
-    let resolved = target::read(arguments)?;
+    let Selection { application, files } = target::read(arguments)?;
+    let scenario = application.scenario();
     let stop = stop_on_interrupt();
-    let mut outputs = Outputs::open(arguments, &resolved, picture)?;
-    let threads = threads::count(arguments.threads, resolved.scenario.fleet.len());
-    let mut run = start(&resolved)?;
+    let mut outputs = Outputs::open(arguments, application.resolved(), &files, picture)?;
+    let threads = threads::count(arguments.threads, scenario.fleet.len());
+    let mut run = start(&application)?;
     run.set_parallel(threads > 1);
     let shown = !arguments.quiet && !arguments.json;
-    let progress = Progress::new(shown, resolved.scenario.duration);
+    let progress = Progress::new(shown, scenario.duration);
     let begun = Instant::now();
     let driven = threads::with(threads, || drive(&mut run, &mut outputs, &progress, &stop))?;
     let wall_seconds = begun.elapsed().as_secs_f64();
@@ -32,7 +34,7 @@ pub fn run(arguments: &RunArguments) -> Result<bool, Failure> {
         &run,
         Circumstances {
             target: arguments.target.clone(),
-            replay: command_line(arguments, resolved.scenario.seed),
+            replay: command_line(arguments, scenario.seed),
             interrupted: stop.load(Ordering::Relaxed),
             wall_seconds,
             threads,
@@ -52,9 +54,10 @@ pub fn run(arguments: &RunArguments) -> Result<bool, Failure> {
 }
 
 /// A run of what was read, at its start.
-pub fn start(resolved: &Resolved) -> Result<Run, Failure> {
-    starl_catalog::run(resolved.scenario.clone()).map_err(|error| {
+pub fn start(application: &Application) -> Result<Run, Failure> {
+    application.run().map_err(|error| {
         let field = format!("robots.{}.program", error.group);
+        let resolved = application.resolved();
         resolved.problem(&field, &error.message, None).into()
     })
 }
@@ -109,6 +112,9 @@ fn command_line(arguments: &RunArguments, seed: u64) -> String {
         words.push(name.to_string());
         words.push(quoted(value));
     };
+    if let Some(scenario) = &arguments.scenario {
+        option("--scenario", scenario);
+    }
     if let Some(robots) = &arguments.robots {
         option("--robots", robots);
     }

@@ -1,45 +1,123 @@
 //! Finds what `starl run TARGET` means, and reads it with all that the command line changes.
 
 use crate::args::RunArguments;
+use crate::console;
 use crate::failure::Failure;
+use crate::origin::Origin;
 use crate::output::reason;
-use starl_catalog::examples::{self, EXAMPLES};
-use starl_sim::read::{Loader, Override, Request, Resolved, Source, suggest};
+use starl_catalog::examples::{self, DEFAULT_SCENARIO, EXAMPLES};
+use starl_catalog::language::SUFFIX;
+use starl_catalog::{Application, Refusal};
+use starl_sim::read::{Inputs, Override, Request, Source, suggest};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// Reads the scenario that the arguments name, checked to its last field, programs included.
-pub fn read(arguments: &RunArguments) -> Result<Resolved, Failure> {
-    let (source, loader) = find(&arguments.target)?;
+/// What is run: a scenario, perhaps with another program.
+struct Target {
+    scenario: Source,
+    /// Where the files that it names come from.
+    origin: Origin,
+    /// What the scenario's own program is replaced by, as the command line has it.
+    program: Option<PathBuf>,
+}
+
+/// What was read, and where from.
+pub struct Selection {
+    /// The scenario and its programs, checked to the last field.
+    pub application: Application,
+    /// The files on disk that it was read from.
+    pub files: Vec<PathBuf>,
+}
+
+/// Reads what the arguments name.
+pub fn read(arguments: &RunArguments) -> Result<Selection, Failure> {
+    let Target {
+        scenario,
+        origin,
+        program,
+    } = find(arguments)?;
     let faults = match &arguments.faults {
         Some(path) => Some(Source::new(path.display().to_string(), text(path)?)),
         None => None,
     };
+    let key = program.as_deref().map(|program| origin.key(program));
+    let mut overrides = replacing(&arguments.target, key.as_deref(), &origin);
+    overrides.extend(changes(arguments)?);
     let request = Request {
-        overrides: overrides(arguments)?,
+        overrides,
         robots: arguments.robots.clone(),
         faults,
-        ..Request::new(source)
+        ..Request::new(scenario)
     };
-    Ok(starl_catalog::read(&request, &*loader)?)
+    let application = starl_catalog::read(&request, &origin).map_err(refused)?;
+    if let Some(key) = key {
+        check_that_it_runs(&arguments.target, &key, &application)?;
+    }
+    if !arguments.quiet {
+        warn(&application);
+    }
+    let files = files(arguments, &origin, &application.resolved().inputs);
+    Ok(Selection { application, files })
 }
 
-/// The files that the scenario was read from; none of an example's, which are part of the command.
-pub fn files(arguments: &RunArguments, resolved: &Resolved) -> Vec<PathBuf> {
+/// The files on disk that a run was read from; none of an example's, which are part of the command.
+fn files(arguments: &RunArguments, origin: &Origin, inputs: &Inputs) -> Vec<PathBuf> {
     let mut files: Vec<PathBuf> = arguments.faults.iter().cloned().collect();
-    if examples::find(&arguments.target).is_none() {
-        let scenario = PathBuf::from(&arguments.target);
-        let named = resolved.inputs.files.keys();
-        files.extend(named.map(|path| scenario.with_file_name(path)));
-        files.push(scenario);
-    }
+    files.extend(inputs.files.keys().filter_map(|path| origin.path(path)));
+    files.extend(origin.scenario().map(Path::to_path_buf));
     files
+}
+
+/// Tells of warnings, once.
+fn warn(application: &Application) {
+    for findings in application.warnings() {
+        console::complain(&findings.render(console::colour_of_errors()));
+    }
+}
+
+/// Tells of programs with errors, each with its lines; the failure sums them up.
+pub fn refused(refusal: Refusal) -> Failure {
+    let mut sums = Vec::new();
+    for findings in refusal.broken_files() {
+        console::complain(&findings.render(console::colour_of_errors()));
+        let errors = console::counted(findings.errors(), "error");
+        sums.push(format!("{}: {errors}", findings.name));
+    }
+    sums.extend(refusal.problems.iter().map(ToString::to_string));
+    Failure(sums.join("\n"))
+}
+
+/// Puts a program in the place of the scenario's own.
+fn replacing(target: &str, program: Option<&str>, origin: &Origin) -> Vec<Override> {
+    let Some(key) = program else {
+        return Vec::new();
+    };
+    let mut overrides = vec![Override::named(target, "program", key)];
+    if origin.is_default() {
+        let title = Path::new(key).file_stem().unwrap_or_default();
+        let title = format!("'{}'", title.display());
+        overrides.push(Override::named(target, "title", &title));
+    }
+    overrides
+}
+
+/// Refuses a program that no robot would run: every group of the scenario names another.
+fn check_that_it_runs(target: &str, key: &str, application: &Application) -> Result<(), Failure> {
+    let groups = &application.scenario().fleet.groups;
+    if groups.iter().any(|group| group.program == key) {
+        return Ok(());
+    }
+    let scenario = &application.resolved().inputs.request.source.name;
+    Err(Failure(format!(
+        "{target}: no robot of {scenario} would run this: all its groups name programs of their own; \
+         take another scenario, or name it with --set robots.0.program={key}"
+    )))
 }
 
 /// The changes that the command line makes, in the order of their power: the options with names of
 /// their own come last.
-fn overrides(arguments: &RunArguments) -> Result<Vec<Override>, Failure> {
+fn changes(arguments: &RunArguments) -> Result<Vec<Override>, Failure> {
     let mut overrides = Vec::new();
     for assignment in &arguments.set {
         overrides.push(Override::set(assignment)?);
@@ -53,16 +131,60 @@ fn overrides(arguments: &RunArguments) -> Result<Vec<Override>, Failure> {
     Ok(overrides)
 }
 
-fn find(target: &str) -> Result<(Source, Box<dyn Loader>), Failure> {
-    if let Some(example) = examples::find(target) {
-        return Ok((example.source(), Box::new(*example)));
+fn find(arguments: &RunArguments) -> Result<Target, Failure> {
+    let target = arguments.target.as_str();
+    if target.ends_with(SUFFIX) && examples::find(target).is_none() {
+        return with_program(arguments);
     }
-    let path = Path::new(target);
+    if arguments.scenario.is_some() {
+        return Err(Failure(format!(
+            "--scenario: {target} is a scenario itself; name a program, a file ending in {SUFFIX}"
+        )));
+    }
+    let (scenario, origin) = scenario(target)?;
+    Ok(Target {
+        scenario,
+        origin,
+        program: None,
+    })
+}
+
+/// A program with the scenario that is named, or else lies beside it, or else the one that is there
+/// for all.
+fn with_program(arguments: &RunArguments) -> Result<Target, Failure> {
+    let program = PathBuf::from(&arguments.target);
+    // A message about a program that cannot be read is to name it and not its scenario.
+    text(&program)?;
+    let beside = program.with_extension("toml");
+    let (source, origin) = match &arguments.scenario {
+        Some(named) => scenario(named)?,
+        None if beside.is_file() => scenario(&beside.display().to_string())?,
+        None => (
+            Source::new("the default scenario", DEFAULT_SCENARIO),
+            Origin::none(),
+        ),
+    };
+    if arguments.scenario.is_none() && !arguments.quiet {
+        console::complain(&format!("scenario: {}\n", source.name));
+    }
+    Ok(Target {
+        scenario: source,
+        origin: origin.with_program(&program),
+        program: Some(program),
+    })
+}
+
+/// The scenario of an example, or one in a file.
+fn scenario(name: &str) -> Result<(Source, Origin), Failure> {
+    if let Some(example) = examples::find(name) {
+        return Ok((example.source(), Origin::example(example)));
+    }
+    let path = Path::new(name);
     if !path.exists() {
         let names: Vec<&str> = EXAMPLES.iter().map(|example| example.name).collect();
-        let help = suggest::help(target, &names, "the examples are").unwrap_or_default();
+        let help = suggest::help(name, &names, "the examples are").unwrap_or_default();
         return Err(Failure(format!(
-            "{target}: there is no example or scenario file called this; {help}"
+            "{name}: there is no example or scenario file called this; {help}"
         )));
     }
     if path.is_dir() {
@@ -71,8 +193,7 @@ fn find(target: &str) -> Result<(Source, Box<dyn Loader>), Failure> {
             "is a folder; name the scenario file in it",
         ));
     }
-    let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
-    Ok((Source::new(target, text(path)?), Box::new(Folder(folder))))
+    Ok((Source::new(name, text(path)?), Origin::file(path)))
 }
 
 /// The text of a file.
@@ -92,7 +213,8 @@ pub fn text(path: &Path) -> Result<String, Failure> {
 /// Larger files are no scenarios, world files or images.
 const LARGEST_FILE: u64 = 256 << 20;
 
-fn bytes(path: &Path) -> Result<Vec<u8>, String> {
+/// The content of a file, or why it cannot be read.
+pub fn bytes(path: &Path) -> Result<Vec<u8>, String> {
     let read = || {
         let mut bytes = Vec::new();
         let file = File::open(path)?;
@@ -103,14 +225,5 @@ fn bytes(path: &Path) -> Result<Vec<u8>, String> {
     match bytes.len() as u64 > LARGEST_FILE {
         true => Err("it is larger than 256 MiB".to_string()),
         false => Ok(bytes),
-    }
-}
-
-/// Brings files from the scenario's folder.
-struct Folder(PathBuf);
-
-impl Loader for Folder {
-    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
-        bytes(&self.0.join(path))
     }
 }

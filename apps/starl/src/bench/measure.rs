@@ -3,6 +3,7 @@
 use super::workload::Workload;
 use crate::console::{grouped, rounded};
 use crate::failure::Failure;
+use crate::target::refused;
 use crate::threads;
 use cpu_time::ProcessTime;
 use serde::Serialize;
@@ -93,8 +94,10 @@ pub fn measure(workload: &Workload, threads: usize) -> Result<Figures, Failure> 
 
 fn start(name: &str, scenario: &str) -> Result<Simulation, Failure> {
     let source = Source::new(format!("the scenario of `{name}`"), scenario);
-    let resolved = starl_catalog::read(&Request::new(source), &NoFiles)?;
-    starl_catalog::simulation(resolved.scenario).map_err(|error| Failure(error.message))
+    let application = starl_catalog::read(&Request::new(source), &NoFiles).map_err(refused)?;
+    application
+        .simulation()
+        .map_err(|error| Failure(error.message))
 }
 
 /// The figures for people.

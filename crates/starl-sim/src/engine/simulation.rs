@@ -11,6 +11,7 @@ use super::{Stream, collide, radio, stream};
 use crate::scenario::{Fault, FaultKind, Group, Scenario};
 use starl_core::event::Hit;
 use starl_core::geometry::ObstacleIndex;
+use starl_core::motion::Obstacles;
 use starl_core::{
     Agent, Command, Digest, Duration, Estimate, Event, Point, Program, Record, RobotId, Time, math,
 };
@@ -401,6 +402,11 @@ impl Simulation {
     /// What a robot believes of its state.
     pub fn estimate(&self, robot: RobotId) -> &Estimate {
         &self.mind(robot).estimate
+    }
+
+    /// The obstacles that stand and that all robots know of.
+    pub fn known_obstacles(&self) -> Obstacles {
+        self.shared.known.clone()
     }
 
     /// What a robot runs.

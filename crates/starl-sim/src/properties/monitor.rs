@@ -2,9 +2,11 @@
 //! variables.
 
 use super::Violation;
+use crate::Scenario;
 use crate::engine::Simulation;
 use starl_core::event::Name;
-use starl_core::{Pose, RobotId, Time};
+use starl_core::motion::Obstacles;
+use starl_core::{Point, Pose, RobotId, Time};
 use std::any::Any;
 
 /// Watches properties on a live simulation. A trace does not hold what it sees, so its verdicts come
@@ -41,6 +43,16 @@ impl<'a> Witness<'a> {
         self.simulation.now()
     }
 
+    /// What is simulated.
+    pub fn scenario(&self) -> &'a Scenario {
+        self.simulation.scenario()
+    }
+
+    /// The obstacles that stand and that all robots know of, the walls around the world included.
+    pub fn obstacles(&self) -> Obstacles {
+        self.simulation.known_obstacles()
+    }
+
     /// All robots, those that are down included.
     pub fn robots(&self) -> &'a [RobotId] {
         self.simulation.robots()
@@ -63,6 +75,12 @@ impl<'a> Witness<'a> {
     pub fn pose(&self, robot: RobotId) -> Option<Pose> {
         let known = robot.index() < self.robots().len();
         known.then(|| self.simulation.state(robot).pose)
+    }
+
+    /// A robot's true velocity, metres per second; none if there is no such robot.
+    pub fn velocity(&self, robot: RobotId) -> Option<Point> {
+        let known = robot.index() < self.robots().len();
+        known.then(|| self.simulation.state(robot).twist.linear)
     }
 
     /// Whether a robot is there and has not crashed.

@@ -95,16 +95,11 @@ pub fn again(inputs: &Inputs) -> Result<Resolved, Problems> {
 }
 
 impl Resolved {
-    /// Loads one more file that the scenario leads to, such as its program, and keeps it among the
-    /// inputs, so that the scenario can be read again without the loader.
-    ///
-    /// # Errors
-    /// Why it cannot be read, in words.
-    pub fn load(&mut self, path: &str, loader: &dyn Loader) -> Result<Vec<u8>, String> {
-        let bytes = loader.load(path)?;
-        let content = Content::of(&bytes);
+    /// Keeps one more file that the scenario leads to, such as its program, among the inputs, so that
+    /// the scenario can be read again without the loader that brought it.
+    pub fn keep(&mut self, path: &str, bytes: &[u8]) {
+        let content = Content::of(bytes);
         self.inputs.files.insert(path.to_string(), content);
-        Ok(bytes)
     }
 
     /// A problem with a field that only a host can see, such as a program it does not know; blamed

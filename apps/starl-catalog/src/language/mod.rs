@@ -1,0 +1,103 @@
+//! Programs in the StarL language: found, compiled, given their parameters and watched.
+//!
+//! A program is known by its path relative to the scenario that names it. It is compiled once, however
+//! many robots run it.
+
+mod monitor;
+mod source;
+mod values;
+
+pub use source::Findings;
+
+use crate::parameters::Complaint;
+use monitor::ProgramMonitor;
+use source::Compiled;
+use starl_core::RobotId;
+use starl_lang::robot::RobotProgram;
+use starl_sim::Scenario;
+use starl_sim::properties::Monitor;
+use starl_sim::read::{Loader, Resolved};
+use starl_sim::scenario::{Fleet, Group};
+use std::collections::BTreeMap;
+
+/// What a program's file ends with; any other name is that of a program of the catalog.
+pub const SUFFIX: &str = ".starl";
+
+/// The compiled programs of a scenario, by path.
+#[derive(Clone, Debug, Default)]
+pub struct Programs(BTreeMap<String, Compiled>);
+
+/// What there is to say of the programs of a scenario.
+#[derive(Clone, Debug, Default)]
+pub struct Review {
+    /// What is wrong with the files, each with the group that names the program.
+    pub complaints: Vec<(usize, Complaint)>,
+    /// What the compiler has found, warnings included.
+    pub findings: Vec<Findings>,
+}
+
+impl Programs {
+    /// Loads and compiles the programs that the groups of a scenario name.
+    pub fn compile(resolved: &mut Resolved, loader: &dyn Loader) -> (Programs, Review) {
+        let (mut programs, mut review) = (Programs::default(), Review::default());
+        let mut named = BTreeMap::new();
+        for (index, group) in resolved.scenario.fleet.groups.iter().enumerate() {
+            if group.program.ends_with(SUFFIX) {
+                named.entry(group.program.clone()).or_insert(index);
+            }
+        }
+        for (path, group) in named {
+            match source::compile(&path, resolved, loader) {
+                Ok((compiled, findings)) => {
+                    review.findings.extend(findings);
+                    programs.0.extend(compiled.map(|compiled| (path, compiled)));
+                }
+                Err(message) => {
+                    let complaint = Complaint {
+                        field: "program".to_string(),
+                        message,
+                        help: String::new(),
+                    };
+                    review.complaints.push((group, complaint));
+                }
+            }
+        }
+        (programs, review)
+    }
+
+    /// Makes the program of a group of robots; none if the group names no program of this language.
+    ///
+    /// # Errors
+    /// Where the program does not take the parameters as they are.
+    pub fn make(&self, group: &Group, fleet: &Fleet) -> Option<Result<RobotProgram, Complaint>> {
+        let compiled = self.0.get(&group.program)?;
+        Some(values::program(&compiled.code, group, fleet))
+    }
+
+    /// The monitors of what the programs say of themselves.
+    pub fn monitors(&self, scenario: &Scenario) -> Vec<Box<dyn Monitor>> {
+        let monitor = |(path, compiled): (&String, &Compiled)| {
+            let same = self.0.values().filter(|other| other.name == compiled.name);
+            let qualifier = match same.count() {
+                1 => &compiled.name,
+                _ => path,
+            };
+            let robots = members(&scenario.fleet, path);
+            ProgramMonitor::new(qualifier, &compiled.code, robots)
+        };
+        let monitors = self.0.iter().filter_map(monitor);
+        monitors
+            .map(|monitor| Box::new(monitor) as Box<dyn Monitor>)
+            .collect()
+    }
+}
+
+/// The robots that run a program.
+fn members(fleet: &Fleet, path: &str) -> Vec<RobotId> {
+    let programs = fleet.groups.iter().flat_map(|group| {
+        let program = group.program.as_str();
+        group.starts.iter().map(move |_| program)
+    });
+    let robots = programs.zip(0..).filter(|(program, _)| *program == path);
+    robots.map(|(_, number)| RobotId(number)).collect()
+}

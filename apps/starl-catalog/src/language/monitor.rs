@@ -1,0 +1,108 @@
+//! Watches what a program says of itself while it is simulated.
+
+use starl_core::event::Name;
+use starl_core::motion::Obstacles;
+use starl_core::{Point, Pose, RobotId, WayPoint};
+use starl_lang::machine::State;
+use starl_lang::robot::properties::{Fleet, Judge, Standing};
+use starl_lang::robot::{Code, RobotProgram};
+use starl_sim::properties::{Monitor, Violation, Witness};
+use std::sync::Arc;
+
+/// Watches the properties of one program on the robots that run it.
+#[derive(Clone)]
+pub struct ProgramMonitor {
+    judge: Judge,
+    /// The properties, as `Race.in_order`.
+    names: Arc<[Name]>,
+    robots: Arc<[RobotId]>,
+}
+
+impl ProgramMonitor {
+    /// A monitor of a program that is called `qualifier` and that `robots` run, in ascending order;
+    /// none if it has no properties.
+    pub fn new(qualifier: &str, code: &Code, robots: Vec<RobotId>) -> Option<ProgramMonitor> {
+        let judge = Judge::new(code);
+        let properties = judge.properties().iter();
+        let names: Vec<Name> = properties
+            .map(|property| format!("{qualifier}.{}", property.name).into())
+            .collect();
+        (!names.is_empty()).then(|| ProgramMonitor {
+            names: names.into(),
+            robots: robots.into(),
+            judge,
+        })
+    }
+}
+
+impl Monitor for ProgramMonitor {
+    fn properties(&self) -> Vec<Name> {
+        self.names.to_vec()
+    }
+
+    fn observe(&mut self, witness: &Witness<'_>, violations: &mut Vec<Violation>) {
+        let members = Members {
+            witness,
+            robots: &self.robots,
+        };
+        for found in self.judge.observe(witness.now(), &members) {
+            let place = found.place.iter().map(|place| format!("{place}: "));
+            violations.push(Violation {
+                property: self.names[found.property].clone(),
+                at: found.at,
+                robots: found.robots.clone(),
+                text: place.chain([found.to_string()]).collect(),
+            });
+        }
+    }
+
+    fn is_open(&self, property: usize) -> bool {
+        self.judge.standing(property) == Standing::Open
+    }
+}
+
+/// The robots that run the program, in the simulation.
+struct Members<'a> {
+    witness: &'a Witness<'a>,
+    robots: &'a [RobotId],
+}
+
+impl Fleet for Members<'_> {
+    fn robots(&self) -> &[RobotId] {
+        self.robots
+    }
+
+    fn state_of(&self, robot: RobotId) -> Option<&State> {
+        let program = self.witness.program(robot)?;
+        let program = program.downcast_ref::<RobotProgram>()?;
+        program.has_started().then(|| program.state())
+    }
+
+    fn pose(&self, robot: RobotId) -> Option<Pose> {
+        self.witness.pose(robot)
+    }
+
+    fn velocity(&self, robot: RobotId) -> Option<Point> {
+        self.witness.velocity(robot)
+    }
+
+    fn has_finished(&self, robot: RobotId) -> bool {
+        self.witness.has_finished(robot)
+    }
+
+    fn is_up(&self, robot: RobotId) -> bool {
+        self.witness.is_up(robot)
+    }
+
+    fn everyone(&self) -> Option<&[RobotId]> {
+        Some(self.witness.robots())
+    }
+
+    fn way_points(&self) -> Option<&[WayPoint]> {
+        Some(&self.witness.scenario().world.way_points)
+    }
+
+    fn obstacles(&self) -> Option<Obstacles> {
+        Some(self.witness.obstacles())
+    }
+}

@@ -1,0 +1,182 @@
+//! From the path of a program to code that robots can run.
+
+use super::SUFFIX;
+use starl_lang::check::{Checked, CheckedFile, Libraries, StandardLibraries, check};
+use starl_lang::compile::compile as to_bytecode;
+use starl_lang::diagnostic::{Colour, Diagnostic, Severity, render};
+use starl_lang::robot::Code;
+use starl_sim::read::{Loader, Resolved};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// What the compiler has found in a file; errors, warnings or both.
+#[derive(Clone, Debug)]
+pub struct Findings {
+    /// What people call the file: its path beside that of the scenario.
+    pub name: String,
+    /// Its text.
+    pub source: String,
+    /// What there is to say, at least one thing.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// A program that can be run.
+#[derive(Clone)]
+pub struct Compiled {
+    /// What the program calls itself.
+    pub name: String,
+    pub code: Code,
+}
+
+impl fmt::Debug for Compiled {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Compiled").field(&self.name).finish()
+    }
+}
+
+impl Findings {
+    /// Whether they keep the program from running.
+    pub fn are_errors(&self) -> bool {
+        self.errors() > 0
+    }
+
+    /// How many errors there are.
+    pub fn errors(&self) -> usize {
+        let severities = self.diagnostics.iter().map(Diagnostic::severity);
+        severities
+            .filter(|&severity| severity == Severity::Error)
+            .count()
+    }
+
+    /// How people read them: each with the lines that it is about.
+    pub fn render(&self, colour: Colour) -> String {
+        render(&self.name, &self.source, &self.diagnostics, colour)
+    }
+}
+
+/// Loads a program with the libraries that it imports and compiles it. The files are kept among the
+/// scenario's inputs.
+///
+/// # Errors
+/// Where a file cannot be read. Where the program has errors there is no code, and the findings tell
+/// of them.
+pub fn compile(
+    path: &str,
+    resolved: &mut Resolved,
+    loader: &dyn Loader,
+) -> Result<(Option<Compiled>, Vec<Findings>), String> {
+    let folder = Folder::of(path, loader);
+    let text = folder.text(path)?;
+    let checked = check(&text, &folder);
+    let files = folder.brought.into_inner();
+    let unreadable = files.values().find_map(|file| file.as_ref().err());
+    if let Some(reason) = unreadable {
+        return Err(reason.clone());
+    }
+    for (path, file) in &files {
+        resolved.keep(path, file.as_deref().unwrap_or_default().as_bytes());
+    }
+    let scenario = &resolved.inputs.request.source.name;
+    let mut findings = findings(&checked, path, scenario);
+    if checked.has_errors() {
+        return Ok((None, findings));
+    }
+    let mut bytecode = match to_bytecode(&checked) {
+        Ok(bytecode) => bytecode,
+        Err(diagnostics) => {
+            findings.push(Findings {
+                name: beside(scenario, path),
+                source: text,
+                diagnostics,
+            });
+            return Ok((None, findings));
+        }
+    };
+    for (number, (file, checked)) in bytecode.files.iter_mut().zip(&checked.files).enumerate() {
+        file.name = file_name(&path_of(number, checked, path)).to_string();
+    }
+    let name = bytecode.name.clone();
+    let code = Code::load(bytecode).map_err(|error| format!("{path:?} cannot be run: {error}"))?;
+    Ok((Some(Compiled { name, code }), findings))
+}
+
+/// What was found in each file, by the names that people have for the files.
+fn findings(checked: &Checked, path: &str, scenario: &str) -> Vec<Findings> {
+    let files = checked.files.iter().enumerate();
+    let found = files.filter(|(_, file)| !file.diagnostics.is_empty());
+    found
+        .map(|(number, file)| Findings {
+            name: beside(scenario, &path_of(number, file, path)),
+            source: file.source.clone(),
+            diagnostics: file.diagnostics.clone(),
+        })
+        .collect()
+}
+
+/// The path of a file that was checked for the program at `path`.
+fn path_of(number: usize, file: &CheckedFile, path: &str) -> String {
+    match number {
+        0 => path.to_string(),
+        _ => beside(path, &format!("{}{SUFFIX}", file.name)),
+    }
+}
+
+/// The path that leads to `other`, as seen from the folder of `path`.
+fn beside(path: &str, other: &str) -> String {
+    let folder = &path[..path.len() - file_name(path).len()];
+    match other.starts_with('/') {
+        true => other.to_string(),
+        false => format!("{folder}{}", other.trim_start_matches("./")),
+    }
+}
+
+fn file_name(path: &str) -> &str {
+    path.rsplit('/').next().unwrap_or(path)
+}
+
+/// The files around a program, and what was brought of them: texts, or why they are none.
+struct Folder<'a> {
+    program: &'a str,
+    loader: &'a dyn Loader,
+    brought: RefCell<BTreeMap<String, Result<String, String>>>,
+}
+
+impl<'a> Folder<'a> {
+    fn of(program: &'a str, loader: &'a dyn Loader) -> Folder<'a> {
+        Folder {
+            program,
+            loader,
+            brought: RefCell::default(),
+        }
+    }
+
+    /// The text of the program.
+    fn text(&self, path: &str) -> Result<String, String> {
+        let bytes = self.loader.load(path);
+        let bytes = bytes.map_err(|reason| format!("{path:?} cannot be read: {reason}"))?;
+        self.keep(path, bytes)
+    }
+
+    fn keep(&self, path: &str, bytes: Vec<u8>) -> Result<String, String> {
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+            let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
+            format!("{path:?} is not text in UTF-8, in line {line}")
+        });
+        let mut brought = self.brought.borrow_mut();
+        brought.insert(path.to_string(), text.clone());
+        text
+    }
+}
+
+/// Libraries beside the program go before those of the standard library.
+impl Libraries for Folder<'_> {
+    fn source(&self, name: &str) -> Option<String> {
+        let path = beside(self.program, &format!("{name}{SUFFIX}"));
+        match self.loader.load(&path) {
+            Ok(bytes) => self.keep(&path, bytes).ok(),
+            Err(_) => StandardLibraries.source(name),
+        }
+    }
+}
