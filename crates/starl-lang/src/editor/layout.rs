@@ -1,7 +1,7 @@
 //! Laying a text out anew by the smallest changes, so that an editor's marks and cursors stay where they
 //! are.
 //!
-//! Only white space changes ([`crate::format`]), so that both texts are the same words with other white
+//! Only white space changes ([`crate::format`]), so that both texts are the same letters with other white
 //! space between; each white space that differs is one change.
 
 use alloc::vec::Vec;
@@ -15,35 +15,35 @@ pub fn layout(text: &str) -> Vec<Edit> {
     let formatted = format(text);
     match between(text, &formatted) {
         Some(edits) => edits,
-        // Words differ where a comment ends with white space that has a meaning to nobody but Unicode.
+        // Letters differ only where Unicode and the language disagree on what white space is.
         None => Vec::from([Edit::new(Span::new(0, text.len() as u32), formatted)]),
     }
 }
 
 fn between(old: &str, new: &str) -> Option<Vec<Edit>> {
     let mut edits = Vec::new();
-    let (mut at, mut rest) = (0, new);
+    let (mut rest, mut wanted) = (old, new);
     loop {
-        let (space, after) = split(&old[at..], |letter| !letter.is_whitespace());
-        let (wanted, after_wanted) = split(rest, |letter| !letter.is_whitespace());
-        if space != wanted {
+        let (space, after) = split(rest);
+        let (wanted_space, after_wanted) = split(wanted);
+        if space != wanted_space {
+            let at = old.len() - rest.len();
             let span = Span::new(at as u32, (at + space.len()) as u32);
-            edits.push(Edit::new(span, wanted));
+            edits.push(Edit::new(span, wanted_space));
         }
-        let (word, _) = split(after, char::is_whitespace);
-        let (same, after_same) = split(after_wanted, char::is_whitespace);
-        if word != same {
+        let (mut letters, mut wanted_letters) = (after.chars(), after_wanted.chars());
+        let letter = letters.next();
+        if letter != wanted_letters.next() {
             return None;
         }
-        if word.is_empty() {
+        if letter.is_none() {
             return Some(edits);
         }
-        at += space.len() + word.len();
-        rest = after_same;
+        (rest, wanted) = (letters.as_str(), wanted_letters.as_str());
     }
 }
 
-/// The text up to where something begins, and from there on.
-fn split(text: &str, begins: impl Fn(char) -> bool) -> (&str, &str) {
-    text.split_at(text.find(begins).unwrap_or(text.len()))
+/// The white space that the text begins with, and the rest.
+fn split(text: &str) -> (&str, &str) {
+    text.split_at(text.len() - text.trim_start().len())
 }

@@ -277,7 +277,8 @@ impl<'a> Changes<'a> {
         changed: &'c Checked,
     ) -> Option<(u32, &'c Diagnostic)> {
         let is_error = |problem: &&Diagnostic| problem.severity() == Severity::Error;
-        for (number, file) in changed.files.iter().enumerate() {
+        // A library's own error says more than the import that leads to it.
+        for (number, file) in changed.files.iter().enumerate().rev() {
             let number = number as u32;
             let old = before.files.get(number as usize);
             let old = old.map_or(&[][..], |file| &file.diagnostics[..]);
