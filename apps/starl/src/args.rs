@@ -34,7 +34,7 @@ pub enum Command {
     Check(CheckArguments),
     /// Lay programs and libraries out in the one canonical way
     Fmt(FormatArguments),
-    /// Draw a program as a state machine, for Mermaid or Graphviz
+    /// Draw a program as a state machine, or explain an error by its code
     Explain(ExplainArguments),
     /// Show the examples, programs, robot models and planners
     List(ListArguments),
@@ -123,7 +123,7 @@ pub struct FormatArguments {
 #[derive(Args, Debug)]
 pub struct ExplainArguments {
     /// An example's name (see `starl list`) or a program: a file ending in .starl; `-` for standard
-    /// input
+    /// input. Or the code of an error or a warning, e.g. E0201
     pub program: String,
     /// The enum variable whose values are the states [default: the one that most actions ask for]
     #[arg(long, value_name = "NAME")]

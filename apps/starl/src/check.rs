@@ -17,7 +17,7 @@ pub fn run(arguments: &CheckArguments) -> Result<bool, Failure> {
     let (sources, mut failures) = sources::find(&arguments.files);
     let mut findings = Findings::new(&sources);
     for source in &sources {
-        match examine(source) {
+        match examine(source, |_| Vec::new()) {
             Ok(examined) => {
                 failures.extend(examined.failures);
                 findings.files += 1;
@@ -56,11 +56,17 @@ pub struct Examinee {
     checked: CheckedFile,
 }
 
-/// Checks a source, and tells nothing.
-pub fn examine(source: &Source) -> Result<Examined, Failure> {
+/// Checks a source, and tells nothing. What else is to be said of the program itself is added.
+pub fn examine(
+    source: &Source,
+    more: impl Fn(&Checked) -> Vec<Diagnostic>,
+) -> Result<Examined, Failure> {
     let text = source.read()?;
     let libraries = source.libraries();
-    let Checked { files, program, .. } = check(&text, &libraries);
+    let mut checked = check(&text, &libraries);
+    let more = more(&checked);
+    checked.files[0].diagnostics.extend(more);
+    let Checked { files, program, .. } = checked;
     let found = libraries.found();
     let mut examinees = Vec::new();
     for (number, checked) in files.into_iter().enumerate() {

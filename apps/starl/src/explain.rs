@@ -1,4 +1,4 @@
-//! `starl explain`: the state machine of a program, drawn.
+//! `starl explain`: the state machine of a program, drawn; or what an error means.
 
 use crate::args::{Drawing, ExplainArguments};
 use crate::check::examine;
@@ -7,14 +7,21 @@ use crate::failure::Failure;
 use crate::output::Output;
 use crate::sources::{self, Source};
 use starl_catalog::examples::{self, EXAMPLES};
+use starl_lang::diagnostic::Code;
 use starl_lang::explain::StateMachine;
 use starl_sim::read::suggest;
 use std::path::{Path, PathBuf};
 
-/// Draws a program. False if it has errors, of which is told.
+/// Draws a program, or shows the page of a code. False if the program has errors, of which is told.
 pub fn run(arguments: &ExplainArguments) -> Result<bool, Failure> {
+    let mut codes = Code::ALL.iter();
+    let asked = |code: &&Code| code.number().eq_ignore_ascii_case(&arguments.program);
+    if let Some(code) = codes.find(asked) {
+        console::print(code.page())?;
+        return Ok(true);
+    }
     let source = find(&arguments.program)?;
-    let examined = examine(&source)?;
+    let examined = examine(&source, |_| Vec::new())?;
     sources::fail(examined.failures)?;
     if examined.files.iter().any(|file| file.has_errors()) {
         for file in &examined.files {

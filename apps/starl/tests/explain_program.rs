@@ -37,6 +37,17 @@ fn the_drawing_goes_to_a_file_in_the_language_of_its_suffix() {
 }
 
 #[test]
+fn a_code_is_explained_by_its_page() {
+    let folder = folder("explain_code");
+    for code in ["E0201", "w0205"] {
+        let output = starl(&folder, &["explain", code]);
+        let title = format!("# {}: ", code.to_uppercase());
+        assert!(stdout(&output).starts_with(&title), "{}", stdout(&output));
+        assert_eq!(status(&output), 0);
+    }
+}
+
+#[test]
 fn a_program_with_errors_is_not_drawn() {
     let folder = folder("explain_errors");
     file(&folder, "bad.starl", "program Bad\n\nx: Int = true\n");
