@@ -32,6 +32,10 @@ pub const EXAMPLES: [Example; 1] = [Example {
     text: include_str!("../../../examples/race/race.toml"),
     files: &[
         (
+            "race.starl",
+            include_bytes!("../../../examples/race/race.starl"),
+        ),
+        (
             "worlds/four.wpt",
             include_bytes!("../../../examples/race/worlds/four.wpt"),
         ),

@@ -1,12 +1,16 @@
 //! Race: a fleet runs through shared way-points; the first robot at each sends all on to the next
 //! (thesis, section 2.2 and figure 2.1).
 //!
+//! This is the example of a program written in Rust. `race.starl` beside it is the same program in the
+//! StarL language, and `starl run race` runs that one; a test shows that both do the same.
+//!
 //! The actions stand in the order and under the names of the figure. Where this differs from the
 //! printed listing:
 //! - `wait` there broadcasts the index after counting it up, and `receivedMessage` counts up once more,
 //!   so a told robot would skip a point. Here the message says which way-point was reached;
 //! - there any message sets the index, so one that comes late sends the robot back. Here only a
-//!   message about the present way-point or a later one does something;
+//!   message about the present way-point or a later one does something, once the robot knows the
+//!   way-points;
 //! - the guard of `pick` there also holds once ReachAvoid is done, so the robot would set out for the
 //!   same point again instead of telling the others. Here it holds unless the last command is under
 //!   way or done: a robot that failed or gave up tries again;
@@ -77,7 +81,7 @@ impl Race {
     fn initialize(&mut self, robot: &mut Robot<'_>) {
         if self.location == Location::Init {
             robot.action("initialize");
-            // The index is 0 already, or more if a message came first.
+            self.current_index = 0;
             self.location = Location::Pick;
         }
     }
@@ -96,20 +100,13 @@ impl Race {
     }
 
     fn wait(&mut self, robot: &mut Robot<'_>) {
-        let Some(target) = self.target(robot) else {
+        if self.target(robot).is_none() {
             return;
-        };
+        }
         if self.location == Location::Wait && self.reach_avoid.done() {
             robot.action("wait");
             let reached = self.current_index;
-            let name = target.name.clone().into();
-            robot.emit(
-                "arrived",
-                [
-                    ("index", reached.into()),
-                    ("name", starl_core::Value::Text(name)),
-                ],
-            );
+            robot.emit("arrived", [("index", reached.into())]);
             self.broadcast.broadcast(robot, &reached);
             self.current_index = reached + 1;
             self.location = Location::Pick;
@@ -148,7 +145,8 @@ impl Program for Race {
             return;
         };
         let exists = (reached as usize) < robot.way_points().len();
-        if exists && reached >= self.current_index {
+        let knows = self.location != Location::Init;
+        if knows && exists && reached >= self.current_index {
             robot.emit(
                 "told",
                 [("index", reached.into()), ("from", message.from.into())],
