@@ -90,6 +90,9 @@ fn objects_in_text_form() {
     assert_eq!(text(list, 0, [",", "a,b"]), Ok(",[\"a\", \"b\"]".into()));
     let plain = "append_object b0 b1 type0";
     assert_eq!(text(plain, 0, ["x = ", "a"]), Ok("x = a".into()));
+    let quoted = "append_quoted b0 b1";
+    let written = Ok("x = \"a\\\"b\"".into());
+    assert_eq!(text(quoted, 0, ["x = ", "a\"b"]), written);
 }
 
 #[test]

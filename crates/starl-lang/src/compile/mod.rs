@@ -1,21 +1,56 @@
 //! The compiler: from a checked program to the machine's bytecode.
+//!
+//! It walks the typed program ([`crate::ir`]) once and writes code as it goes. A function's registers
+//! are a stack ([`body`]); a value is computed where it is wanted ([`expression`]); a condition becomes
+//! jumps ([`condition`]); what functions share is numbered when it is first needed ([`unit`]).
+//!
+//! Invariant: what is given can be loaded. What the machine or the robots cannot do is told as
+//! diagnostics.
+
+mod arithmetic;
+mod body;
+mod builtin;
+mod call;
+mod changes;
+mod code;
+mod collection;
+mod comparison;
+mod condition;
+mod constant;
+mod declaration;
+mod expression;
+mod link;
+mod location;
+mod method;
+mod place;
+mod problem;
+mod property;
+mod statement;
+mod text;
+mod types;
+mod unit;
 
 use alloc::vec::Vec;
 
 use crate::check::Checked;
-use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::machine::Bytecode;
 
-/// Compiles a program that was checked.
+/// Compiles a program that was checked. Of a library all functions are compiled, of a program those
+/// that it uses.
 ///
 /// # Errors
-/// What the machine or the robots cannot do; the checker's errors, if the program has any.
+/// What the machine or the robots cannot do; the checker's errors, if there are any.
 pub fn compile(checked: &Checked) -> Result<Bytecode, Vec<Diagnostic>> {
-    let _ = checked;
-    let message = "programs cannot be compiled yet";
-    Err(Vec::from([Diagnostic::new(
-        Code::TooMuch,
-        Span::empty(0),
-        message,
-    )]))
+    if checked.has_errors() {
+        let all = checked.files.iter().flat_map(|file| &file.diagnostics);
+        let errors = all.filter(|diagnostic| diagnostic.severity() == Severity::Error);
+        return Err(errors.cloned().collect());
+    }
+    link::link(&checked.program, &checked.files).map_err(|problems| {
+        let told = problems
+            .into_iter()
+            .map(|problem| problem.told(&checked.files));
+        told.collect()
+    })
 }

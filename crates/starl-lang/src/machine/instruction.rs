@@ -82,6 +82,16 @@ macro_rules! instructions {
                 }
             }
 
+            /// The same with other targets of jumps.
+            #[must_use]
+            pub fn with_targets(&self, place: &dyn Fn(u32) -> u32) -> Instruction {
+                match *self {
+                    $(Instruction::$name { $($field),* } => Instruction::$name {
+                        $($field: $field.with_target(place)),*
+                    }),*
+                }
+            }
+
             /// All names in text form, in the order of the declaration.
             pub const MNEMONICS: &'static [&'static str] = &[$($word),*];
         }
@@ -320,6 +330,9 @@ instructions! {
     /// text = text, an object of type `kind` as it would be written in a program; a text without its
     /// quotes. Costs the size of what is added over 8.
     AppendObject "append_object" { text: ObjectInOut, from: ObjectIn, kind: Type }
+    /// text = text, the other text as it would be written in a program, with quotes. Costs the size of
+    /// what is added over 8.
+    AppendQuoted "append_quoted" { text: ObjectInOut, from: ObjectIn }
     /// to = whether `part` is in the text. Costs the sizes of both over 8.
     ContainsText "contains_text" { to: Out, text: ObjectIn, part: ObjectIn }
     /// to = the parts of the text between separators; all of it if the separator is empty. A shift of

@@ -38,6 +38,12 @@ pub trait Operand: Copy {
     fn read(word: &str, label: &dyn Fn(&str) -> Option<u32>) -> Option<Self>;
     /// What the instruction does with it.
     fn used(self) -> Use;
+    /// The same, at another place if it is the target of a jump.
+    #[must_use]
+    fn with_target(self, place: &dyn Fn(u32) -> u32) -> Self {
+        let _ = place;
+        self
+    }
 }
 
 macro_rules! register {
@@ -198,6 +204,10 @@ impl Operand for Target {
 
     fn used(self) -> Use {
         Use::JumpsTo(self.0)
+    }
+
+    fn with_target(self, place: &dyn Fn(u32) -> u32) -> Target {
+        Target(place(self.0))
     }
 }
 

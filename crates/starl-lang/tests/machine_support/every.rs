@@ -160,6 +160,7 @@ function start procedure () () registers 40 objects 20
     int r5 1
     append_variant b2 r5 enum0
     append_object b2 b1 type0
+    append_quoted b2 b0
     contains_text r6 b2 b1
     split_text b4 b0 b1 type4
     equal_object r6 b0 b1 type0

@@ -70,6 +70,7 @@ impl View<'_> {
             AppendPoint { text, from } => self.append_point(text, from),
             AppendVariant { text, from, of } => self.append_variant(text, from, of),
             AppendObject { text, from, kind } => self.append_object(text, from, kind),
+            AppendQuoted { text, from } => self.append_quoted(text, from),
             ContainsText { to, text, part } => self.contains_text(to, text, part),
             SplitText {
                 to,

@@ -74,6 +74,11 @@ impl View<'_> {
         self.append(text, &words, (words.len() / 8) as u64)
     }
 
+    pub fn append_quoted(&mut self, text: ObjectInOut, from: ObjectIn) -> Result<u64, Fault> {
+        let words = alloc::format!("{:?}", self.read(from)?.text());
+        self.append(text, &words, (words.len() / 8) as u64)
+    }
+
     fn append(&mut self, text: ObjectInOut, words: &str, cost: u64) -> Result<u64, Fault> {
         self.change(text, |object, _| {
             object.text_mut().ok_or(Fault::Malformed)?.push_str(words);

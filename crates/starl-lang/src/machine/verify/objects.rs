@@ -48,7 +48,7 @@ impl Context<'_> {
                 let text = self.find(&ObjectType::Text)?;
                 self.write_object(to.0, text)
             }
-            AppendText { text, from } => {
+            AppendText { text, from } | AppendQuoted { text, from } => {
                 self.is_text(text.0)?;
                 self.is_text(from.0)
             }

@@ -1,0 +1,306 @@
+//! Built-in functions and names: pure ones are instructions, the others ask or tell the host.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::body::{Body, Slot};
+use super::call::{Argument, HostFunction};
+use super::problem::Compiled;
+use super::types::Size;
+use crate::check::{Builtin, Purity};
+use crate::ir::{Expression, Type};
+use crate::machine::operand::{Binary, Rounding, Unary};
+use crate::machine::{Instruction, operand};
+
+/// Further arguments, with their names if they have names.
+type Rest = [(Option<String>, Expression)];
+
+impl<'p> Body<'_, 'p> {
+    /// The value of a built-in function or name.
+    pub fn builtin(
+        &mut self,
+        expression: &'p Expression,
+        builtin: Builtin,
+        arguments: &'p [Option<Expression>],
+        rest: &'p Rest,
+        to: Slot,
+        is_fresh: bool,
+    ) -> Compiled {
+        let ty = &expression.ty;
+        if builtin == Builtin::Log {
+            return self.log(arguments, rest);
+        }
+        if builtin == Builtin::Choose {
+            return self.choose(self.given(arguments, 0)?, ty, to);
+        }
+        if builtin.purity() != Purity::Pure {
+            return self.robot(builtin, arguments, rest, ty, to, is_fresh);
+        }
+        match builtin {
+            Builtin::Abs | Builtin::Min | Builtin::Max | Builtin::Clamp => {
+                self.extreme(builtin, arguments, to)
+            }
+            Builtin::ToString => self.text_of(self.given(arguments, 0)?, to),
+            Builtin::ToFloat => {
+                let from = self.value(self.given(arguments, 0)?)?.input();
+                self.emit(Instruction::FloatOfInt {
+                    to: to.output(),
+                    from,
+                });
+                Ok(())
+            }
+            Builtin::ToInt => self.rounded(arguments, Rounding::Truncate, to),
+            Builtin::Round => self.rounded(arguments, Rounding::Nearest, to),
+            Builtin::Floor => self.rounded(arguments, Rounding::Floor, to),
+            Builtin::Ceil => self.rounded(arguments, Rounding::Ceiling, to),
+            Builtin::Sqrt => self.unary(arguments, Unary::SquareRoot, to),
+            Builtin::Sin => self.unary(arguments, Unary::Sine, to),
+            Builtin::Cos => self.unary(arguments, Unary::Cosine, to),
+            Builtin::Tan => self.unary(arguments, Unary::Tangent, to),
+            Builtin::Exp => self.unary(arguments, Unary::Exponential, to),
+            Builtin::LogE => self.unary(arguments, Unary::Logarithm, to),
+            Builtin::Atan2 => self.binary(arguments, Binary::ArcTangent, to),
+            Builtin::Pow => self.binary(arguments, Binary::Power, to),
+            _ => self.geometry(builtin, arguments, to),
+        }
+    }
+
+    /// An argument that is always there.
+    pub fn given(
+        &self,
+        arguments: &'p [Option<Expression>],
+        index: usize,
+    ) -> Compiled<&'p Expression> {
+        let argument = arguments.get(index).and_then(Option::as_ref);
+        argument.ok_or_else(|| self.broken())
+    }
+
+    /// What asks or tells the host.
+    fn robot(
+        &mut self,
+        builtin: Builtin,
+        arguments: &'p [Option<Expression>],
+        rest: &'p Rest,
+        ty: &Type,
+        to: Slot,
+        is_fresh: bool,
+    ) -> Compiled {
+        let mut values = self.arguments(&builtin.signature(), arguments)?;
+        values.extend(rest.iter().map(|(_, value)| Argument::Value(value)));
+        let labels = rest.iter().filter_map(|(name, _)| name.clone());
+        let import = HostFunction {
+            labels: labels.collect(),
+            ..match builtin.purity() {
+                Purity::Effect => HostFunction::effect(builtin.name()),
+                _ => HostFunction::query(builtin.name()),
+            }
+        };
+        self.host(import, &values, ty, to, is_fresh)
+    }
+
+    fn unary(
+        &mut self,
+        arguments: &'p [Option<Expression>],
+        function: Unary,
+        to: Slot,
+    ) -> Compiled {
+        let from = self.value(self.given(arguments, 0)?)?.input();
+        let to = to.output();
+        self.emit(Instruction::Unary { to, from, function });
+        Ok(())
+    }
+
+    fn binary(
+        &mut self,
+        arguments: &'p [Option<Expression>],
+        function: Binary,
+        to: Slot,
+    ) -> Compiled {
+        let left = self.value(self.given(arguments, 0)?)?.input();
+        let right = self.value(self.given(arguments, 1)?)?.input();
+        self.emit(Instruction::Binary {
+            to: to.output(),
+            left,
+            right,
+            function,
+        });
+        Ok(())
+    }
+
+    fn rounded(
+        &mut self,
+        arguments: &'p [Option<Expression>],
+        rounding: Rounding,
+        to: Slot,
+    ) -> Compiled {
+        let from = self.value(self.given(arguments, 0)?)?.input();
+        self.emit(Instruction::IntOfFloat {
+            to: to.output(),
+            from,
+            rounding,
+        });
+        Ok(())
+    }
+
+    fn extreme(
+        &mut self,
+        builtin: Builtin,
+        arguments: &'p [Option<Expression>],
+        to: Slot,
+    ) -> Compiled {
+        let first = self.given(arguments, 0)?;
+        let is_float = first.ty == Type::Float;
+        let left = self.value(first)?;
+        let (output, from) = (to.output(), left.input());
+        match builtin {
+            Builtin::Abs => self.emit(match is_float {
+                true => Instruction::AbsoluteFloat { to: output, from },
+                false => Instruction::AbsoluteInt { to: output, from },
+            }),
+            Builtin::Clamp => {
+                let low = self.value(self.given(arguments, 1)?)?;
+                let high = self.value(self.given(arguments, 2)?)?;
+                self.emit(lesser_or_greater(is_float, true, output, [left, low]));
+                self.emit(lesser_or_greater(is_float, false, output, [to, high]));
+            }
+            _ => {
+                let right = self.value(self.given(arguments, 1)?)?;
+                let is_greater = builtin == Builtin::Max;
+                self.emit(lesser_or_greater(
+                    is_float,
+                    is_greater,
+                    output,
+                    [left, right],
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn geometry(
+        &mut self,
+        builtin: Builtin,
+        arguments: &'p [Option<Expression>],
+        to: Slot,
+    ) -> Compiled {
+        match builtin {
+            Builtin::MakePoint => {
+                for axis in 0..3 {
+                    let at = to.at(Size::new(axis, 0));
+                    match arguments.get(axis as usize).and_then(Option::as_ref) {
+                        Some(coordinate) => self.into(coordinate, at, true)?,
+                        None => self.scalar(at, 0),
+                    }
+                }
+                Ok(())
+            }
+            Builtin::Distance => {
+                let left = self.value(self.given(arguments, 0)?)?.point();
+                let right = self.value(self.given(arguments, 1)?)?.point();
+                self.emit(Instruction::Distance {
+                    to: to.output(),
+                    left,
+                    right,
+                });
+                Ok(())
+            }
+            Builtin::Bearing => {
+                let from = self.value(self.given(arguments, 0)?)?.point();
+                let at = self.value(self.given(arguments, 1)?)?.point();
+                let way = self.take(Size::new(3, 0))?;
+                self.emit(Instruction::SubtractPoint {
+                    to: way.point_out(),
+                    left: at,
+                    right: from,
+                });
+                self.emit(Instruction::Binary {
+                    to: to.output(),
+                    left: way.at(Size::SCALAR).input(),
+                    right: way.input(),
+                    function: Binary::ArcTangent,
+                });
+                Ok(())
+            }
+            Builtin::Circle => {
+                self.area_type()?;
+                let center = self.value(self.given(arguments, 0)?)?.point();
+                let radius = self.value(self.given(arguments, 1)?)?.input();
+                self.emit(Instruction::Circle {
+                    to: to.object_out(),
+                    center,
+                    radius,
+                });
+                Ok(())
+            }
+            Builtin::Polygon => {
+                self.area_type()?;
+                let corners = self.object(self.given(arguments, 0)?)?;
+                self.emit(Instruction::Polygon {
+                    to: to.object_out(),
+                    corners,
+                });
+                Ok(())
+            }
+            _ => Err(self.broken()),
+        }
+    }
+
+    /// Areas have to be among the program's types where one is made.
+    fn area_type(&mut self) -> Compiled<operand::Type> {
+        self.object_type(&Type::Area)
+    }
+
+    /// A random element of a list.
+    fn choose(&mut self, list: &'p Expression, ty: &Type, to: Slot) -> Compiled {
+        let from = self.object(list)?;
+        let size = self.take(Size::SCALAR)?;
+        self.emit(Instruction::Size {
+            to: size.output(),
+            from,
+        });
+        self.element_or_none(from, size, &list.ty, ty, to, |body, index| {
+            let first = body.take(Size::new(2, 0))?;
+            body.scalar(first, 0);
+            body.copy(first.at(Size::SCALAR), size, Size::SCALAR);
+            body.random_int(first)?;
+            body.copy(index, first, Size::SCALAR);
+            Ok(())
+        })
+    }
+}
+
+fn lesser_or_greater(
+    is_float: bool,
+    is_greater: bool,
+    to: operand::Out,
+    [left, right]: [Slot; 2],
+) -> Instruction {
+    let (left, right) = (left.input(), right.input());
+    match (is_float, is_greater) {
+        (true, true) => Instruction::MaximumFloat { to, left, right },
+        (true, false) => Instruction::MinimumFloat { to, left, right },
+        (false, true) => Instruction::MaximumInt { to, left, right },
+        (false, false) => Instruction::MinimumInt { to, left, right },
+    }
+}
+
+impl Body<'_, '_> {
+    /// Replaces the two Ints in a row by a random one from the first to before the second.
+    fn random_int(&mut self, bounds: Slot) -> Compiled {
+        use crate::machine::operand::ImportIndex;
+        use crate::machine::{Import, Type};
+        let import = self.unit.import(Import {
+            name: Builtin::RandomInt.name().into(),
+            query: false,
+            labels: Vec::new(),
+            arguments: Vec::from([Type::Int, Type::Int]),
+            results: Vec::from([Type::Int]),
+        });
+        self.emit(Instruction::CallHost {
+            scalars: bounds.block(),
+            objects: bounds.objects(),
+            import: ImportIndex(import),
+        });
+        Ok(())
+    }
+}

@@ -1,0 +1,325 @@
+//! Conditions: jumps that depend on Bools, without making the Bool where that can be helped.
+
+use super::body::{Body, Slot};
+use super::code::Label;
+use super::constant::folded;
+use super::expression::is_located;
+use super::location::Location;
+use super::problem::Compiled;
+use super::types::Size;
+use crate::ir::{Expression, ExpressionKind, LocalId, Operator, Type};
+use crate::machine::Instruction;
+use crate::machine::operand::{Short, ShortSlot};
+
+/// The operand for a scalar of the state in a jump, if there is one.
+pub(super) fn short_slot(location: Option<Location>) -> Option<ShortSlot> {
+    match location {
+        Some(Location::State(start)) => u8::try_from(start.scalars).ok().map(ShortSlot),
+        _ => None,
+    }
+}
+
+impl<'p> Body<'_, 'p> {
+    /// Goes to the label if the condition is `when`. Locals that it binds keep their registers; all
+    /// else is released.
+    pub fn branch(&mut self, condition: &'p Expression, when: bool, label: Label) -> Compiled {
+        let outer = core::mem::replace(&mut self.span, condition.span);
+        self.branch_here(condition, when, label)?;
+        self.span = outer;
+        Ok(())
+    }
+
+    fn branch_here(&mut self, condition: &'p Expression, when: bool, label: Label) -> Compiled {
+        if let Some(bits) = folded(self.unit, condition) {
+            if (bits != 0) == when {
+                self.jump(label);
+            }
+            return Ok(());
+        }
+        match &condition.kind {
+            ExpressionKind::Not(inner) => return self.branch(inner, !when, label),
+            ExpressionKind::Binary {
+                operator: operator @ (Operator::And | Operator::Or),
+                left,
+                right,
+            } => {
+                // `or` is `and` of the opposites, the other way round.
+                let decides = *operator == Operator::Or;
+                if when == decides {
+                    self.branch(left, when, label)?;
+                    return self.branch(right, when, label);
+                }
+                let end = self.label();
+                self.branch(left, decides, end)?;
+                self.branch(right, when, label)?;
+                self.place(end);
+                return Ok(());
+            }
+            ExpressionKind::Bind { local, value } => {
+                return self.branch_bind(*local, value, when, label);
+            }
+            _ => {}
+        }
+        let mark = self.mark();
+        match &condition.kind {
+            ExpressionKind::Binary {
+                operator: operator @ (Operator::Equal | Operator::NotEqual),
+                left,
+                right,
+            } => {
+                let when_equal = (*operator == Operator::Equal) == when;
+                self.branch_equal([left, right], when_equal, label)?;
+            }
+            ExpressionKind::Binary {
+                operator,
+                left,
+                right,
+            } => self.branch_order(*operator, [left, right], when, label)?,
+            ExpressionKind::IsNone(optional) => self.branch_flag(optional, !when, label)?,
+            ExpressionKind::In { item, collection } if collection.ty == Type::Range => {
+                self.branch_range(item, collection, when, label)?;
+            }
+            ExpressionKind::Conditional {
+                condition,
+                then,
+                otherwise,
+            } => {
+                let (no, end) = (self.label(), self.label());
+                self.branch(condition, false, no)?;
+                self.branch(then, when, label)?;
+                self.jump(end);
+                self.place(no);
+                self.branch(otherwise, when, label)?;
+                self.place(end);
+            }
+            ExpressionKind::Quantifier {
+                is_universal,
+                robots,
+                condition,
+            } => self.branch_quantifier(*is_universal, robots, condition, when, label)?,
+            _ => self.branch_flag(condition, when, label)?,
+        }
+        self.release(mark);
+        Ok(())
+    }
+
+    /// Goes to the label if the first scalar of a value, a Bool, is `when`.
+    fn branch_flag(&mut self, value: &'p Expression, when: bool, label: Label) -> Compiled {
+        let target = label.target();
+        let slot = if is_located(value) {
+            let location = self.locate(value)?;
+            if let Some(variable) = short_slot(location) {
+                let right = Short(i16::from(!when));
+                self.emit(Instruction::JumpIfStateNot {
+                    right,
+                    target,
+                    variable,
+                });
+                return Ok(());
+            }
+            match location {
+                Some(location) => self.scalar_at(location)?,
+                None => return Err(self.broken()),
+            }
+        } else {
+            self.value(value)?
+        };
+        let condition = slot.input();
+        self.emit(match when {
+            true => Instruction::JumpIf { condition, target },
+            false => Instruction::JumpUnless { condition, target },
+        });
+        Ok(())
+    }
+
+    /// `some local = value`
+    fn branch_bind(
+        &mut self,
+        local: LocalId,
+        value: &'p Expression,
+        when: bool,
+        label: Label,
+    ) -> Compiled {
+        let absent = match when {
+            true => self.label(),
+            false => label,
+        };
+        let ty = &self.declared[local.index()].ty;
+        let size = self.size(ty);
+        // A local that has its place already is one of those that a guard hands to its effect.
+        let reserved = self.bound(local);
+        if is_located(value) {
+            let slot = match reserved {
+                Some(slot) => slot,
+                None => self.declare(local)?,
+            };
+            let mark = self.mark();
+            self.branch_flag(value, false, absent)?;
+            if let Some(location) = self.locate(value)? {
+                self.load(slot, location.at(Size::SCALAR), ty);
+            }
+            self.release(mark);
+        } else {
+            let mark = self.mark();
+            let optional = self.take(Size::SCALAR.plus(size))?;
+            self.into(value, optional, true)?;
+            self.emit(Instruction::JumpUnless {
+                condition: optional.input(),
+                target: absent.target(),
+            });
+            match reserved {
+                Some(slot) => {
+                    self.move_value(slot, optional.at(Size::SCALAR), size);
+                    self.release(mark);
+                }
+                None => self.bind(local, optional.at(Size::SCALAR)),
+            }
+        }
+        if when {
+            self.jump(label);
+            self.place(absent);
+        }
+        Ok(())
+    }
+
+    /// `item in start..end`
+    fn branch_range(
+        &mut self,
+        item: &'p Expression,
+        range: &'p Expression,
+        when: bool,
+        label: Label,
+    ) -> Compiled {
+        let ExpressionKind::Range { start, end } = &range.kind else {
+            return Err(self.broken());
+        };
+        let item = self.value(item)?;
+        let start = self.value(start)?;
+        let end = self.value(end)?;
+        let outside = match when {
+            true => self.label(),
+            false => label,
+        };
+        self.emit(Instruction::JumpIfLess {
+            left: item.input(),
+            right: start.input(),
+            target: outside.target(),
+        });
+        if when {
+            self.emit(Instruction::JumpIfLess {
+                left: item.input(),
+                right: end.input(),
+                target: label.target(),
+            });
+            self.place(outside);
+        } else {
+            self.emit(Instruction::JumpIfLessEqual {
+                left: end.input(),
+                right: item.input(),
+                target: label.target(),
+            });
+        }
+        Ok(())
+    }
+
+    /// `forall` or `exists`: a loop over the robots for each local.
+    fn branch_quantifier(
+        &mut self,
+        is_universal: bool,
+        robots: &'p [LocalId],
+        condition: &'p Expression,
+        when: bool,
+        label: Label,
+    ) -> Compiled {
+        // The loop is left as soon as one decides: that is what `decided` is for.
+        let decided = if is_universal == when {
+            self.label()
+        } else {
+            label
+        };
+        let mark = self.mark();
+        let all = self.take(Size::OBJECT)?;
+        self.all_robots(all)?;
+        self.for_robots(all, robots, condition, !is_universal, decided)?;
+        self.release(mark);
+        if is_universal == when {
+            self.jump(label);
+            self.place(decided);
+        }
+        Ok(())
+    }
+
+    fn for_robots(
+        &mut self,
+        all: Slot,
+        robots: &'p [LocalId],
+        condition: &'p Expression,
+        when: bool,
+        decided: Label,
+    ) -> Compiled {
+        let Some((first, rest)) = robots.split_first() else {
+            return self.branch(condition, when, decided);
+        };
+        let mark = self.mark();
+        let robot = self.declare(*first)?;
+        self.run_over(all.object_in(), Some(robot), |body| {
+            body.for_robots(all, rest, condition, when, decided)
+        })?;
+        self.release(mark);
+        Ok(())
+    }
+
+    /// A Bool as a value.
+    pub fn truth(&mut self, expression: &'p Expression, to: Slot) -> Compiled {
+        match &expression.kind {
+            ExpressionKind::Not(inner) if self.is_direct(inner) => {
+                self.into(inner, to, false)?;
+                self.emit(Instruction::Not {
+                    to: to.output(),
+                    from: to.input(),
+                });
+                return Ok(());
+            }
+            ExpressionKind::Binary {
+                operator,
+                left,
+                right,
+            } if self.is_direct(expression) => {
+                return self.compare(*operator, [left, right], to);
+            }
+            ExpressionKind::In { item, collection } if self.is_direct(expression) => {
+                return self.contained(item, collection, to);
+            }
+            _ => {}
+        }
+        let (no, end) = (self.label(), self.label());
+        self.branch(expression, false, no)?;
+        self.scalar(to, 1);
+        self.jump(end);
+        self.place(no);
+        self.scalar(to, 0);
+        self.place(end);
+        Ok(())
+    }
+
+    /// Whether there are instructions that make the Bool, rather than jumps.
+    fn is_direct(&self, expression: &Expression) -> bool {
+        match &expression.kind {
+            ExpressionKind::Binary { operator, left, .. } => match operator {
+                Operator::And | Operator::Or => false,
+                Operator::Equal | Operator::NotEqual => {
+                    let size = self.size(&left.ty);
+                    left.ty == Type::Point || size == Size::SCALAR || size == Size::OBJECT
+                }
+                _ => true,
+            },
+            ExpressionKind::In { collection, .. } => collection.ty != Type::Range,
+            ExpressionKind::Not(_)
+            | ExpressionKind::IsNone(_)
+            | ExpressionKind::Conditional { .. }
+            | ExpressionKind::Quantifier { .. }
+            | ExpressionKind::Bind { .. } => false,
+            _ => true,
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! The whole program: compiles what there is and puts it together.
+
+use alloc::boxed::Box;
+use alloc::format;
+use alloc::vec::Vec;
+
+use super::call::shared_kind;
+use super::problem::{Compiled, Problem};
+use super::types::TooDeep;
+use super::unit::{Finished, Routine, Unit};
+use crate::check::CheckedFile;
+use crate::diagnostic::Span;
+use crate::ir::{FunctionId, Program};
+use crate::machine::{
+    Action, Binding, Bytecode, Function, Handler, Parameter, SourceFile, Variable,
+};
+
+/// Compiles a program without errors.
+pub(super) fn link(program: &Program, files: &[CheckedFile]) -> Result<Bytecode, Vec<Problem>> {
+    let mut unit = Unit::new(program);
+    let mut bytecode = Bytecode {
+        name: program.name.clone(),
+        files: files.iter().enumerate().map(source_file).collect(),
+        ..Bytecode::default()
+    };
+    // Of a library all functions can be called.
+    for (number, function) in program.functions.iter().enumerate() {
+        if program.is_library && function.site.file == 0 {
+            unit.routine(Routine::Function(FunctionId(number as u32)));
+        }
+    }
+    if !program.is_library {
+        behaviour(&mut unit, &mut bytecode);
+        let variables = variables(&mut unit);
+        unit.note(variables, |found| bytecode.variables = found);
+    }
+    while let Some((routine, number)) = unit.next_routine() {
+        let function = unit.compile_routine(routine);
+        unit.define(number, function);
+    }
+    for binding in &program.bindings {
+        bytecode.primitives.push(Binding {
+            name: binding.name.clone(),
+            kind: binding.primitive.map_or("", |kind| kind.name()).into(),
+        });
+    }
+    for shared in &program.shared {
+        bytecode.primitives.push(Binding {
+            name: shared.name.clone(),
+            kind: shared_kind(shared).into(),
+        });
+    }
+    finish(unit, bytecode)
+}
+
+impl Unit<'_> {
+    /// Uses what was made, or notes why it could not be.
+    fn note<T>(&mut self, made: Compiled<T>, then: impl FnOnce(T)) {
+        match made {
+            Ok(made) => then(made),
+            Err(problem) => self.problems.push(*problem),
+        }
+    }
+
+    /// Adds a function; gives its number.
+    fn add(&mut self, made: Compiled<Finished>) -> u32 {
+        let number = self.reserve();
+        self.define(number, made);
+        number
+    }
+}
+
+/// The start, actions, handlers and properties.
+fn behaviour<'p>(unit: &mut Unit<'p>, bytecode: &mut Bytecode) {
+    let program: &'p Program = unit.program;
+    match unit.defaults() {
+        Ok(None) => {}
+        Ok(Some(defaults)) => bytecode.defaults = Some(unit.add(Ok(defaults))),
+        Err(problem) => unit.problems.push(*problem),
+    }
+    let start = unit.start();
+    bytecode.start = Some(unit.add(start));
+    for action in &program.actions {
+        let guard = unit.guard(action);
+        let guard = unit.add(guard);
+        let effect = unit.effect(action);
+        let effect = unit.add(effect);
+        bytecode.actions.push(Action {
+            name: unit.action_name(action),
+            guard,
+            effect,
+        });
+    }
+    for handler in &program.handlers {
+        match unit.handler(handler) {
+            Ok((event, primitive, function)) => {
+                let function = unit.add(Ok(function));
+                bytecode.handlers.push(Handler {
+                    event,
+                    primitive,
+                    function,
+                });
+            }
+            Err(problem) => unit.problems.push(*problem),
+        }
+    }
+    for (number, property) in program.properties.iter().enumerate() {
+        let name = property.name.clone();
+        let name = name.unwrap_or_else(|| format!("property_{}", number + 1));
+        let property = unit.property(property, name);
+        unit.note(property, |property| bytecode.properties.push(property));
+    }
+}
+
+/// The variables of the state: those of the program, then the parameters.
+fn variables(unit: &mut Unit<'_>) -> Compiled<Vec<Variable>> {
+    let program = unit.program;
+    let role = program.roles.as_ref().map(|roles| roles.variable.index());
+    let mut variables = Vec::new();
+    for (number, variable) in program.variables.iter().enumerate() {
+        let site = variable.site;
+        variables.push(Variable {
+            name: variable.name.clone(),
+            kind: unit.machine_type(&variable.ty, site.file, site.span)?,
+            parameter: match role == Some(number) {
+                true => Parameter::Optional,
+                false => Parameter::No,
+            },
+        });
+    }
+    for parameter in &program.parameters {
+        let site = parameter.site;
+        variables.push(Variable {
+            name: parameter.name.clone(),
+            kind: unit.machine_type(&parameter.ty, site.file, site.span)?,
+            parameter: match parameter.default {
+                Some(_) => Parameter::Optional,
+                None => Parameter::Required,
+            },
+        });
+    }
+    Ok(variables)
+}
+
+fn source_file((number, file): (usize, &CheckedFile)) -> SourceFile {
+    let name = match number {
+        0 => file.name.to_lowercase(),
+        _ => file.name.clone(),
+    };
+    let breaks = file.source.bytes().enumerate();
+    let breaks = breaks.filter(|(_, byte)| *byte == b'\n');
+    let lines = core::iter::once(0).chain(breaks.map(|(at, _)| at as u32 + 1));
+    SourceFile {
+        name: format!("{name}.starl"),
+        lines: lines.collect(),
+    }
+}
+
+/// Puts the functions one after the other.
+fn finish(mut unit: Unit<'_>, mut bytecode: Bytecode) -> Result<Bytecode, Vec<Problem>> {
+    // The machine asks for the type of texts by itself.
+    if !unit.texts.is_empty()
+        && let Err(TooDeep) = unit.types.object(&crate::ir::Type::String)
+    {
+        let nowhere = Span::empty(0);
+        let problem: Box<Problem> = unit.too_deep(&crate::ir::Type::String, 0, nowhere);
+        unit.problems.push(*problem);
+    }
+    if !unit.problems.is_empty() {
+        return Err(unit.problems);
+    }
+    for finished in unit.functions.into_iter().flatten() {
+        let entry = bytecode.code.len() as u32;
+        let objects = finished.used.objects as u8;
+        finished
+            .code
+            .append_to(objects, &mut bytecode.code, &mut bytecode.spans);
+        bytecode.functions.push(Function {
+            name: finished.name,
+            kind: finished.kind,
+            entry,
+            end: bytecode.code.len() as u32,
+            registers: finished.used.scalars as u16,
+            object_registers: objects,
+            arguments: finished.arguments,
+            results: finished.results,
+        });
+    }
+    bytecode.constants = unit.constants;
+    bytecode.texts = unit.texts;
+    bytecode.enums = unit.types.enums;
+    bytecode.types = unit.types.objects;
+    bytecode.imports = unit.imports;
+    Ok(bytecode)
+}

@@ -1,0 +1,221 @@
+//! Methods that change nothing.
+
+use super::body::{Body, Slot};
+use super::problem::Compiled;
+use super::types::Size;
+use crate::check::Method;
+use crate::ir::{Expression, Type};
+use crate::machine::Instruction;
+use crate::machine::operand::{Immediate, ObjectIn};
+
+impl<'p> Body<'_, 'p> {
+    /// The value of a method.
+    pub fn method(
+        &mut self,
+        expression: &'p Expression,
+        receiver: &'p Expression,
+        method: Method,
+        arguments: &'p [Expression],
+        to: Slot,
+    ) -> Compiled {
+        use Method::*;
+        let ty = &expression.ty;
+        match method {
+            ListReversed | ListSorted | ListSlice | SetUnion | SetIntersection | SetDifference => {
+                self.into(receiver, to, true)?;
+                return self.changed_copy(&receiver.ty, method, arguments, to);
+            }
+            _ => {}
+        }
+        let from = self.object(receiver)?;
+        let output = to.output();
+        match method {
+            ListSize | SetSize | MapSize | StringSize => {
+                self.emit(Instruction::Size { to: output, from });
+            }
+            ListContains | SetContains | MapContains => {
+                let item = self.value(self.argument_of(arguments, 0)?)?;
+                self.contains(from, &receiver.ty, item, to)?;
+            }
+            ListIndexOf => {
+                let item = self.value(self.argument_of(arguments, 0)?)?;
+                self.find(from, &receiver.ty, item, to)?;
+            }
+            ListFirst | SetMin | ListLast | SetMax => {
+                let is_last = matches!(method, ListLast | SetMax);
+                self.end_of(from, &receiver.ty, is_last, ty, to)?;
+            }
+            ListSum => self.emit(match ty {
+                Type::Float => Instruction::SumFloat {
+                    to: output,
+                    list: from,
+                },
+                _ => Instruction::SumInt {
+                    to: output,
+                    list: from,
+                },
+            }),
+            MapGet => self.map_get(from, receiver, arguments, ty, to)?,
+            MapKeys => {
+                let kind = self.object_type(ty)?;
+                self.emit(Instruction::MapKeys {
+                    to: to.object_out(),
+                    map: from,
+                    kind,
+                });
+            }
+            MapValues => {
+                let kind = self.object_type(ty)?;
+                self.emit(Instruction::MapValues {
+                    to: to.object_out(),
+                    map: from,
+                    kind,
+                });
+            }
+            StringContains => {
+                let part = self.object(self.argument_of(arguments, 0)?)?;
+                self.emit(Instruction::ContainsText {
+                    to: output,
+                    text: from,
+                    part,
+                });
+            }
+            StringSplit => {
+                let separator = self.object(self.argument_of(arguments, 0)?)?;
+                let kind = self.object_type(ty)?;
+                self.emit(Instruction::SplitText {
+                    to: to.object_out(),
+                    text: from,
+                    separator,
+                    kind,
+                });
+            }
+            AreaContains => {
+                let point = self.value(self.argument_of(arguments, 0)?)?.point();
+                self.emit(Instruction::AreaContains {
+                    to: output,
+                    area: from,
+                    point,
+                });
+            }
+            _ => return Err(self.broken()),
+        }
+        Ok(())
+    }
+
+    /// An argument of a method.
+    pub fn argument_of(
+        &self,
+        arguments: &'p [Expression],
+        index: usize,
+    ) -> Compiled<&'p Expression> {
+        arguments.get(index).ok_or_else(|| self.broken())
+    }
+
+    /// What a method makes of a copy of the value that it is called on.
+    fn changed_copy(
+        &mut self,
+        ty: &Type,
+        method: Method,
+        arguments: &'p [Expression],
+        to: Slot,
+    ) -> Compiled {
+        let copy = to.object_in_out();
+        let instruction = match method {
+            Method::ListReversed => Instruction::ListReverse { list: copy },
+            Method::ListSorted => Instruction::ListSort {
+                list: copy,
+                kind: self.object_type(ty)?,
+            },
+            Method::ListSlice => Instruction::ListSlice {
+                list: copy,
+                first: self.value(self.argument_of(arguments, 0)?)?.input(),
+                last: self.value(self.argument_of(arguments, 1)?)?.input(),
+            },
+            _ => {
+                let from = self.object(self.argument_of(arguments, 0)?)?;
+                let kind = self.object_type(ty)?;
+                match method {
+                    Method::SetUnion => Instruction::SetUnite {
+                        set: copy,
+                        from,
+                        kind,
+                    },
+                    Method::SetIntersection => Instruction::SetIntersect {
+                        set: copy,
+                        from,
+                        kind,
+                    },
+                    _ => Instruction::SetSubtract {
+                        set: copy,
+                        from,
+                        kind,
+                    },
+                }
+            }
+        };
+        self.emit(instruction);
+        Ok(())
+    }
+
+    /// The first or the last element.
+    fn end_of(
+        &mut self,
+        from: ObjectIn,
+        collection: &Type,
+        is_last: bool,
+        ty: &Type,
+        to: Slot,
+    ) -> Compiled {
+        let size = self.take(Size::SCALAR)?;
+        self.emit(Instruction::Size {
+            to: size.output(),
+            from,
+        });
+        self.element_or_none(from, size, collection, ty, to, |body, index| {
+            match is_last {
+                true => body.emit(Instruction::AddConstant {
+                    to: index.output(),
+                    left: size.input(),
+                    right: Immediate(-1),
+                }),
+                false => body.scalar(index, 0),
+            }
+            Ok(())
+        })
+    }
+
+    fn map_get(
+        &mut self,
+        map: ObjectIn,
+        receiver: &'p Expression,
+        arguments: &'p [Expression],
+        ty: &Type,
+        to: Slot,
+    ) -> Compiled {
+        let Type::Map(_, value) = &receiver.ty else {
+            return Err(self.broken());
+        };
+        let key = self.value(self.argument_of(arguments, 0)?)?;
+        let kind = self.object_type(&receiver.ty)?;
+        // A value that may be none itself is what is given: of two Bools the second will do.
+        let size = self.size(value);
+        let is_flat = **value == *ty;
+        let optional = match is_flat {
+            true => self.take(Size::SCALAR.plus(size))?,
+            false => to,
+        };
+        self.emit(Instruction::MapGet {
+            map,
+            scalars: key.block(),
+            objects: key.objects(),
+            to: optional.block(),
+            to_objects: optional.objects(),
+            kind,
+        });
+        if is_flat {
+            self.move_value(to, optional.at(Size::SCALAR), size);
+        }
+        Ok(())
+    }
+}

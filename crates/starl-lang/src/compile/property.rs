@@ -1,0 +1,98 @@
+//! Properties: functions from robots to Bools, and how they are claimed.
+
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::body::Body;
+use super::constant::folded;
+use super::problem::{Compiled, Problem};
+use super::unit::{Finished, Unit};
+use crate::diagnostic;
+use crate::ir::{Claim, Expression, Property};
+use crate::machine::{self, FunctionKind, Type};
+
+impl<'p> Unit<'p> {
+    /// Compiles a property; its functions are defined.
+    pub fn property(
+        &mut self,
+        property: &'p Property,
+        name: String,
+    ) -> Compiled<machine::Property> {
+        let Ok(robots) = u8::try_from(property.robots.len()) else {
+            let message = "a property can be about 255 robots at most";
+            let site = property.site;
+            let code = diagnostic::Code::TooMuch;
+            return Err(Problem::new(code, site.file, site.span, message));
+        };
+        let claim = match &property.claim {
+            Claim::Always(holds) => machine::Claim::Always(self.holds(property, holds, &name)?),
+            Claim::Eventually { holds, within } => machine::Claim::Eventually {
+                holds: self.holds(property, holds, &name)?,
+                within: self.deadline(property, within.as_ref())?,
+            },
+            Claim::LeadsTo {
+                cause,
+                consequence,
+                within,
+            } => machine::Claim::LeadsTo {
+                cause: self.holds(property, cause, &format!("{name}.cause"))?,
+                consequence: self.holds(property, consequence, &format!("{name}.consequence"))?,
+                within: self.deadline(property, within.as_ref())?,
+            },
+        };
+        Ok(machine::Property {
+            name,
+            claim,
+            robots,
+        })
+    }
+
+    /// The function that says whether a condition holds; gives its number.
+    fn holds(
+        &mut self,
+        property: &'p Property,
+        condition: &'p Expression,
+        name: &str,
+    ) -> Compiled<u32> {
+        let number = self.reserve();
+        let function = self.condition(property, condition, name)?;
+        self.define(number, Ok(function));
+        Ok(number)
+    }
+
+    fn condition(
+        &mut self,
+        property: &'p Property,
+        condition: &'p Expression,
+        name: &str,
+    ) -> Compiled<Finished> {
+        let kind = FunctionKind::Property;
+        let mut body = Body::new(self, kind, &property.locals, property.site);
+        let mut arguments = Vec::new();
+        for robot in &property.robots {
+            body.declare(*robot)?;
+            arguments.push(Type::Robot);
+        }
+        body.give(Some(condition))?;
+        Ok(body.finish(name, arguments, Vec::from([Type::Bool])))
+    }
+
+    /// The nanoseconds of a deadline.
+    fn deadline(
+        &mut self,
+        property: &'p Property,
+        within: Option<&'p Expression>,
+    ) -> Compiled<Option<u64>> {
+        let Some(within) = within else {
+            return Ok(None);
+        };
+        let known = folded(self, within);
+        known.map(Some).ok_or_else(|| {
+            let message = "this deadline has to be computed";
+            let code = diagnostic::Code::TooMuch;
+            Problem::new(code, property.site.file, within.span, message)
+                .note("write it as a number with its unit")
+        })
+    }
+}

@@ -1,0 +1,192 @@
+//! What the functions of a compiled program share: its tables, and which functions there are.
+//!
+//! Functions are numbered when they are first asked for and compiled when their turn comes, so that
+//! what is never called is left out.
+
+use alloc::boxed::Box;
+use alloc::collections::{BTreeMap, VecDeque};
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::code::Code;
+use super::constant::folded;
+use super::problem::{Compiled, Problem};
+use super::types::{Size, TooDeep, Types};
+use crate::diagnostic::{self, Span};
+use crate::ir::{self, ConstantId, FunctionId, ParameterId, Program, VariableId};
+use crate::machine::{FunctionKind, Import, Type};
+
+/// A function that others call.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Routine {
+    /// One of the program.
+    Function(FunctionId),
+    /// What makes the value of a constant.
+    Constant(ConstantId),
+    /// The program's `init`.
+    Init,
+    /// What is done on entering whatever role the robot has now.
+    Enter,
+    /// What is done on entering the role with this number.
+    EnterRole(u16),
+}
+
+/// A function whose code is complete.
+pub(super) struct Finished {
+    pub name: String,
+    pub kind: FunctionKind,
+    pub code: Code,
+    /// The registers that it uses.
+    pub used: Size,
+    pub arguments: Vec<Type>,
+    pub results: Vec<Type>,
+}
+
+/// The tables of a program that is being compiled.
+pub(super) struct Unit<'p> {
+    pub program: &'p Program,
+    pub types: Types<'p>,
+    /// The values of constants that are known scalars.
+    known: Vec<Option<u64>>,
+    /// Where variables lie in the state.
+    variables: Vec<Size>,
+    /// Where parameters lie in the state.
+    parameters: Vec<Size>,
+    pub constants: Vec<u64>,
+    constant_numbers: BTreeMap<u64, u32>,
+    pub texts: Vec<String>,
+    text_numbers: BTreeMap<String, u32>,
+    pub imports: Vec<Import>,
+    /// Functions by their numbers; none of one that is not complete.
+    pub functions: Vec<Option<Finished>>,
+    routines: BTreeMap<Routine, u32>,
+    queue: VecDeque<(Routine, u32)>,
+    pub problems: Vec<Problem>,
+}
+
+impl<'p> Unit<'p> {
+    pub fn new(program: &'p Program) -> Self {
+        let types = Types::new(program);
+        let mut next = Size::NONE;
+        let mut place = |ty: &ir::Type| {
+            let start = next;
+            next = next.plus(types.size(ty));
+            start
+        };
+        let variables = program.variables.iter().map(|v| place(&v.ty)).collect();
+        let parameters = program.parameters.iter().map(|p| place(&p.ty)).collect();
+        let mut unit = Self {
+            program,
+            types,
+            known: alloc::vec![None; program.constants.len()],
+            variables,
+            parameters,
+            constants: Vec::new(),
+            constant_numbers: BTreeMap::new(),
+            texts: Vec::new(),
+            text_numbers: BTreeMap::new(),
+            imports: Vec::new(),
+            functions: Vec::new(),
+            routines: BTreeMap::new(),
+            queue: VecDeque::new(),
+            problems: Vec::new(),
+        };
+        for id in &program.constant_order {
+            unit.known[id.index()] = folded(&unit, &program[*id].value);
+        }
+        unit
+    }
+
+    /// The value of a constant, if that is a scalar which is known.
+    pub fn known_constant(&self, id: ConstantId) -> Option<u64> {
+        self.known[id.index()]
+    }
+
+    /// Where a variable begins in the state.
+    pub fn variable(&self, id: VariableId) -> Size {
+        self.variables[id.index()]
+    }
+
+    /// Where a parameter begins in the state.
+    pub fn parameter(&self, id: ParameterId) -> Size {
+        self.parameters[id.index()]
+    }
+
+    /// The number of a scalar constant.
+    pub fn constant(&mut self, bits: u64) -> u32 {
+        let next = self.constants.len() as u32;
+        let number = *self.constant_numbers.entry(bits).or_insert(next);
+        if number == next {
+            self.constants.push(bits);
+        }
+        number
+    }
+
+    /// The number of a constant text.
+    pub fn text(&mut self, text: &str) -> u32 {
+        if let Some(known) = self.text_numbers.get(text) {
+            return *known;
+        }
+        let number = self.texts.len() as u32;
+        self.texts.push(text.into());
+        self.text_numbers.insert(text.into(), number);
+        number
+    }
+
+    /// The number of an import.
+    pub fn import(&mut self, import: Import) -> u32 {
+        if let Some(known) = self.imports.iter().position(|known| *known == import) {
+            return known as u32;
+        }
+        self.imports.push(import);
+        (self.imports.len() - 1) as u32
+    }
+
+    /// The number of a routine, which will be compiled.
+    pub fn routine(&mut self, routine: Routine) -> u32 {
+        if let Some(known) = self.routines.get(&routine) {
+            return *known;
+        }
+        let number = self.reserve();
+        self.routines.insert(routine, number);
+        self.queue.push_back((routine, number));
+        number
+    }
+
+    /// The next routine that is to be compiled, and its number.
+    pub fn next_routine(&mut self) -> Option<(Routine, u32)> {
+        self.queue.pop_front()
+    }
+
+    /// A number for a function.
+    pub fn reserve(&mut self) -> u32 {
+        self.functions.push(None);
+        (self.functions.len() - 1) as u32
+    }
+
+    /// Puts a function at its number, or notes why there is none.
+    pub fn define(&mut self, number: u32, function: Compiled<Finished>) {
+        match function {
+            Ok(function) => self.functions[number as usize] = Some(function),
+            Err(problem) => self.problems.push(*problem),
+        }
+    }
+
+    /// The machine's type of a type that is used at a place.
+    pub fn machine_type(&mut self, of: &ir::Type, file: u32, span: Span) -> Compiled<Type> {
+        let made = self.types.of(of);
+        made.map_err(|TooDeep| self.too_deep(of, file, span))
+    }
+
+    pub fn too_deep(&self, of: &ir::Type, file: u32, span: Span) -> Box<Problem> {
+        let name = self.program.type_name(of);
+        let short = if name.len() > 60 {
+            "this type".into()
+        } else {
+            name
+        };
+        let message = alloc::format!("values of {short} are nested too deeply");
+        Problem::new(diagnostic::Code::NestedTooDeep, file, span, message)
+            .note("records, optionals and collections can be nested 32 deep")
+    }
+}
