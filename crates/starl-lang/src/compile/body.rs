@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 
 use super::code::{Code, Label};
 use super::problem::{Compiled, Problem};
-use super::types::Size;
+use super::types::{Size, WIDEST};
 use super::unit::{Finished, Unit};
 use crate::diagnostic::{self, Span};
 use crate::ir::{self, Local, LocalId};
@@ -20,8 +20,8 @@ use crate::machine::operand::{
 };
 use crate::machine::{FunctionKind, Instruction, Type};
 
-/// The scalar and object registers that a function has.
-const REGISTERS: Size = Size::new(256, 128);
+/// The scalar and object registers that a function may use: as many as a value may have.
+const REGISTERS: Size = WIDEST;
 
 /// Registers in a row: the first scalar and the first object of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -196,7 +196,7 @@ impl<'u, 'p> Body<'u, 'p> {
             let code = diagnostic::Code::TooManyRegisters;
             let problem = Problem::new(code, self.file, self.span, message);
             return Err(problem.note(
-                "a function holds at most 256 numbers and 128 texts and collections; split it, or put the values into a list",
+                "a function holds at most 255 numbers and 127 texts and collections; split it, or put the values into a list",
             ));
         }
         self.top = top;
@@ -223,7 +223,7 @@ impl<'u, 'p> Body<'u, 'p> {
     /// The number of the type of an object.
     pub fn object_type(&mut self, ty: &ir::Type) -> Compiled<crate::machine::operand::Type> {
         let made = self.unit.types.object(ty);
-        let made = made.map_err(|_| self.unit.too_deep(ty, self.file, self.span));
+        let made = made.map_err(|why| self.unit.unsuitable(ty, why, self.file, self.span));
         made.map(crate::machine::operand::Type)
     }
 
@@ -379,6 +379,6 @@ impl<'u, 'p> Body<'u, 'p> {
 
     pub fn parts(&mut self, ty: &ir::Type) -> Compiled<Vec<super::types::Part>> {
         let parts = self.unit.types.parts(ty);
-        parts.map_err(|_| self.unit.too_deep(ty, self.file, self.span))
+        parts.map_err(|why| self.unit.unsuitable(ty, why, self.file, self.span))
     }
 }

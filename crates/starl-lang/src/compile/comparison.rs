@@ -47,20 +47,12 @@ impl<'p> Body<'_, 'p> {
                 right,
                 kind: operand::Type(kind),
             });
-            self.jump_on(equal, when_equal, label.target());
+            self.jump_on(equal, when_equal, label);
             return Ok(());
         }
         let left = self.value(left)?;
         let right = self.value(right)?;
         self.branch_parts(&parts, [left, right], when_equal, label)
-    }
-
-    fn jump_on(&mut self, condition: Slot, when: bool, target: Target) {
-        let condition = condition.input();
-        self.emit(match when {
-            true => Instruction::JumpIf { condition, target },
-            false => Instruction::JumpUnless { condition, target },
-        });
     }
 
     fn branch_equal_integers(
@@ -95,7 +87,7 @@ impl<'p> Body<'_, 'p> {
         let right = Short(constant);
         if !when_equal && is_located(left) {
             let location = self.locate(left)?;
-            if let Some(variable) = short_slot(location) {
+            if let Some(variable) = location.and_then(short_slot) {
                 self.emit(Instruction::JumpIfStateNot {
                     right,
                     target,
@@ -160,7 +152,7 @@ impl<'p> Body<'_, 'p> {
         let mark = self.mark();
         let equal = self.take(Size::SCALAR)?;
         self.equal_part(part, [left, right], equal.output());
-        self.jump_on(equal, false, label.target());
+        self.jump_on(equal, false, label);
         self.release(mark);
         Ok(())
     }
@@ -205,7 +197,7 @@ impl<'p> Body<'_, 'p> {
             Type::String => {
                 let less = self.take(Size::SCALAR)?;
                 self.compare(operator, [left, right], less)?;
-                self.jump_on(less, when, target);
+                self.jump_on(less, when, label);
                 return Ok(());
             }
             Type::Float => {}

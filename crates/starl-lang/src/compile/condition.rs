@@ -12,9 +12,9 @@ use crate::machine::Instruction;
 use crate::machine::operand::{Short, ShortSlot};
 
 /// The operand for a scalar of the state in a jump, if there is one.
-pub(super) fn short_slot(location: Option<Location>) -> Option<ShortSlot> {
+pub(super) fn short_slot(location: Location) -> Option<ShortSlot> {
     match location {
-        Some(Location::State(start)) => u8::try_from(start.scalars).ok().map(ShortSlot),
+        Location::State(start) => u8::try_from(start.scalars).ok().map(ShortSlot),
         _ => None,
     }
 }
@@ -105,31 +105,38 @@ impl<'p> Body<'_, 'p> {
 
     /// Goes to the label if the first scalar of a value, a Bool, is `when`.
     fn branch_flag(&mut self, value: &'p Expression, when: bool, label: Label) -> Compiled {
-        let target = label.target();
-        let slot = if is_located(value) {
-            let location = self.locate(value)?;
-            if let Some(variable) = short_slot(location) {
-                let right = Short(i16::from(!when));
-                self.emit(Instruction::JumpIfStateNot {
-                    right,
-                    target,
-                    variable,
-                });
-                return Ok(());
-            }
-            match location {
-                Some(location) => self.scalar_at(location)?,
-                None => return Err(self.broken()),
-            }
-        } else {
-            self.value(value)?
-        };
-        let condition = slot.input();
+        if is_located(value)
+            && let Some(location) = self.locate(value)?
+        {
+            return self.branch_location(location, when, label);
+        }
+        let slot = self.value(value)?;
+        self.jump_on(slot, when, label);
+        Ok(())
+    }
+
+    /// The same of a value that is at a location.
+    fn branch_location(&mut self, location: Location, when: bool, label: Label) -> Compiled {
+        if let Some(variable) = short_slot(location) {
+            self.emit(Instruction::JumpIfStateNot {
+                right: Short(i16::from(!when)),
+                target: label.target(),
+                variable,
+            });
+            return Ok(());
+        }
+        let slot = self.scalar_at(location)?;
+        self.jump_on(slot, when, label);
+        Ok(())
+    }
+
+    /// Goes to the label if a Bool in a register is `when`.
+    pub fn jump_on(&mut self, condition: Slot, when: bool, label: Label) {
+        let (condition, target) = (condition.input(), label.target());
         self.emit(match when {
             true => Instruction::JumpIf { condition, target },
             false => Instruction::JumpUnless { condition, target },
         });
-        Ok(())
     }
 
     /// `some local = value`
@@ -154,8 +161,8 @@ impl<'p> Body<'_, 'p> {
                 None => self.declare(local)?,
             };
             let mark = self.mark();
-            self.branch_flag(value, false, absent)?;
             if let Some(location) = self.locate(value)? {
+                self.branch_location(location, false, absent)?;
                 self.load(slot, location.at(Size::SCALAR), ty);
             }
             self.release(mark);
@@ -163,10 +170,7 @@ impl<'p> Body<'_, 'p> {
             let mark = self.mark();
             let optional = self.take(Size::SCALAR.plus(size))?;
             self.into(value, optional, true)?;
-            self.emit(Instruction::JumpUnless {
-                condition: optional.input(),
-                target: absent.target(),
-            });
+            self.jump_on(optional, false, absent);
             match reserved {
                 Some(slot) => {
                     self.move_value(slot, optional.at(Size::SCALAR), size);

@@ -292,7 +292,8 @@ impl<'p> Body<'_, 'p> {
             RobotMember::Velocity => "robot.velocity",
             RobotMember::Finished => "robot.finished",
             RobotMember::Up => "robot.up",
-            _ => return Err(self.broken()),
+            RobotMember::Id => return self.into(robot, to, is_fresh),
+            RobotMember::Variable(_) | RobotMember::Parameter(_) => return Err(self.broken()),
         };
         self.ask(name, &[robot], to, ty, is_fresh)
     }

@@ -1,16 +1,14 @@
 //! The whole program: compiles what there is and puts it together.
 
-use alloc::boxed::Box;
 use alloc::format;
 use alloc::vec::Vec;
 
 use super::call::shared_kind;
 use super::problem::{Compiled, Problem};
-use super::types::TooDeep;
 use super::unit::{Finished, Routine, Unit};
 use crate::check::CheckedFile;
 use crate::diagnostic::Span;
-use crate::ir::{FunctionId, Program};
+use crate::ir::{FunctionId, Program, Type};
 use crate::machine::{
     Action, Binding, Bytecode, Function, Handler, Parameter, SourceFile, Variable,
 };
@@ -34,10 +32,7 @@ pub(super) fn link(program: &Program, files: &[CheckedFile]) -> Result<Bytecode,
         let variables = variables(&mut unit);
         unit.note(variables, |found| bytecode.variables = found);
     }
-    while let Some((routine, number)) = unit.next_routine() {
-        let function = unit.compile_routine(routine);
-        unit.define(number, function);
-    }
+    unit.compile_routines();
     for binding in &program.bindings {
         bytecode.primitives.push(Binding {
             name: binding.name.clone(),
@@ -50,10 +45,18 @@ pub(super) fn link(program: &Program, files: &[CheckedFile]) -> Result<Bytecode,
             kind: shared_kind(shared).into(),
         });
     }
-    finish(unit, bytecode)
+    join(unit, bytecode)
 }
 
 impl Unit<'_> {
+    /// Compiles what is asked for, and what that asks for.
+    pub fn compile_routines(&mut self) {
+        while let Some((routine, number)) = self.next_routine() {
+            let function = self.compile_routine(routine);
+            self.define(number, function);
+        }
+    }
+
     /// Uses what was made, or notes why it could not be.
     fn note<T>(&mut self, made: Compiled<T>, then: impl FnOnce(T)) {
         match made {
@@ -157,13 +160,12 @@ fn source_file((number, file): (usize, &CheckedFile)) -> SourceFile {
 }
 
 /// Puts the functions one after the other.
-fn finish(mut unit: Unit<'_>, mut bytecode: Bytecode) -> Result<Bytecode, Vec<Problem>> {
+pub(super) fn join(mut unit: Unit<'_>, mut bytecode: Bytecode) -> Result<Bytecode, Vec<Problem>> {
     // The machine asks for the type of texts by itself.
     if !unit.texts.is_empty()
-        && let Err(TooDeep) = unit.types.object(&crate::ir::Type::String)
+        && let Err(why) = unit.types.object(&Type::String)
     {
-        let nowhere = Span::empty(0);
-        let problem: Box<Problem> = unit.too_deep(&crate::ir::Type::String, 0, nowhere);
+        let problem = unit.unsuitable(&Type::String, why, 0, Span::empty(0));
         unit.problems.push(*problem);
     }
     if !unit.problems.is_empty() {

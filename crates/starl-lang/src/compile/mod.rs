@@ -15,6 +15,7 @@ mod changes;
 mod code;
 mod collection;
 mod comparison;
+mod computed;
 mod condition;
 mod constant;
 mod declaration;

@@ -5,7 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::body::Body;
-use super::constant::folded;
+use super::computed::computed;
 use super::problem::{Compiled, Problem};
 use super::unit::{Finished, Unit};
 use crate::diagnostic;
@@ -87,12 +87,6 @@ impl<'p> Unit<'p> {
         let Some(within) = within else {
             return Ok(None);
         };
-        let known = folded(self, within);
-        known.map(Some).ok_or_else(|| {
-            let message = "this deadline has to be computed";
-            let code = diagnostic::Code::TooMuch;
-            Problem::new(code, property.site.file, within.span, message)
-                .note("write it as a number with its unit")
-        })
+        computed(self, within, &property.locals, property.site).map(Some)
     }
 }

@@ -36,6 +36,11 @@ impl Size {
         }
     }
 
+    /// Whether a value may take so many.
+    pub const fn fits(self) -> bool {
+        self.scalars <= WIDEST.scalars && self.objects <= WIDEST.objects
+    }
+
     /// As many of each as the greater of the two.
     pub fn max(self, other: Self) -> Self {
         Self {
@@ -58,9 +63,17 @@ pub(super) enum Part {
     Object(u32, u16),
 }
 
-/// Types of values nested more deeply than the machine takes.
-#[derive(Debug)]
-pub(super) struct TooDeep;
+/// Why the machine does not take a type.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Unsuitable {
+    /// It is nested too deeply.
+    TooDeep,
+    /// A value, or an element with what belongs to it, takes too many registers.
+    TooWide,
+}
+
+/// The most registers that a value may take.
+pub(super) const WIDEST: Size = Size::new(255, 127);
 
 /// The deepest that the machine lets records, optionals or collections be nested.
 const DEEPEST: u32 = 31;
@@ -128,13 +141,16 @@ impl<'p> Types<'p> {
     }
 
     /// The machine's type.
-    pub fn of(&mut self, of: &ir::Type) -> Result<Type, TooDeep> {
+    pub fn of(&mut self, of: &ir::Type) -> Result<Type, Unsuitable> {
         self.nested(of, 0)
     }
 
-    fn nested(&mut self, of: &ir::Type, depth: u32) -> Result<Type, TooDeep> {
+    fn nested(&mut self, of: &ir::Type, depth: u32) -> Result<Type, Unsuitable> {
+        if !self.size(of).fits() {
+            return Err(Unsuitable::TooWide);
+        }
         if depth > DEEPEST {
-            return Err(TooDeep);
+            return Err(Unsuitable::TooDeep);
         }
         Ok(match of {
             ir::Type::Bool => Type::Bool,
@@ -151,7 +167,7 @@ impl<'p> Types<'p> {
                     let kind = self.nested(&field.ty, depth + 1)?;
                     Ok((field.name.clone(), kind))
                 });
-                Type::Record(kinds.collect::<Result<_, TooDeep>>()?)
+                Type::Record(kinds.collect::<Result<_, Unsuitable>>()?)
             }
             ir::Type::String
             | ir::Type::Area
@@ -165,7 +181,15 @@ impl<'p> Types<'p> {
     }
 
     /// The number of the type of an object.
-    pub fn object(&mut self, of: &ir::Type) -> Result<u16, TooDeep> {
+    pub fn object(&mut self, of: &ir::Type) -> Result<u16, Unsuitable> {
+        let parts = match of {
+            ir::Type::List(part) | ir::Type::Set(part) => self.size(part),
+            ir::Type::Map(key, value) => self.size(key).plus(self.size(value)),
+            _ => Size::NONE,
+        };
+        if !parts.fits() {
+            return Err(Unsuitable::TooWide);
+        }
         let object = match of {
             ir::Type::List(element) => ObjectType::List(self.of(element)?),
             ir::Type::Set(element) => ObjectType::Set(self.of(element)?),
@@ -177,7 +201,7 @@ impl<'p> Types<'p> {
         self.add(object)
     }
 
-    fn add(&mut self, object: ObjectType) -> Result<u16, TooDeep> {
+    fn add(&mut self, object: ObjectType) -> Result<u16, Unsuitable> {
         if let Some(known) = self.objects.iter().position(|known| *known == object) {
             return Ok(known as u16);
         }
@@ -187,7 +211,7 @@ impl<'p> Types<'p> {
             ObjectType::Map(key, value) => self.depth(key).max(self.depth(value)),
         };
         if depth > DEEPEST || self.objects.len() + 1 >= usize::from(u16::MAX) {
-            return Err(TooDeep);
+            return Err(Unsuitable::TooDeep);
         }
         self.depths.push(depth + 1);
         self.objects.push(object);
@@ -223,7 +247,7 @@ impl<'p> Types<'p> {
     }
 
     /// The parts of a value, as they are compared.
-    pub fn parts(&mut self, of: &ir::Type) -> Result<Vec<Part>, TooDeep> {
+    pub fn parts(&mut self, of: &ir::Type) -> Result<Vec<Part>, Unsuitable> {
         let mut parts = Vec::new();
         self.add_parts(of, Size::NONE, &mut parts)?;
         Ok(parts)
@@ -234,7 +258,7 @@ impl<'p> Types<'p> {
         of: &ir::Type,
         at: Size,
         parts: &mut Vec<Part>,
-    ) -> Result<Size, TooDeep> {
+    ) -> Result<Size, Unsuitable> {
         let end = at.plus(self.size(of));
         match of {
             ir::Type::Float => parts.push(Part::Float(at.scalars)),

@@ -5,13 +5,14 @@
 
 use alloc::boxed::Box;
 use alloc::collections::{BTreeMap, VecDeque};
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::code::Code;
 use super::constant::folded;
 use super::problem::{Compiled, Problem};
-use super::types::{Size, TooDeep, Types};
+use super::types::{Size, Types, Unsuitable};
 use crate::diagnostic::{self, Span};
 use crate::ir::{self, ConstantId, FunctionId, ParameterId, Program, VariableId};
 use crate::machine::{FunctionKind, Import, Type};
@@ -175,18 +176,34 @@ impl<'p> Unit<'p> {
     /// The machine's type of a type that is used at a place.
     pub fn machine_type(&mut self, of: &ir::Type, file: u32, span: Span) -> Compiled<Type> {
         let made = self.types.of(of);
-        made.map_err(|TooDeep| self.too_deep(of, file, span))
+        made.map_err(|why| self.unsuitable(of, why, file, span))
     }
 
-    pub fn too_deep(&self, of: &ir::Type, file: u32, span: Span) -> Box<Problem> {
+    /// The problem that the machine does not take a type.
+    pub fn unsuitable(
+        &self,
+        of: &ir::Type,
+        why: Unsuitable,
+        file: u32,
+        span: Span,
+    ) -> Box<Problem> {
         let name = self.program.type_name(of);
-        let short = if name.len() > 60 {
-            "this type".into()
-        } else {
-            name
+        let values = match name.len() {
+            0..=60 => format!("values of {name}"),
+            _ => "values of this type".into(),
         };
-        let message = alloc::format!("values of {short} are nested too deeply");
-        Problem::new(diagnostic::Code::NestedTooDeep, file, span, message)
-            .note("records, optionals and collections can be nested 32 deep")
+        match why {
+            Unsuitable::TooDeep => {
+                let message = format!("{values} are nested too deeply");
+                Problem::new(diagnostic::Code::NestedTooDeep, file, span, message)
+                    .note("records, optionals and collections can be nested 32 deep")
+            }
+            Unsuitable::TooWide => {
+                let message = format!("{values} have too many parts");
+                Problem::new(diagnostic::Code::TooManyRegisters, file, span, message).note(
+                    "a value, or a key with its value, has at most 255 numbers and 127 texts and collections",
+                )
+            }
+        }
     }
 }

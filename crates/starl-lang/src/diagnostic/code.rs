@@ -204,6 +204,8 @@ codes! {
     TooMuch = "E0303",
     /// Types that are nested too deeply.
     NestedTooDeep = "E0304",
+    /// A constant whose value cannot be computed.
+    NotComputable = "E0305",
     /// A colon at the end of a line that opens a block.
     HeaderColon = "W0101",
     /// An action's name without its brackets.
