@@ -129,3 +129,26 @@ fn large_differences_are_sent_piece_by_piece() {
         assert_eq!(one.stamp(&name), memory(&world, 1).stamp(&name));
     }
 }
+
+/// Many find out at once; who hears another send it does not send it too.
+#[test]
+fn what_many_robots_missed_is_sent_again_about_once() {
+    let mut bytes = 0;
+    for seed in 0..20 {
+        let mut world = world(30, seed, Wire::perfect());
+        world.wire.delay_ms = (5, 60);
+        world.run_for(Duration::from_seconds(60));
+        world.wire.loss = 1.0;
+        world.command(0, write_many(200));
+        world.run_for(Duration::from_millis(1));
+        world.wire.loss = 0.0;
+        let before = world.sent_bytes;
+        world.run_for(Duration::from_seconds(10));
+        for robot in 0..30 {
+            assert_eq!(read(&world, robot, 77), Some(77));
+        }
+        bytes += world.sent_bytes - before;
+    }
+    // Each of the 200 takes about 20 bytes.
+    assert!(bytes < 20 * 12_000, "{}", bytes / 20);
+}

@@ -21,7 +21,7 @@ const REPAIR_PAUSE: Duration = Duration::from_millis(10);
 
 /// So often in a row a difference calls for haste while comparing changes nothing here: it may be one
 /// that the network does not let pass.
-const MOST_VAIN: u32 = 8;
+const MOST_VAIN: u32 = 32;
 
 /// At most this many datagrams of a kind answer one, so that a comparison in up to five steps does not
 /// grow into a flood; what they leave out is found in a later comparison.
@@ -49,7 +49,6 @@ impl SharedMemory {
     pub(super) fn announce(&mut self, robot: &mut Robot<'_>) {
         let now = robot.now();
         self.store.refresh(now);
-        self.changed = self.changed.min(now);
         if self.gossip.equal < self.options.redundancy.max(1) {
             let announcement = Announcement {
                 fingerprint: self.store.fingerprint(),
@@ -116,15 +115,12 @@ impl SharedMemory {
         }
         self.clock.observe(datagram.clock);
         match datagram.content {
-            Content::Elements(writes) => self.merge(robot, from, writes),
+            Content::Elements(writes) => self.merge(robot, writes),
             Content::Announcement(theirs) => self.heard(robot, from, theirs),
             Content::Comparison(parts) => self.compare(robot, from, &parts),
             Content::Wanted(keys) => {
-                let settled = robot.now() - self.options.settling();
-                self.repairs.extend(keys.into_iter().filter(|&key| {
-                    let element = self.store.at(key);
-                    element.is_some_and(|element| element.touched <= settled)
-                }));
+                let known = keys.into_iter().filter(|&key| self.store.at(key).is_some());
+                self.repairs.extend(known);
             }
         }
     }
@@ -140,19 +136,19 @@ impl SharedMemory {
         }
     }
 
-    fn merge(&mut self, robot: &mut Robot<'_>, from: RobotId, writes: Vec<Write>) {
+    fn merge(&mut self, robot: &mut Robot<'_>, writes: Vec<Write>) {
         let now = robot.now();
         for write in writes {
             let is_ours = write.variable.len() <= LONGEST_NAME
                 && write.value.len() <= self.options.longest_value
                 && write.stamp.clock().is_valid();
             if is_ours {
-                self.merge_one(robot, from, element(write, now));
+                self.merge_one(robot, element(write, now));
             }
         }
     }
 
-    fn merge_one(&mut self, robot: &mut Robot<'_>, from: RobotId, element: Element) {
+    fn merge_one(&mut self, robot: &mut Robot<'_>, element: Element) {
         let now = robot.now();
         let key = element.address.key();
         let stamp = element.stamp;
@@ -174,20 +170,13 @@ impl SharedMemory {
                     element.touched = now;
                 }
             }
-            Merged::Older => {
-                // Unless they crossed, the sender does not know the later write.
-                let settled = now - self.options.settling();
-                if self.store.at(key).is_some_and(|e| e.touched <= settled) {
-                    self.differs(robot, from);
-                }
-            }
             Merged::FromEarlierLife => {
                 if let Some(present) = self.store.at(key) {
                     let (address, value) = (present.address.clone(), present.value.clone());
                     self.put(robot, key, address, value, "write_again");
                 }
             }
-            Merged::Refused => {}
+            Merged::Older | Merged::Refused => {}
         }
     }
 
@@ -199,17 +188,10 @@ impl SharedMemory {
             self.gossip.equal = self.gossip.equal.saturating_add(1);
             return;
         }
-        if theirs.settled && self.is_settled(robot) {
-            self.differs(robot, from);
-        } else {
-            self.gossip.differing = Some(from);
-        }
-    }
-
-    /// Another memory differs, and not because a write is on its way.
-    fn differs(&mut self, robot: &mut Robot<'_>, from: RobotId) {
         self.gossip.differing = Some(from);
-        if self.gossip.is_slow(&self.options) && self.gossip.vain < MOST_VAIN {
+        // Otherwise a write may be on its way.
+        let is_lasting = theirs.settled && self.is_settled(robot);
+        if is_lasting && self.gossip.is_slow(&self.options) && self.gossip.vain < MOST_VAIN {
             self.gossip.vain += 1;
             self.hurry(robot);
         }
