@@ -119,6 +119,9 @@ fn all_properties_hold_when_nothing_is_in_the_way() {
             "broadcast.delivery",
             "geocast.exclusion",
             "geocast.inclusion",
+            "shared_memory.integrity",
+            "shared_memory.order",
+            "shared_memory.convergence",
         ]
     );
     assert_eq!(violated(&verdicts), [""; 0], "{verdicts:#?}");
@@ -166,6 +169,7 @@ fn only_what_the_scenario_asks_for_is_checked() {
     scenario.network.link.loss = 1.0;
     scenario.properties.broadcast = false;
     scenario.properties.geocast = false;
+    scenario.properties.shared_memory = false;
     scenario.properties.no_collision = false;
     scenario.properties.reach_avoid = false;
     assert_eq!(verdicts(scenario, true), []);

@@ -85,6 +85,14 @@ impl Health {
         condition.is_none_or(|condition| condition.unwell.is_none_or(|until| until < since))
     }
 
+    /// Since when the robot has been well; [`Time::NEVER`] while it is not.
+    pub fn well_from(&self, robot: RobotId) -> Time {
+        let condition = self.robots.get(robot.index());
+        condition
+            .and_then(|condition| condition.unwell)
+            .unwrap_or_default()
+    }
+
     /// Whether no datagram from one robot to another fell victim to a partition from `since` on.
     pub fn linked_since(&self, from: RobotId, to: RobotId, since: Time) -> bool {
         self.cuts.get(&(from, to)).is_none_or(|&at| at < since)

@@ -10,8 +10,10 @@ mod health;
 mod monitor;
 mod no_collision;
 mod outstanding;
+mod parts;
 mod reach_avoid;
 mod report;
+mod shared_memory;
 mod track;
 
 pub use monitor::{Monitor, Witness};
@@ -77,6 +79,11 @@ pub fn checkers(scenario: &Scenario, setting: &Setting) -> Vec<Box<dyn Checker>>
     }
     if wanted.geocast {
         checkers.push(Box::new(geocast::Geocast::new(scenario, setting)));
+    }
+    if wanted.shared_memory {
+        checkers.push(Box::new(shared_memory::SharedMemory::new(
+            scenario, setting,
+        )));
     }
     checkers
 }

@@ -120,6 +120,8 @@ fn properties(table: Section<'_>) -> Properties {
         broadcast_bound: table.duration("broadcast_bound"),
         geocast: table.flag("geocast"),
         geocast_bound: table.duration("geocast_bound"),
+        shared_memory: table.flag("shared_memory"),
+        shared_memory_bound: table.duration("shared_memory_bound"),
         program: table.flag("program"),
     }
 }

@@ -122,6 +122,10 @@ pub struct Properties {
     pub geocast: bool,
     /// The thesis's d2; default 35 s.
     pub geocast_bound: Duration,
+    /// Shared memory's integrity, order and convergence; default true.
+    pub shared_memory: bool,
+    /// Shared memories converge within this time; default 35 s.
+    pub shared_memory_bound: Duration,
     /// What programs in the StarL language say of themselves; default true.
     pub program: bool,
 }
@@ -174,6 +178,8 @@ impl Default for Properties {
             broadcast_bound: Duration::from_seconds(35),
             geocast: true,
             geocast_bound: Duration::from_seconds(35),
+            shared_memory: true,
+            shared_memory_bound: Duration::from_seconds(35),
             program: true,
         }
     }

@@ -3,7 +3,7 @@
 
 use starl_core::event::{Event, Fields, Hit, Value};
 use starl_core::motion::{Body, Workspace};
-use starl_core::{Area, Duration, Obstacle, Point, Port, Pose, Record, RobotId, Time};
+use starl_core::{Area, Destination, Duration, Obstacle, Point, Port, Pose, Record, RobotId, Time};
 use starl_sim::Scenario;
 use starl_sim::properties::{Checker, Setting, Violation, checkers};
 
@@ -213,6 +213,49 @@ impl Story {
                 ("to", to.into()),
             ],
         )
+    }
+
+    /// A robot has a shared memory.
+    pub fn shares(&mut self, millis: u64, robot: u32) -> &mut Story {
+        self.report(millis, robot, ("shared_memory", "start"), [])
+    }
+
+    /// A robot's shared memory reports a write to a variable: when it was written by the writer's clock,
+    /// who wrote it, and what.
+    pub fn shows(
+        &mut self,
+        millis: u64,
+        robot: u32,
+        name: &'static str,
+        variable: &'static str,
+        (written, writer, value): (u64, u32, i64),
+    ) -> &mut Story {
+        let fields = [
+            ("variable", variable.trim_end_matches("[]").into()),
+            ("single_writer", variable.ends_with("[]").into()),
+            ("time", ms(written).into()),
+            ("count", 0u32.into()),
+            ("writer", RobotId(writer).into()),
+            ("value", value.into()),
+        ];
+        self.report(millis, robot, ("shared_memory", name), fields)
+    }
+
+    /// A datagram reaches a robot.
+    pub fn sends(&mut self, millis: u64, from: u32, sequence: u32, to: u32) -> &mut Story {
+        let sent = Event::Sent {
+            sequence,
+            destination: Destination::All,
+            port: Port::named("shared_memory"),
+            payload: Default::default(),
+        };
+        let from_id = RobotId(from);
+        let delivered = Event::Delivered {
+            from: from_id,
+            sequence,
+        };
+        self.record(millis, Some(from), sent);
+        self.record(millis + 30, Some(to), delivered)
     }
 
     /// The verdict at the end of a run that lasts so long. It is the same for a run that is watched

@@ -188,6 +188,18 @@ const PROPERTIES: &[Field] = &[
         "Within this time, the thesis's d2.",
     ),
     field(
+        "shared_memory",
+        Kind::Flag,
+        Default::Value("true"),
+        "Integrity, order and convergence of shared memory.",
+    ),
+    field(
+        "shared_memory_bound",
+        SPAN,
+        Default::Value("35s"),
+        "Within this time memories converge.",
+    ),
+    field(
         "program",
         Kind::Flag,
         Default::Value("true"),
