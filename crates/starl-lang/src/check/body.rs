@@ -115,6 +115,15 @@ impl Body {
         self.unread[local.index()].is_read = false;
     }
 
+    /// The robot that a quantifier of a property named last. What a comprehension is at, and the value of an
+    /// optional, are fixed.
+    pub fn quantified(&self) -> Option<LocalId> {
+        let mut names = self.names.iter().rev().map(|(_, local)| *local);
+        names.find(|local| {
+            self.fixed[local.index()].is_none() && self.locals[local.index()].ty == Type::Robot
+        })
+    }
+
     /// Where the present scope begins, to be given to [`Self::leave`].
     pub fn enter(&self) -> usize {
         self.names.len()

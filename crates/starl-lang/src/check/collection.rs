@@ -18,6 +18,7 @@ impl Checker {
         span: Span,
         expected: Option<&Type>,
     ) -> Expression {
+        let expected = there(expected);
         let hint = match expected {
             Some(Type::List(element)) => Some(&**element),
             _ => None,
@@ -43,6 +44,7 @@ impl Checker {
         span: Span,
         expected: Option<&Type>,
     ) -> Expression {
+        let expected = there(expected);
         if node.is_map() {
             return self.map(node, span, expected);
         }
@@ -246,5 +248,13 @@ impl Checker {
             Type::Set(_) => problem.note("a set has no order to count by; ask with `in`"),
             _ => problem.note("it applies to lists and maps"),
         });
+    }
+}
+
+/// The type of what is there, where an optional is expected.
+fn there(expected: Option<&Type>) -> Option<&Type> {
+    match expected {
+        Some(Type::Optional(inner)) => Some(inner),
+        _ => expected,
     }
 }

@@ -3,6 +3,7 @@
 use alloc::boxed::Box;
 use alloc::format;
 
+use super::comparison::comparable;
 use super::report::{broken, made};
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -46,7 +47,10 @@ impl Checker {
             }
             BinaryOperator::Default => self.default(node, span, expected),
             _ => {
-                let left = self.value(node.left(), expected, "what stands before the operator");
+                // Arithmetic never gives none, nor does it take one.
+                let expected = expected.map(comparable);
+                let left = node.left();
+                let left = self.value(left, expected.as_ref(), "what stands before the operator");
                 let hint = left.ty.clone();
                 let right = self.value(node.right(), Some(&hint), "what stands after the operator");
                 self.arithmetic(operator, left, right, span)

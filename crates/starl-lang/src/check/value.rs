@@ -64,9 +64,8 @@ impl Checker {
             }
             Where::Property => {
                 // A parameter may differ between robots; where nothing else is said it is that of the
-                // robot named last.
-                let robot = self.body.names.last().map(|(_, robot)| *robot);
-                let Some(robot) = robot.or(self.body.robot) else {
+                // robot that the property is about, or that a quantifier named last.
+                let Some(robot) = self.body.robot.or_else(|| self.body.quantified()) else {
                     return self.of_no_robot(name, span);
                 };
                 let robot = self.local_value(robot, span);
