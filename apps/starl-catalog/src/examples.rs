@@ -24,31 +24,38 @@ pub struct Example {
 /// no program.
 pub const DEFAULT_SCENARIO: &str = include_str!("default.toml");
 
+/// A file of an example: its path from the scenario, and its content.
+macro_rules! file {
+    ($example:literal, $path:literal) => {
+        (
+            $path,
+            include_bytes!(concat!("../../../examples/", $example, "/", $path)),
+        )
+    };
+}
+
 /// All examples.
-pub const EXAMPLES: [Example; 1] = [Example {
-    name: "race",
-    summary: "ground robots and quadcopters race through way-points",
-    path: "examples/race/race.toml",
-    text: include_str!("../../../examples/race/race.toml"),
-    files: &[
-        (
-            "race.starl",
-            include_bytes!("../../../examples/race/race.starl"),
-        ),
-        (
-            "worlds/four.wpt",
-            include_bytes!("../../../examples/race/worlds/four.wpt"),
-        ),
-        (
-            "worlds/Obstacles.wpt",
-            include_bytes!("../../../examples/race/worlds/Obstacles.wpt"),
-        ),
-        (
-            "worlds/start.wpt",
-            include_bytes!("../../../examples/race/worlds/start.wpt"),
-        ),
-    ],
-}];
+pub const EXAMPLES: [Example; 2] = [
+    Example {
+        name: "race",
+        summary: "ground robots and quadcopters race through way-points",
+        path: "examples/race/race.toml",
+        text: include_str!("../../../examples/race/race.toml"),
+        files: &[
+            file!("race", "race.starl"),
+            file!("race", "worlds/four.wpt"),
+            file!("race", "worlds/Obstacles.wpt"),
+            file!("race", "worlds/start.wpt"),
+        ],
+    },
+    Example {
+        name: "formation",
+        summary: "robots that know two others each form a regular polygon",
+        path: "examples/formation/formation.toml",
+        text: include_str!("../../../examples/formation/formation.toml"),
+        files: &[file!("formation", "formation.starl")],
+    },
+];
 
 impl Example {
     /// The programs in the StarL language that it brings, by path.

@@ -45,13 +45,15 @@ impl Monitor for ProgramMonitor {
             witness,
             robots: &self.robots,
         };
-        for found in self.judge.observe(witness.now(), &members) {
+        for mut found in self.judge.observe(witness.now(), &members) {
+            found.robots.dedup();
             let place = found.place.iter().map(|place| format!("{place}: "));
+            let text = place.chain([found.to_string()]).collect();
             violations.push(Violation {
                 property: self.names[found.property].clone(),
                 at: found.at,
-                robots: found.robots.clone(),
-                text: place.chain([found.to_string()]).collect(),
+                robots: found.robots,
+                text,
             });
         }
     }
