@@ -190,9 +190,10 @@ struct Joiner {
 impl Joiner {
     fn join(&self, import: &Import) -> Option<u32> {
         let (on_robot, leading) = self.on_robot(import);
-        let observables = OBSERVABLES.iter();
-        let mut observables =
-            observables.filter(|o| self.declared.matches(import, &o.signature, 0));
+        let mut observables = OBSERVABLES.iter().filter(|observable| {
+            let signature = &observable.signature;
+            signature.name == import.name && self.declared.matches(import, signature, 0)
+        });
         let joint = Joint {
             in_property: observables.next().map(|observable| observable.run),
             message: on_robot.and_then(|joined| self.message(import, joined, leading)),

@@ -308,6 +308,9 @@ pub fn program(code: &Code) -> RobotProgram {
 /// A program from its source text.
 #[cfg(feature = "compiler")]
 pub fn compile(source: &str) -> Code {
-    let _ = source;
-    todo!()
+    use starl_lang::check::{NoLibraries, check};
+    let checked = check(source, &NoLibraries);
+    let bytecode = starl_lang::compile::compile(&checked);
+    let bytecode = bytecode.unwrap_or_else(|problems| panic!("{problems:#?}"));
+    Code::load(bytecode).unwrap_or_else(|error| panic!("{error}"))
 }

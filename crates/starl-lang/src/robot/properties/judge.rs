@@ -235,6 +235,7 @@ impl Hearing<'_> {
         if let Some(within) = within
             && self.court.now > Time::ZERO + within
         {
+            self.holds(holds, row)?; // to see for whom it does not
             return Err(Reason::NotInTime { within });
         }
         match self.holds(holds, row)? {
@@ -262,6 +263,7 @@ impl Hearing<'_> {
         if let Some(within) = within
             && now > since + within
         {
+            self.holds(consequence, row)?; // to see for whom it does not
             return Err(Reason::NotFollowed { since, within });
         }
         if self.holds(consequence, row)? {
