@@ -36,6 +36,8 @@ pub enum Command {
     Fmt(FormatArguments),
     /// Draw a program as a state machine, or explain an error by its code
     Explain(ExplainArguments),
+    /// Serve an editor: the Language Server Protocol on standard input and output
+    Lsp(LspArguments),
     /// Show the examples, programs, robot models and planners
     List(ListArguments),
     /// Measure the simulator's speed and memory
@@ -143,6 +145,14 @@ pub enum Drawing {
     Mermaid,
     /// A graph for Graphviz: `dot -Tsvg`
     Dot,
+}
+
+/// Arguments of `starl lsp`.
+#[derive(Args, Debug)]
+pub struct LspArguments {
+    /// Accepted because editors give it; there is no other way
+    #[arg(long)]
+    pub stdio: bool,
 }
 
 /// Arguments of `starl list`.

@@ -13,6 +13,7 @@ mod failure;
 mod fmt;
 mod json;
 mod list;
+mod lsp;
 mod origin;
 mod output;
 mod outputs;
@@ -41,6 +42,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(arguments),
         Command::Fmt(arguments) => fmt::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
+        Command::Lsp(_) => lsp::run(),
         Command::List(arguments) => list::list(arguments),
         Command::Bench(arguments) => bench::bench(arguments),
     };

@@ -1,0 +1,53 @@
+//! From the language's places and kinds to those of the protocol.
+
+use lsp_types::{Position, Range, TextEdit};
+use starl_lang::diagnostic::{Edit, Span};
+use starl_lang::editor::{Utf16Lines, Utf16Position};
+
+/// A text with its lines.
+pub struct Text<'a> {
+    text: &'a str,
+    lines: Utf16Lines,
+}
+
+impl<'a> Text<'a> {
+    /// A text.
+    pub fn new(text: &'a str) -> Text<'a> {
+        let lines = Utf16Lines::new(text);
+        Text { text, lines }
+    }
+
+    /// A place.
+    pub fn position(&self, offset: u32) -> Position {
+        let place = self.lines.position(self.text, offset);
+        Position::new(place.line, place.column)
+    }
+
+    /// The byte at a place.
+    pub fn offset(&self, position: Position) -> u32 {
+        self.lines.offset(self.text, place(position))
+    }
+
+    /// A part.
+    pub fn range(&self, span: Span) -> Range {
+        Range::new(self.position(span.start), self.position(span.end))
+    }
+
+    /// A part in bytes.
+    pub fn span(&self, range: Range) -> Span {
+        Span::new(self.offset(range.start), self.offset(range.end))
+    }
+
+    /// A change.
+    pub fn edit(&self, edit: &Edit) -> TextEdit {
+        TextEdit::new(self.range(edit.span), edit.text.clone())
+    }
+}
+
+/// A place.
+pub fn place(position: Position) -> Utf16Position {
+    Utf16Position {
+        line: position.line,
+        column: position.character,
+    }
+}

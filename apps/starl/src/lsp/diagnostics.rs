@@ -1,0 +1,101 @@
+//! What is wrong with a text, and what would put it right.
+
+use super::convert::Text;
+use super::documents::Checked;
+use lsp_types::{
+    CodeAction, CodeActionKind, Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity,
+    DiagnosticTag, Location, NumberOrString, Range, WorkspaceEdit,
+};
+use starl_lang::diagnostic::{self, Code, Severity, Span};
+use std::collections::HashMap;
+
+/// What is wrong with a text, by rising place.
+pub fn diagnostics(checked: &Checked) -> Vec<Diagnostic> {
+    let text = Text::new(checked.analysis.text());
+    let problems = checked.analysis.diagnostics().iter();
+    problems
+        .map(|problem| converted(checked, &text, problem))
+        .collect()
+}
+
+fn converted(checked: &Checked, text: &Text<'_>, problem: &diagnostic::Diagnostic) -> Diagnostic {
+    let related = problem.labels.iter().map(|label| {
+        let location = Location::new(checked.uri.clone(), text.range(label.span));
+        DiagnosticRelatedInformation {
+            location,
+            message: label.message.clone(),
+        }
+    });
+    let related: Vec<_> = related.collect();
+    Diagnostic {
+        range: text.range(problem.span),
+        severity: Some(match problem.severity() {
+            Severity::Error => DiagnosticSeverity::ERROR,
+            Severity::Warning => DiagnosticSeverity::WARNING,
+        }),
+        code: Some(NumberOrString::String(problem.code.number().to_string())),
+        source: Some("starl".to_string()),
+        message: message(problem),
+        related_information: (!related.is_empty()).then_some(related),
+        tags: is_needless(problem.code).then(|| vec![DiagnosticTag::UNNECESSARY]),
+        ..Diagnostic::default()
+    }
+}
+
+/// The message with what it says besides, a line each.
+fn message(problem: &diagnostic::Diagnostic) -> String {
+    let mut lines = vec![problem.message.clone()];
+    lines.extend(problem.note_at_span.clone());
+    let told = [("expected", &problem.expected), ("found", &problem.found)];
+    for (what, value) in told {
+        lines.extend(value.as_ref().map(|value| format!("{what}: {value}")));
+    }
+    lines.extend(problem.notes.iter().cloned());
+    lines.join("\n")
+}
+
+/// Whether the text could be taken away.
+fn is_needless(code: Code) -> bool {
+    matches!(
+        code,
+        Code::NeverRead
+            | Code::UnusedLocal
+            | Code::UnusedDeclaration
+            | Code::UnusedImport
+            | Code::Unreachable
+    )
+}
+
+/// What would put right the problems in a part of a text.
+pub fn mends(checked: &Checked, range: Range) -> Vec<CodeAction> {
+    let text = Text::new(checked.analysis.text());
+    let asked = text.span(range);
+    let problems = checked.analysis.diagnostics().iter();
+    let touched = problems.filter(|problem| touches(problem.span, asked));
+    let actions = touched.filter_map(|problem| {
+        let mend = problem.mend.as_ref()?;
+        let edits = mend.edits.iter().map(|edit| text.edit(edit)).collect();
+        Some(CodeAction {
+            title: capitalized(&mend.message),
+            kind: Some(CodeActionKind::QUICKFIX),
+            diagnostics: Some(vec![converted(checked, &text, problem)]),
+            edit: Some(WorkspaceEdit::new(HashMap::from([(
+                checked.uri.clone(),
+                edits,
+            )]))),
+            is_preferred: Some(true),
+            ..CodeAction::default()
+        })
+    });
+    actions.collect()
+}
+
+fn touches(a: Span, b: Span) -> bool {
+    a.start <= b.end && b.start <= a.end
+}
+
+fn capitalized(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(char::to_uppercase);
+    first.into_iter().flatten().chain(letters).collect()
+}

@@ -1,0 +1,279 @@
+//! The texts that are open, the files beside them, and what is known of each.
+
+use super::location;
+use lsp_types::Uri;
+use starl_lang::check::{Libraries, StandardLibraries};
+use starl_lang::editor::Analysis;
+use starl_lang::syntax::MAX_LENGTH;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+/// What a file of the language ends with.
+const SUFFIX: &str = "starl";
+
+/// How many files of a folder are looked at for other uses of what a library declares.
+const MOST_FILES: usize = 1_000;
+
+/// A text that is open.
+struct Document {
+    uri: Uri,
+    /// None of what is no file yet.
+    path: Option<PathBuf>,
+    version: i32,
+    text: Rc<str>,
+    /// What is known of it; none if it, or what it imports, may have changed.
+    checked: RefCell<Option<Rc<Checked>>>,
+    /// Whether the editor has been told what is wrong with it.
+    is_told: bool,
+}
+
+/// A text that was checked.
+pub struct Checked {
+    /// What is known of it.
+    pub analysis: Analysis,
+    /// Where it is.
+    pub uri: Uri,
+    /// The libraries that it was checked with, by name, as far as they are files.
+    found: BTreeMap<String, PathBuf>,
+}
+
+impl Checked {
+    /// How the editor knows one of its files; none of what is part of the command.
+    pub fn uri_of(&self, file: u32) -> Option<Uri> {
+        if file == 0 {
+            return Some(self.uri.clone());
+        }
+        let name = &self.analysis.checked.files.get(file as usize)?.name;
+        location::uri(self.found.get(name)?)
+    }
+
+    /// The path of one of its files.
+    pub fn path_of(&self, file: u32) -> Option<PathBuf> {
+        if file == 0 {
+            return location::path(&self.uri);
+        }
+        let name = &self.analysis.checked.files.get(file as usize)?.name;
+        self.found.get(name).cloned()
+    }
+}
+
+/// All texts.
+#[derive(Default)]
+pub struct Documents {
+    open: BTreeMap<String, Document>,
+}
+
+impl Documents {
+    /// Takes in that a text was opened.
+    pub fn open(&mut self, uri: Uri, version: i32, text: String) {
+        let path = location::path(&uri);
+        self.forget_beside(path.as_deref());
+        let document = Document {
+            path,
+            version,
+            text: text.into(),
+            checked: RefCell::default(),
+            is_told: false,
+            uri: uri.clone(),
+        };
+        self.open.insert(uri.as_str().to_string(), document);
+    }
+
+    /// Takes in a change; `change` makes the new text of the old. False if the text is not open.
+    pub fn change(&mut self, uri: &Uri, version: i32, change: impl FnOnce(&str) -> String) -> bool {
+        let Some(document) = self.open.get_mut(uri.as_str()) else {
+            return false;
+        };
+        document.text = change(&document.text).into();
+        document.version = version;
+        document.is_told = false;
+        document.checked.take();
+        let path = document.path.clone();
+        self.forget_beside(path.as_deref());
+        true
+    }
+
+    /// Takes in that a text was closed.
+    pub fn close(&mut self, uri: &Uri) {
+        if let Some(document) = self.open.remove(uri.as_str()) {
+            self.forget_beside(document.path.as_deref());
+        }
+    }
+
+    /// Forgets what is known of all texts: files changed.
+    pub fn forget(&mut self) {
+        for document in self.open.values_mut() {
+            document.is_told = false;
+            document.checked.take();
+        }
+    }
+
+    /// Forgets what is known of the texts that may import this one: those in its folder.
+    fn forget_beside(&mut self, path: Option<&Path>) {
+        let Some(folder) = path.and_then(Path::parent) else {
+            return;
+        };
+        for document in self.open.values_mut() {
+            let own = document.path.as_deref().and_then(Path::parent);
+            if own == Some(folder) {
+                document.is_told = false;
+                document.checked.take();
+            }
+        }
+    }
+
+    /// What is known of a text that is open.
+    pub fn checked(&self, uri: &Uri) -> Option<Rc<Checked>> {
+        let document = self.open.get(uri.as_str())?;
+        let mut known = document.checked.borrow_mut();
+        if let Some(checked) = &*known {
+            return Some(Rc::clone(checked));
+        }
+        let checked = Rc::new(self.check(&document.uri, document.path.as_deref(), &document.text));
+        *known = Some(Rc::clone(&checked));
+        Some(checked)
+    }
+
+    fn check(&self, uri: &Uri, path: Option<&Path>, text: &str) -> Checked {
+        let beside = self.beside(path);
+        let analysis = Analysis::new(text, &beside);
+        Checked {
+            analysis,
+            uri: uri.clone(),
+            found: beside.found.into_inner(),
+        }
+    }
+
+    /// The libraries that a text may import.
+    pub fn libraries(&self, uri: &Uri) -> Beside<'_> {
+        let path = location::path(uri);
+        self.beside(path.as_deref())
+    }
+
+    fn beside(&self, path: Option<&Path>) -> Beside<'_> {
+        Beside {
+            documents: self,
+            folder: path.and_then(Path::parent).map(Path::to_path_buf),
+            found: RefCell::default(),
+        }
+    }
+
+    /// The texts of which the editor does not know what is wrong with them, with their versions.
+    pub fn untold(&mut self) -> Vec<(Rc<Checked>, i32)> {
+        let uris: Vec<Uri> = (self.open.values_mut())
+            .filter(|document| !document.is_told)
+            .map(|document| {
+                document.is_told = true;
+                document.uri.clone()
+            })
+            .collect();
+        let checked = uris.iter().filter_map(|uri| {
+            let version = self.open.get(uri.as_str())?.version;
+            Some((self.checked(uri)?, version))
+        });
+        checked.collect()
+    }
+
+    /// The other texts that may name what a file declares: those in its folder, open or not.
+    pub fn importers(&self, of: &Path) -> Vec<Rc<Checked>> {
+        let Some(folder) = of.parent() else {
+            return Vec::new();
+        };
+        let mut importers = Vec::new();
+        let in_folder = |document: &&Document| {
+            let path = document.path.as_deref();
+            path.and_then(Path::parent) == Some(folder) && path != Some(of)
+        };
+        for document in self.open.values().filter(in_folder) {
+            importers.extend(self.checked(&document.uri));
+        }
+        for path in files(folder) {
+            if path == of || self.open_text(&path).is_some() {
+                continue;
+            }
+            let (Some(text), Some(uri)) = (file_text(&path), location::uri(&path)) else {
+                continue;
+            };
+            if text.contains("import") {
+                importers.push(Rc::new(self.check(&uri, Some(&path), &text)));
+            }
+        }
+        importers
+    }
+
+    fn open_text(&self, path: &Path) -> Option<&Document> {
+        let mut documents = self.open.values();
+        documents.find(|document| document.path.as_deref() == Some(path))
+    }
+}
+
+/// The libraries of a folder: texts that are open, then files, then the standard library.
+pub struct Beside<'a> {
+    documents: &'a Documents,
+    folder: Option<PathBuf>,
+    found: RefCell<BTreeMap<String, PathBuf>>,
+}
+
+impl Libraries for Beside<'_> {
+    fn source(&self, name: &str) -> Option<String> {
+        let beside = self.folder.as_ref().and_then(|folder| {
+            let path = folder.join(name).with_extension(SUFFIX);
+            let text = match self.documents.open_text(&path) {
+                Some(document) => document.text.to_string(),
+                None => file_text(&path)?,
+            };
+            self.found.borrow_mut().insert(name.to_string(), path);
+            Some(text)
+        });
+        beside.or_else(|| StandardLibraries.source(name))
+    }
+
+    fn names(&self) -> Vec<String> {
+        let mut names = StandardLibraries.names();
+        let folder = self.folder.as_deref();
+        let beside = folder.map(files).unwrap_or_default();
+        let open = (self.documents.open.values())
+            .filter_map(|document| document.path.clone())
+            .filter(|path| path.parent() == folder);
+        for path in beside.into_iter().chain(open) {
+            let is_library = match self.documents.open_text(&path) {
+                Some(document) => is_library(&document.text),
+                None => file_text(&path).is_some_and(|text| is_library(&text)),
+            };
+            let name = path.file_stem().and_then(|name| name.to_str());
+            names.extend(name.filter(|_| is_library).map(str::to_string));
+        }
+        names.sort();
+        names.dedup();
+        names
+    }
+}
+
+/// Whether the text says that it is a library.
+fn is_library(text: &str) -> bool {
+    let mut lines = text.lines().map(str::trim_start);
+    let first = lines.find(|line| !line.is_empty() && !line.starts_with("//"));
+    first.is_some_and(|line| line.starts_with("library"))
+}
+
+/// The files of the language in a folder, in order.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let paths = entries.map(|entry| entry.path());
+    let own = paths.filter(|path| path.extension().is_some_and(|suffix| suffix == SUFFIX));
+    let mut files: Vec<PathBuf> = own.take(MOST_FILES).collect();
+    files.sort();
+    files
+}
+
+/// The text of a file; none if there is none that can be read.
+fn file_text(path: &Path) -> Option<String> {
+    let size = fs::metadata(path).ok().filter(fs::Metadata::is_file)?.len();
+    if size > MAX_LENGTH as u64 {
+        return None;
+    }
+    fs::read_to_string(path).ok()
+}

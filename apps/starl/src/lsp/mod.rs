@@ -1,0 +1,59 @@
+//! `starl lsp`: what an editor needs to know of programs, over the Language Server Protocol 3.17 on
+//! standard input and output.
+//!
+//! What there is to know comes from [`starl_lang::editor`]; here are only the protocol, the texts that are
+//! open, and the files beside them. A text is checked when its check is asked for, and after every change
+//! once no message is waiting, so that problems show as one types. Nothing that an editor sends ends the
+//! server but `exit` and the end of its input: what cannot be understood is answered with an error.
+
+mod answer;
+mod assist;
+mod capabilities;
+mod convert;
+mod diagnostics;
+mod documents;
+mod location;
+mod navigate;
+mod rename;
+mod session;
+mod show;
+mod transport;
+
+use crate::failure::Failure;
+use crate::output::reason;
+use session::{Session, Step};
+use std::io;
+use std::sync::mpsc::{Receiver, TryRecvError};
+use transport::Incoming;
+
+/// Serves an editor until it says `exit`. True if it said `shutdown` before.
+pub fn run() -> Result<bool, Failure> {
+    let incoming = transport::listen();
+    let mut session = Session::new(Box::new(io::stdout()));
+    let ended = serve(&incoming, &mut session);
+    ended.map_err(|error| {
+        let what = reason(&error);
+        Failure(format!("standard output: cannot be written: {what}"))
+    })
+}
+
+fn serve(incoming: &Receiver<Incoming>, session: &mut Session) -> io::Result<bool> {
+    loop {
+        let message = match incoming.try_recv() {
+            Ok(message) => message,
+            Err(TryRecvError::Disconnected) => return Ok(false),
+            Err(TryRecvError::Empty) => {
+                // Nothing is waiting: time to say what is wrong with what was typed.
+                session.publish()?;
+                match incoming.recv() {
+                    Ok(message) => message,
+                    Err(_) => return Ok(false),
+                }
+            }
+        };
+        match session.take(message)? {
+            Step::Continue => {}
+            Step::Exit { after_shutdown } => return Ok(after_shutdown),
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! Messages as bytes: JSON-RPC 2.0 with a header that says how long each message is (protocol 3.17, "Base
+//! Protocol").
+//!
+//! Written here rather than taken from `lsp-server`, whose reader ends at the first message that is no
+//! JSON and makes room for as many bytes as a header says.
+
+use serde_json::{Value, json};
+use std::io::{self, BufRead, Read, Write};
+use std::sync::mpsc::{self, Receiver};
+use std::thread;
+
+/// The longest message that is read, in bytes.
+const LONGEST: usize = 256 << 20;
+
+/// How many messages may wait.
+const MOST_WAITING: usize = 64;
+
+/// The number of an error in an answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// The message is no JSON.
+    Parse = -32700,
+    /// The message is no request, or none that can be made now.
+    InvalidRequest = -32600,
+    /// There is no such request.
+    MethodNotFound = -32601,
+    /// The request's parameters are not what they must be.
+    InvalidParams = -32602,
+    /// The server is at fault.
+    Internal = -32603,
+    /// `initialize` must come first.
+    NotInitialized = -32002,
+    /// The request was understood and cannot be fulfilled.
+    Failed = -32803,
+}
+
+/// What came.
+#[derive(Debug)]
+pub enum Incoming {
+    /// A message.
+    Message(Value),
+    /// Something that is none, with what is wrong with it.
+    Malformed(String),
+}
+
+/// Reads messages from standard input in a thread of its own, until that ends.
+pub fn listen() -> Receiver<Incoming> {
+    let (sender, receiver) = mpsc::sync_channel(MOST_WAITING);
+    thread::spawn(move || {
+        let mut input = io::stdin().lock();
+        while let Some(message) = read(&mut input) {
+            if sender.send(message).is_err() {
+                break;
+            }
+        }
+    });
+    receiver
+}
+
+/// The next message; none at the end of the input.
+fn read(input: &mut impl BufRead) -> Option<Incoming> {
+    let length = match header(input)? {
+        Ok(length) => length,
+        Err(problem) => return Some(Incoming::Malformed(problem)),
+    };
+    if length > LONGEST {
+        io::copy(&mut input.take(length as u64), &mut io::sink()).ok()?;
+        let problem = format!("a message of {length} bytes is too long");
+        return Some(Incoming::Malformed(problem));
+    }
+    let mut bytes = Vec::new();
+    input.take(length as u64).read_to_end(&mut bytes).ok()?;
+    if bytes.len() < length {
+        return None;
+    }
+    Some(match serde_json::from_slice(&bytes) {
+        Ok(message) => Incoming::Message(message),
+        Err(error) => Incoming::Malformed(error.to_string()),
+    })
+}
+
+/// The length that the header says; none at the end of the input.
+fn header(input: &mut impl BufRead) -> Option<Result<usize, String>> {
+    let mut length = None;
+    loop {
+        let mut line = Vec::new();
+        // No line of a header is long; what has no end is read in pieces.
+        let read = input.take(4096).read_until(b'\n', &mut line).ok()?;
+        if read == 0 {
+            return None;
+        }
+        let line = String::from_utf8_lossy(&line);
+        let line = line.trim_end_matches(['\r', '\n']);
+        if line.is_empty() {
+            match length {
+                Some(length) => return Some(Ok(length)),
+                None => return Some(Err("a header without Content-Length".to_string())),
+            }
+        }
+        let Some((name, value)) = line.split_once(':') else {
+            return Some(Err(format!("a header with the line {line:?}")));
+        };
+        if name.trim().eq_ignore_ascii_case("Content-Length") {
+            match value.trim().parse() {
+                Ok(value) => length = Some(value),
+                Err(_) => return Some(Err(format!("a message of the length {value:?}"))),
+            }
+        }
+    }
+}
+
+/// Where messages go.
+pub struct Output(pub Box<dyn Write>);
+
+impl Output {
+    /// Sends a message.
+    fn send(&mut self, message: &Value) -> io::Result<()> {
+        let text = message.to_string();
+        write!(self.0, "Content-Length: {}\r\n\r\n{text}", text.len())?;
+        self.0.flush()
+    }
+
+    /// Answers a request.
+    pub fn answer(&mut self, id: &Value, result: Result<Value, (Fault, String)>) -> io::Result<()> {
+        self.send(&match result {
+            Ok(result) => json!({"jsonrpc": "2.0", "id": id, "result": result}),
+            Err((fault, message)) => json!({
+                "jsonrpc": "2.0",
+                "id": id,
+                "error": {"code": fault as i32, "message": message},
+            }),
+        })
+    }
+
+    /// Tells the editor something.
+    pub fn notify(&mut self, method: &str, params: &Value) -> io::Result<()> {
+        self.send(&json!({"jsonrpc": "2.0", "method": method, "params": params}))
+    }
+
+    /// Asks the editor for something; the answer does not matter.
+    pub fn request(&mut self, id: &str, method: &str, params: &Value) -> io::Result<()> {
+        self.send(&json!({"jsonrpc": "2.0", "id": id, "method": method, "params": params}))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all(mut bytes: &[u8]) -> Vec<Result<Value, String>> {
+        std::iter::from_fn(|| read(&mut bytes))
+            .map(|incoming| match incoming {
+                Incoming::Message(message) => Ok(message),
+                Incoming::Malformed(problem) => Err(problem),
+            })
+            .collect()
+    }
+
+    #[test]
+    fn messages_come_one_after_the_other() {
+        let found = all(b"Content-Length: 2\r\n\r\n{}content-length:1\r\nX: y\r\n\r\n7");
+        assert_eq!(found, [Ok(json!({})), Ok(json!(7))]);
+    }
+
+    #[test]
+    fn what_is_no_message_is_told_and_the_next_is_read() {
+        let found = all(b"Content-Length: 3\r\n\r\n{,}Content-Length: 2\r\n\r\n[]");
+        assert!(found[0].is_err());
+        assert_eq!(found[1], Ok(json!([])));
+        let found = all(b"nonsense\r\nContent-Length: x\r\n\r\nContent-Length: 1\r\n\r\n1");
+        assert_eq!(found.last(), Some(&Ok(json!(1))));
+        assert!(found[..found.len() - 1].iter().all(Result::is_err));
+    }
+
+    #[test]
+    fn an_input_that_breaks_off_is_at_its_end() {
+        assert!(all(b"Content-Length: 5\r\n\r\n{}").is_empty());
+        assert!(all(b"Content-Length: 99999999999999").is_empty());
+        let too_long = all(b"Content-Length: 9999999999999999\r\n\r\n{}");
+        assert_eq!(too_long.len(), 1);
+        assert!(too_long[0].is_err());
+    }
+}
