@@ -178,6 +178,8 @@ pub enum Workload {
     Swarm(SwarmArguments),
     /// Ground robots broadcast at every tick to about eight neighbours
     Radio(RadioArguments),
+    /// Ground robots drive to a far way-point, each running the program of the example Race
+    Race(RaceArguments),
 }
 
 /// What all workloads have in common.
@@ -217,6 +219,20 @@ pub struct RadioArguments {
     /// Bodies block the radio
     #[arg(long)]
     pub occluded: bool,
+    /// What all workloads have in common.
+    #[command(flatten)]
+    pub load: LoadArguments,
+}
+
+/// Arguments of `starl bench race`.
+#[derive(Args, Debug)]
+pub struct RaceArguments {
+    /// How many robots
+    #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = whole(1, MOST_ROBOTS))]
+    pub robots: u32,
+    /// Run the program that is written in Rust in the place of the one in the StarL language
+    #[arg(long)]
+    pub native: bool,
     /// What all workloads have in common.
     #[command(flatten)]
     pub load: LoadArguments,

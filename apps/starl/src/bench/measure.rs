@@ -7,9 +7,10 @@ use crate::target::refused;
 use crate::threads;
 use cpu_time::ProcessTime;
 use serde::Serialize;
+use starl_catalog::examples::EXAMPLES;
 use starl_core::Time;
 use starl_sim::Simulation;
-use starl_sim::read::{self, Request, Source};
+use starl_sim::read::{Loader, Request, Source};
 use std::fmt::Write;
 use std::fs;
 use std::time::Instant;
@@ -94,7 +95,7 @@ pub fn measure(workload: &Workload, threads: usize) -> Result<Figures, Failure> 
 
 fn start(name: &str, scenario: &str) -> Result<Simulation, Failure> {
     let source = Source::new(format!("the scenario of `{name}`"), scenario);
-    let application = starl_catalog::read(&Request::new(source), &NoFiles).map_err(refused)?;
+    let application = starl_catalog::read(&Request::new(source), &Examples).map_err(refused)?;
     application
         .simulation()
         .map_err(|error| Failure(error.message))
@@ -144,11 +145,15 @@ pub fn text(figures: &Figures) -> String {
     text
 }
 
-struct NoFiles;
+/// Brings the programs of the examples.
+struct Examples;
 
-impl read::Loader for NoFiles {
-    fn load(&self, _: &str) -> Result<Vec<u8>, String> {
-        Err("a workload names no files".to_string())
+impl Loader for Examples {
+    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+        let mut files = EXAMPLES.iter().map(|example| example.load(path));
+        files
+            .find(Result::is_ok)
+            .unwrap_or_else(|| Err("no example has such a file".to_string()))
     }
 }
 

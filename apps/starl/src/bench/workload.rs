@@ -1,7 +1,7 @@
 //! The workloads as scenarios: a square arena with 1.6 square metres a robot and walls around, small
 //! ground robots strewn over it, ten ticks a second.
 
-use crate::args::{LoadArguments, RadioArguments, SwarmArguments};
+use crate::args::{LoadArguments, RaceArguments, RadioArguments, SwarmArguments};
 
 /// A scenario to measure.
 pub struct Workload {
@@ -47,10 +47,34 @@ pub fn radio(arguments: &RadioArguments) -> Workload {
     }
 }
 
+/// The same robots, driving to a way-point that none of them reaches in the first seconds.
+pub fn race(arguments: &RaceArguments) -> Workload {
+    let RaceArguments {
+        robots,
+        native,
+        load,
+    } = arguments;
+    let (name, program) = match native {
+        true => ("race, native", "race"),
+        false => ("race", "race.starl"),
+    };
+    let of = |robots: u32| {
+        let far = side(robots) / 2.0;
+        let way_point =
+            format!("\n[[world.way_point]]\nname = \"far\"\nposition = [{far}, {far}]\n");
+        scenario(program, robots, load, "") + &way_point
+    };
+    Workload {
+        name,
+        scenario: of(*robots),
+        rehearsal: of(FEW),
+    }
+}
+
 /// Robots with 24 range rays each. Nothing is random but where the robots start, and messages arrive at
 /// the next tick, as in the systems that this is compared with.
 fn scenario(program: &str, robots: u32, load: &LoadArguments, network: &str) -> String {
-    let side = (f64::from(robots) * FLOOR).sqrt();
+    let side = side(robots);
     let LoadArguments { seconds, seed, .. } = load;
     format!(
         r#"program = "{program}"
@@ -92,4 +116,9 @@ geocast = false
 pose_period = "100ms"
 "#
     )
+}
+
+/// How long and wide the arena is, metres.
+fn side(robots: u32) -> f64 {
+    (f64::from(robots) * FLOOR).sqrt()
 }
