@@ -16,6 +16,9 @@ use crate::ir::{self, BindingId, Expression, SharedId, Type};
 use crate::machine::operand::{FunctionIndex, ImportIndex};
 use crate::machine::{self, Import, Instruction};
 
+/// The number of the prelude's file.
+const PRELUDE_FILE: u32 = 1;
+
 /// An argument of a call of the host.
 pub(super) enum Argument<'p> {
     /// An Int that is known.
@@ -215,7 +218,7 @@ impl<'p> Body<'_, 'p> {
                 "RobotId" => Type::Robot,
                 "Area" => Type::Area,
                 "Obstacles" => Type::Obstacles,
-                _ => return None,
+                name => self.prelude_type(name)?,
             },
             Shape::List(part) => Type::List(boxed(part)?),
             Shape::Set(part) => Type::Set(boxed(part)?),
@@ -223,6 +226,23 @@ impl<'p> Body<'_, 'p> {
             Shape::Optional(part) => Type::optional(*boxed(part)?),
             _ => return None,
         })
+    }
+
+    /// The enum or record with this name that every program has.
+    fn prelude_type(&self, name: &str) -> Option<Type> {
+        let program = self.unit.program;
+        let is_it = |declared: Option<&str>, site: ir::Site| {
+            site.file == PRELUDE_FILE && declared == Some(name)
+        };
+        let enums = program.enums.iter();
+        let mut enums = enums.map(|declared| is_it(declared.name.as_deref(), declared.site));
+        if let Some(number) = enums.position(|found| found) {
+            return Some(Type::Enum(EnumId(number as u32)));
+        }
+        let records = program.records.iter();
+        let mut records = records.map(|declared| is_it(Some(&declared.name), declared.site));
+        let number = records.position(|found| found)?;
+        Some(Type::Record(ir::RecordId(number as u32)))
     }
 
     /// A method or flag of a primitive.

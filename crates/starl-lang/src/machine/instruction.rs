@@ -410,8 +410,8 @@ instructions! {
 
     /// to = the circle around `center`; a negative or infinite radius is an error, conversion.
     Circle "circle" { to: ObjectOut, center: PointIn, radius: In }
-    /// to = the convex polygon with these corners, a list of Points. Error, conversion: fewer than
-    /// three, or not convex. A shift of the list.
+    /// to = the convex polygon with these corners, a list of Points; two make a wall. Error,
+    /// conversion: fewer than two, or not convex. A shift of the list.
     Polygon "polygon" { to: ObjectOut, corners: ObjectIn }
     /// to = whether the point lies in the area or on its boundary; false of an empty area. Costs the
     /// size of the area over 8.

@@ -1,9 +1,7 @@
 //! The thesis's listings compile and load as far as robots have what they need; of the others it is
 //! said what is missing.
 
-mod common;
-
-use common::LISTINGS;
+use crate::common::LISTINGS;
 use starl_lang::check::{NoLibraries, check};
 use starl_lang::compile::compile;
 use starl_lang::diagnostic::Code;
