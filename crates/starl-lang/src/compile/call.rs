@@ -237,7 +237,7 @@ impl<'p> Body<'_, 'p> {
         let enums = program.enums.iter();
         let mut enums = enums.map(|declared| is_it(declared.name.as_deref(), declared.site));
         if let Some(number) = enums.position(|found| found) {
-            return Some(Type::Enum(EnumId(number as u32)));
+            return Some(Type::Enum(ir::EnumId(number as u32)));
         }
         let records = program.records.iter();
         let mut records = records.map(|declared| is_it(Some(&declared.name), declared.site));
