@@ -41,7 +41,6 @@ impl Checker {
 
     fn may_be_in_library(&mut self, item: &Item) -> bool {
         let what = match item {
-            Item::Message(_) => "messages",
             Item::Parameter(_) => "parameters",
             Item::Variable(_) | Item::Shared(_) => "variables",
             Item::Binding(_) => "primitives",
@@ -54,7 +53,7 @@ impl Checker {
         };
         let message = format!("a library has no {what}");
         let problem = Diagnostic::new(Code::NotInLibrary, first_word(item.syntax()), message);
-        self.report(problem.note("it has enums, records, constants and functions"));
+        self.report(problem.note("it has enums, records, messages, constants and functions"));
         false
     }
 

@@ -13,7 +13,7 @@ use super::state::Checker;
 use super::surroundings::Surroundings;
 use super::tables::Event as EventSignature;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::ir::{Event, Handler, Statement, StatementKind, Type};
+use crate::ir::{Event, Handler, RecordId, Statement, StatementKind, Type};
 use crate::syntax::SyntaxToken;
 use crate::syntax::ast;
 
@@ -34,7 +34,10 @@ impl Checker {
             .last()
             .map_or(start, |last| start.to(last.text_range().into()));
         let (event, parts) = match words.get(1) {
-            Some(name) => self.primitive_event(first, name),
+            Some(name) => match self.imported(first) {
+                Some(library) => self.library_event(library, name),
+                None => self.primitive_event(first, name),
+            },
             None => self.message_event(first),
         };
         let names: Vec<ast::Name> = node.parameters().collect();
@@ -83,16 +86,8 @@ impl Checker {
         if let Some(Entity::Record(id)) = entity
             && self.program[id].is_message
         {
-            self.usage.handled.insert(id.0);
-            self.usage.used.insert(Entity::Record(id));
             self.resolve(span, Symbol::Record(id));
-            let fields = self.program[id].fields.iter();
-            let fields = fields.map(|field| (field.name.clone(), field.ty.clone()));
-            let sender = ("from".to_string(), Type::Robot);
-            return (
-                Event::Message(id),
-                Some([sender].into_iter().chain(fields).collect()),
-            );
+            return self.handled(id);
         }
         if self.is_probe(span) {
             self.note_probe(Surroundings::Event);
@@ -105,13 +100,18 @@ impl Checker {
             None => format!("there is no message `{name}`"),
         };
         let problem = Diagnostic::new(Code::UnknownEvent, span, message);
-        let messages = self
-            .program
-            .records
-            .iter()
-            .filter(|record| record.is_message);
-        let names = messages.map(|record| record.name.as_str());
-        let problem = did_you_mean(problem, span, name, names);
+        let messages = (self.program.records.iter().enumerate())
+            .filter(|(_, record)| record.is_message)
+            .map(|(number, record)| (record, self.program.message_name(RecordId(number as u32))));
+        let messages: Vec<_> = messages.collect();
+        let of_library = messages.iter().find(|(record, _)| record.name == name);
+        let problem = match of_library {
+            Some((_, full)) => problem.replace(format!("did you mean `{full}`?"), span, full),
+            None => {
+                let names = messages.iter().map(|(_, full)| full.as_str());
+                did_you_mean(problem, span, name, names)
+            }
+        };
         self.report(match (entity, &problem.mend) {
             (Some(Entity::Binding(_)), _) => {
                 problem.note("what a primitive reports is named too: `on name.event(...)`")
@@ -122,6 +122,42 @@ impl Checker {
             _ => problem,
         });
         (Event::Error, None)
+    }
+
+    /// The library that a word stands for.
+    fn imported(&mut self, word: &SyntaxToken) -> Option<u32> {
+        let declared = self.files[0].scope.get(word.text())?;
+        let Entity::Library(library) = declared.entity else {
+            return None;
+        };
+        self.usage.imports.insert((0, library));
+        self.resolve_entity(word.text_range().into(), Entity::Library(library));
+        Some(library)
+    }
+
+    /// `library.Message`
+    fn library_event(&mut self, library: u32, word: &SyntaxToken) -> (Event, Option<Parts>) {
+        let (name, span) = (word.text(), Span::from(word.text_range()));
+        match self.library_entity(library, name, span) {
+            Some(Entity::Record(id)) if self.program[id].is_message => self.handled(id),
+            Some(entity) if entity != Entity::Broken => {
+                let message = format!("`{name}` is {}, not a message", entity.what());
+                self.error(Code::UnknownEvent, span, message);
+                (Event::Error, None)
+            }
+            _ => (Event::Error, None),
+        }
+    }
+
+    /// A message that is handled, with the sender and its fields.
+    fn handled(&mut self, message: RecordId) -> (Event, Option<Parts>) {
+        self.usage.handled.insert(message.0);
+        self.usage.used.insert(Entity::Record(message));
+        let fields = self.program[message].fields.iter();
+        let fields = fields.map(|field| (field.name.clone(), field.ty.clone()));
+        let sender = ("from".to_string(), Type::Robot);
+        let parts = [sender].into_iter().chain(fields).collect();
+        (Event::Message(message), Some(parts))
     }
 
     fn primitive_event(

@@ -11,6 +11,7 @@
 
 mod arguments;
 mod arithmetic;
+mod asked;
 mod behaviour;
 mod body;
 mod builtin;

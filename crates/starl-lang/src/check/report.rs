@@ -6,14 +6,22 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::CheckedFile;
+use super::asked;
 use super::state::Checker;
 use crate::diagnostic::{Code, Diagnostic, Edit, LineIndex, Mend, Severity, Span, closest};
 use crate::ir::{Expression, ExpressionKind, Type};
 
 impl Checker {
     /// Tells of a problem of the present file.
-    pub fn report(&mut self, problem: Diagnostic) {
+    pub fn report(&mut self, mut problem: Diagnostic) {
         let file = &mut self.files[self.file as usize];
+        if problem.code == Code::MayBeNone && problem.mend.is_none() {
+            let root = file.checked.parse.syntax();
+            if let Some(asked) = asked::before(&root, &file.checked.source, problem.span) {
+                let words = "that it is not none is asked here, but the value gets no name";
+                problem = problem.label(asked.span, words).mend(asked.mend);
+            }
+        }
         file.checked.diagnostics.push(problem);
     }
 

@@ -119,8 +119,13 @@ pub(super) struct Checker {
 
 impl Checker {
     pub fn new(files: Vec<File>) -> Self {
+        let names = files.iter().map(|file| file.checked.name.clone());
+        let program = Program {
+            files: names.collect(),
+            ..Program::default()
+        };
         Self {
-            program: Program::default(),
+            program,
             files,
             nodes: Nodes::default(),
             file: 0,
@@ -156,11 +161,6 @@ impl Checker {
             diagnostics.sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
             diagnostics.dedup();
         }
-        self.program.files = self
-            .files
-            .iter()
-            .map(|file| file.checked.name.clone())
-            .collect();
         Checked {
             program: self.program,
             files: self.files.into_iter().map(|file| file.checked).collect(),

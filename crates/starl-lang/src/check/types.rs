@@ -13,6 +13,7 @@ use super::state::Checker;
 use super::surroundings::Surroundings;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Local, RecordId, Type};
+use crate::syntax::SyntaxKind;
 use crate::syntax::SyntaxToken;
 use crate::syntax::ast::{self, AstNode};
 
@@ -129,12 +130,19 @@ impl Checker {
             ast::Type::Named(named) => self.named_type(named),
             ast::Type::Optional(optional) => {
                 let inner = self.written_or_error(optional.inner());
-                if matches!(inner, Type::Optional(_)) {
-                    let span = optional.span();
-                    let mark = Span::new(span.end - 1, span.end);
+                let mut words = optional.syntax().children_with_tokens();
+                let twice = words.any(|word| word.kind() == SyntaxKind::QuestionQuestion);
+                let span = optional.span();
+                let extra = match (&inner, twice) {
+                    (Type::Optional(_), true) => Some(2),
+                    (Type::Optional(_), false) | (_, true) => Some(1),
+                    _ => None,
+                };
+                if let Some(extra) = extra {
+                    let mark = Span::new(span.end - extra, span.end);
                     let problem =
                         Diagnostic::new(Code::TypeArguments, mark, "this is optional already");
-                    self.report(problem.replace("remove one `?`", mark, ""));
+                    self.report(problem.replace("write one `?`", mark, ""));
                 }
                 Type::optional(inner)
             }

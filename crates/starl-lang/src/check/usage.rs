@@ -39,6 +39,8 @@ impl Checker {
             );
             match (sent, handled) {
                 (true, true) => {}
+                // A library is there for others to use.
+                _ if self.program.is_library => {}
                 (true, false) => {
                     let message = format!("nobody handles the message `{name}`");
                     let problem = Diagnostic::new(Code::MessageNotHandled, span, message);
@@ -72,7 +74,6 @@ impl Checker {
                     problem
                 });
             }
-            // A library is there for others to use.
             Entity::Function(_) | Entity::Constant(_) if self.program.is_library => {}
             Entity::Parameter(_)
             | Entity::Constant(_)

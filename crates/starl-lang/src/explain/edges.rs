@@ -177,7 +177,7 @@ fn action_cause(program: &Program, action: &Action) -> Cause {
 fn handler_cause(program: &Program, handler: &Handler) -> Cause {
     let name = match &handler.event {
         Event::Error => String::new(),
-        Event::Message(record) => program[*record].name.clone(),
+        Event::Message(record) => program.message_name(*record),
         Event::Primitive { binding, event } => {
             let binding = &program[*binding].name;
             alloc::format!("{binding}.{}", event.name())

@@ -83,6 +83,18 @@ impl Program {
         display::type_name(self, of)
     }
 
+    /// What robots call a message among each other: its name, with that of the library before it that
+    /// it is from, so that messages of two libraries are not taken for each other.
+    #[must_use]
+    pub fn message_name(&self, message: RecordId) -> String {
+        let Record { name, site, .. } = &self[message];
+        let library = self.files.get(site.file as usize);
+        match library.filter(|_| site.file != 0) {
+            Some(library) => alloc::format!("{library}.{name}"),
+            None => name.clone(),
+        }
+    }
+
     /// The value that a variable of the type has if none is given is all zeros and nothing; whether
     /// there is one. There is none for robots and areas and what must hold one.
     #[must_use]

@@ -10,7 +10,7 @@ pub(super) fn any(parser: &mut Parser<'_>) {
     }
     // More than one question mark says no more than one; the checker tells.
     let mut optional = 0;
-    while parser.at(Question) && optional < 8 {
+    while matches!(parser.current(), Question | QuestionQuestion) && optional < 8 {
         parser.start_at(start, OptionalType);
         parser.bump();
         parser.finish();
