@@ -274,7 +274,7 @@ impl<'p> Body<'_, 'p> {
 
     fn message_name(&self, value: &Expression) -> Option<String> {
         match value.ty {
-            Type::Record(id) => Some(self.unit.program[id].name.clone()),
+            Type::Record(id) => Some(self.unit.program.message_name(id)),
             _ => None,
         }
     }

@@ -267,7 +267,7 @@ impl<'p> Unit<'p> {
                 let message = &program[*id];
                 let fields = message.fields.iter().map(|field| field.ty.clone());
                 let types: Vec<Type> = core::iter::once(Type::Robot).chain(fields).collect();
-                (message.name.clone(), None, types)
+                (program.message_name(*id), None, types)
             }
             ir::Event::Primitive { binding, event } => {
                 let shapes = event.signature().parameters;
