@@ -8,7 +8,11 @@ use alloc::vec::Vec;
 use super::Libraries;
 
 /// The libraries, by name.
-pub const STANDARD: &[(&str, &str)] = &[("geometry", include_str!("../../library/geometry.starl"))];
+pub const STANDARD: &[(&str, &str)] = &[
+    ("fleet", include_str!("../../library/fleet.starl")),
+    ("geometry", include_str!("../../library/geometry.starl")),
+    ("lists", include_str!("../../library/lists.starl")),
+];
 
 /// The libraries of [`STANDARD`] alone.
 #[derive(Clone, Copy, Debug, Default)]
