@@ -7,7 +7,8 @@ use crate::output::identity;
 use crate::sources::{self, Source};
 use serde::Serialize;
 use starl_lang::check::{Checked, CheckedFile, check};
-use starl_lang::diagnostic::{Colour, Diagnostic, Severity, has_errors, render, reports};
+use starl_lang::compile::compile;
+use starl_lang::diagnostic::{Code, Colour, Diagnostic, Severity, has_errors, render, reports};
 use starl_lang::ir::Program;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -17,7 +18,7 @@ pub fn run(arguments: &CheckArguments) -> Result<bool, Failure> {
     let (sources, mut failures) = sources::find(&arguments.files);
     let mut findings = Findings::new(&sources);
     for source in &sources {
-        match examine(source, |_| Vec::new()) {
+        match examine(source, what_cannot_run) {
             Ok(examined) => {
                 failures.extend(examined.failures);
                 findings.files += 1;
@@ -95,6 +96,20 @@ pub fn examine(
         files: examinees,
         failures: libraries.failures(),
     })
+}
+
+/// What keeps a program that is correct from being run. A primitive that robots do not have yet is no
+/// fault of the program.
+fn what_cannot_run(checked: &Checked) -> Vec<Diagnostic> {
+    if checked.has_errors() {
+        return Vec::new();
+    }
+    let problems = compile(checked).err().unwrap_or_default();
+    let told = problems.into_iter().map(|problem| match problem.code {
+        Code::UnavailablePrimitive => problem.as_warning(),
+        _ => problem,
+    });
+    told.collect()
 }
 
 impl Examinee {
