@@ -20,24 +20,27 @@
 
 mod compare;
 mod corrupt;
-mod exchange;
+mod error;
 mod gossip;
 mod options;
 mod packet;
+mod receiving;
 mod report;
+mod sending;
 mod stamp;
 mod store;
+mod writing;
 
+pub use error::WriteError;
 pub use options::Options;
 pub use stamp::Stamp;
 
 use alloc::boxed::Box;
 use alloc::collections::{BTreeMap, BTreeSet};
-use core::fmt;
 use gossip::Gossip;
 use stamp::HybridClock;
-use starl_core::{Duration, Input, Payload, Port, Primitive, Robot, RobotId, Time, TimerKey};
-use store::{Address, Element, Store};
+use starl_core::{Input, Payload, Port, Primitive, Robot, RobotId, Time, TimerKey};
+use store::Store;
 
 /// What the timers are for.
 const FLUSH_TIMER: u16 = 0;
@@ -71,20 +74,6 @@ pub struct SharedMemory {
     gossip: Gossip,
     /// When an element last changed.
     changed: Time,
-}
-
-/// Why a write was refused. The memory is as before.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WriteError {
-    /// The variable's name is longer than 255 bytes.
-    NameTooLong,
-    /// The value is longer than [`Options::longest_value`].
-    ValueTooLong,
-    /// There are [`Options::most_elements`] already.
-    Full,
-    /// Another variable has taken the place that this name is given in memories: rename one. The odds
-    /// are one in 10^9 among 100,000 variables.
-    NameTaken,
 }
 
 impl SharedMemory {
@@ -162,10 +151,8 @@ impl SharedMemory {
     /// The elements of a single-writer array that are known to have been written, in the order of the
     /// robots' numbers. Those of robots that have left the fleet stay.
     pub fn all(&self, variable: &str) -> impl Iterator<Item = (RobotId, &[u8])> {
-        self.store.owners(variable).filter_map(move |owner| {
-            let element = self.store.get(variable, Some(owner))?;
-            Some((owner, &element.value[..]))
-        })
+        let elements = self.store.array(variable);
+        elements.map(|(owner, element)| (owner, &element.value[..]))
     }
 
     /// The stamp of what [`SharedMemory::read`] shows; none before any write.
@@ -186,78 +173,6 @@ impl SharedMemory {
     /// The settings.
     pub fn options(&self) -> &Options {
         &self.options
-    }
-
-    /// Writes an element here and now, and to all at the end of this activation.
-    fn set(
-        &mut self,
-        robot: &mut Robot<'_>,
-        variable: &str,
-        owner: Option<RobotId>,
-        value: Payload,
-    ) -> Result<Stamp, WriteError> {
-        let key = store::key(variable, owner);
-        let present = self.store.at(key);
-        let is_other = |element: &Element| {
-            *element.address.variable != *variable || element.address.owner != owner
-        };
-        let refusal = if variable.len() > LONGEST_NAME {
-            Some(WriteError::NameTooLong)
-        } else if value.len() > self.options.longest_value {
-            Some(WriteError::ValueTooLong)
-        } else if present.is_none() && self.store.len() >= self.options.most_elements {
-            Some(WriteError::Full)
-        } else if present.is_some_and(is_other) {
-            Some(WriteError::NameTaken)
-        } else {
-            None
-        };
-        if let Some(error) = refusal {
-            return Err(error);
-        }
-        let address = present.map_or_else(
-            || Address {
-                variable: variable.into(),
-                owner,
-            },
-            |element| element.address.clone(),
-        );
-        Ok(self.put(robot, key, address, value, "write"))
-    }
-
-    /// Makes a value the latest at its address.
-    fn put(
-        &mut self,
-        robot: &mut Robot<'_>,
-        key: u64,
-        address: Address,
-        value: Payload,
-        event: &'static str,
-    ) -> Stamp {
-        let now = robot.now();
-        if let Some(present) = self.store.at(key) {
-            // Only after a corruption can the clock be behind it.
-            self.clock.observe(present.stamp.clock());
-        }
-        let HybridClock { time, count } = self.clock.tick(now);
-        let stamp = Stamp {
-            time,
-            count,
-            writer: robot.id(),
-        };
-        let element = Element {
-            address,
-            stamp,
-            value,
-            mine: true,
-            touched: now,
-        };
-        report::element(robot, self.port, event, &element);
-        self.note_change(robot);
-        self.store.put(key, element);
-        self.unsent.insert(key);
-        robot.set_timer(self.timer(FLUSH_TIMER), Duration::ZERO);
-        stamp
     }
 
     fn timer(&self, kind: u16) -> TimerKey {
@@ -286,16 +201,3 @@ impl Primitive for SharedMemory {
         self.keep_time(robot);
     }
 }
-
-impl fmt::Display for WriteError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            WriteError::NameTooLong => "the variable's name is too long",
-            WriteError::ValueTooLong => "the value is too long for a datagram",
-            WriteError::Full => "the memory holds as many variables as it may",
-            WriteError::NameTaken => "another variable takes this name's place in the memory",
-        })
-    }
-}
-
-impl core::error::Error for WriteError {}

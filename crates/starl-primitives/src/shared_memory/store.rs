@@ -7,8 +7,9 @@
 //! began as garbage. Elements lie in the order of 64-bit keys, hashes of their addresses, and every range
 //! of keys has a fingerprint, the sum of the hashes of its elements, by which copies are compared.
 
+use super::packet::Write;
 use super::stamp::Stamp;
-use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
 use core::cmp::Ordering;
 use core::ops::RangeInclusive;
@@ -24,8 +25,8 @@ pub(super) struct Address {
 }
 
 impl Address {
-    pub fn key(&self) -> u64 {
-        key(&self.variable, self.owner)
+    fn is(&self, variable: &str, owner: Option<RobotId>) -> bool {
+        self.owner == owner && *self.variable == *variable
     }
 }
 
@@ -37,9 +38,10 @@ pub(super) fn key(variable: &str, owner: Option<RobotId>) -> u64 {
     hash_key(digest.value(), &[])
 }
 
-/// What an address holds.
+/// What an address holds, under the key of the address.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Element {
+    pub key: u64,
     pub address: Address,
     pub stamp: Stamp,
     pub value: Payload,
@@ -53,7 +55,7 @@ impl Element {
     /// Stands for address, stamp and value in fingerprints.
     pub fn hash(&self) -> u64 {
         let mut digest = Digest::default();
-        digest.word(self.address.key());
+        digest.word(self.key);
         digest.word(self.stamp.time.0);
         digest.word(u64::from(self.stamp.count) << 32 | u64::from(self.stamp.writer.0));
         digest.bytes(&self.value);
@@ -93,7 +95,8 @@ pub(super) enum Merged {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Store {
     elements: BTreeMap<u64, Element>,
-    owners: BTreeMap<Arc<str>, BTreeSet<RobotId>>,
+    /// The elements of arrays, by owner.
+    arrays: BTreeMap<Arc<str>, BTreeMap<RobotId, u64>>,
     /// The fingerprint of all.
     fingerprint: u64,
 }
@@ -105,8 +108,7 @@ impl Store {
 
     pub fn get(&self, variable: &str, owner: Option<RobotId>) -> Option<&Element> {
         let element = self.elements.get(&key(variable, owner))?;
-        let address = &element.address;
-        (*address.variable == *variable && address.owner == owner).then_some(element)
+        element.address.is(variable, owner).then_some(element)
     }
 
     pub fn at(&self, key: u64) -> Option<&Element> {
@@ -117,9 +119,25 @@ impl Store {
         self.elements.get_mut(&key)
     }
 
-    /// Who has written an element of the array, in the order of their numbers.
-    pub fn owners(&self, variable: &str) -> impl Iterator<Item = RobotId> + '_ {
-        self.owners.get(variable).into_iter().flatten().copied()
+    /// The elements of an array, in the order of their owners.
+    pub fn array(&self, variable: &str) -> impl Iterator<Item = (RobotId, &Element)> {
+        let array = self.arrays.get_key_value(variable);
+        array.into_iter().flat_map(|(variable, keys)| {
+            keys.iter().filter_map(|(&owner, key)| {
+                let element = self.elements.get(key)?;
+                let address = &element.address;
+                let is_same =
+                    Arc::ptr_eq(&address.variable, variable) || address.variable == *variable;
+                (is_same && address.owner == Some(owner)).then_some((owner, element))
+            })
+        })
+    }
+
+    /// The address of these names.
+    pub fn address(&self, variable: &str, owner: Option<RobotId>) -> Address {
+        let known = self.arrays.get_key_value(variable);
+        let variable = known.map_or_else(|| Arc::from(variable), |(known, _)| known.clone());
+        Address { variable, owner }
     }
 
     /// All elements, to be overwritten.
@@ -154,50 +172,72 @@ impl Store {
         &mut self.fingerprint
     }
 
-    /// Takes in an element that came from another robot.
-    pub fn merge(&mut self, element: Element, me: RobotId, most: usize) -> Merged {
-        let key = element.address.key();
+    /// Takes in what came from another robot; gives the key.
+    pub fn merge(&mut self, write: Write, me: RobotId, now: Time, most: usize) -> (u64, Merged) {
+        let owner = write.single_writer.then_some(write.stamp.writer);
+        let key = key(&write.variable, owner);
         if let Some(present) = self.elements.get(&key) {
-            // Two addresses with the same key: the lesser is kept, on all robots alike.
-            match element.address.cmp(&present.address) {
-                Ordering::Greater => return Merged::Refused,
-                Ordering::Equal if present.is_valid() => {
-                    match (element.stamp, &element.value).cmp(&(present.stamp, &present.value)) {
-                        Ordering::Less => return Merged::Older,
-                        Ordering::Equal => return Merged::Known,
-                        Ordering::Greater => {}
-                    }
-                    if element.stamp.writer == me && present.is_mine(me) {
-                        return Merged::FromEarlierLife;
-                    }
-                }
-                _ => {}
+            let merged = compare(present, &write, owner, me);
+            if merged != Merged::Applied {
+                return (key, merged);
             }
         } else if self.elements.len() >= most {
-            return Merged::Refused;
+            return (key, Merged::Refused);
         }
-        self.put(key, element);
-        Merged::Applied
+        self.put(Element {
+            key,
+            address: self.address(&write.variable, owner),
+            stamp: write.stamp,
+            value: write.value,
+            mine: false,
+            touched: now,
+        });
+        (key, Merged::Applied)
     }
 
     /// Sets an element, whatever was there.
-    pub fn put(&mut self, key: u64, element: Element) {
+    pub fn put(&mut self, element: Element) {
         self.fingerprint = self.fingerprint.wrapping_add(element.hash());
-        if let Some(owner) = element.address.owner {
-            let variable = &element.address.variable;
-            match self.owners.get_mut(variable) {
-                Some(owners) => {
-                    owners.insert(owner);
-                }
-                None => {
-                    let owners = BTreeSet::from([owner]);
-                    self.owners.insert(variable.clone(), owners);
-                }
-            }
-        }
+        let key = element.key;
+        let address = element.address.clone();
         if let Some(before) = self.elements.insert(key, element) {
             self.fingerprint = self.fingerprint.wrapping_sub(before.hash());
+            if before.address == address {
+                return;
+            }
         }
+        if let Some(owner) = address.owner {
+            let array = self.arrays.entry(address.variable).or_default();
+            array.insert(owner, key);
+        }
+    }
+}
+
+/// What is to become of a write where there is an element with its key.
+fn compare(present: &Element, write: &Write, owner: Option<RobotId>, me: RobotId) -> Merged {
+    if !present.address.is(&write.variable, owner) {
+        // Two addresses with the same key: the lesser is kept, on all robots alike.
+        let Address {
+            variable,
+            owner: other,
+        } = &present.address;
+        let is_less = (&*write.variable, owner) < (&**variable, *other);
+        return if is_less {
+            Merged::Applied
+        } else {
+            Merged::Refused
+        };
+    }
+    if !present.is_valid() {
+        return Merged::Applied;
+    }
+    match (write.stamp, &write.value).cmp(&(present.stamp, &present.value)) {
+        Ordering::Less => Merged::Older,
+        Ordering::Equal => Merged::Known,
+        Ordering::Greater if write.stamp.writer == me && present.is_mine(me) => {
+            Merged::FromEarlierLife
+        }
+        Ordering::Greater => Merged::Applied,
     }
 }
 

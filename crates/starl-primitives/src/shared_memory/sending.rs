@@ -1,27 +1,23 @@
-//! What memories tell each other, and when.
+//! What a memory tells others, and when.
 //!
 //! A write goes to all in the datagrams of its activation. Robots announce what their memories amount to
 //! ([`super::gossip`]); who has heard of another one when its own announcement is due goes on to
 //! compare it with that robot ([`super::compare`]). What either lacks goes to all, since others may
 //! lack it too.
 
-use super::compare::{self, Difference};
+use super::compare;
 use super::packet::{Announcement, Content, Datagram, FRAME_BYTES, KEY_BYTES, Part, Range, Write};
-use super::store::{Address, Element, Merged};
-use super::{GOSSIP_TIMER, LONGEST_NAME, REPAIR_TIMER, SharedMemory, report};
+use super::store::Element;
+use super::{GOSSIP_TIMER, REPAIR_TIMER, SharedMemory, report};
 use alloc::borrow::ToOwned;
 use alloc::vec::Vec;
-use starl_core::{Destination, Duration, Message, Robot, RobotId};
+use starl_core::{Destination, Duration, Robot, RobotId};
 
 /// Repairs go out in bursts of this many datagrams,
 const REPAIR_BURST: usize = 4;
 
 /// with this pause between: 480 kB/s at most with datagrams of the default length.
 const REPAIR_PAUSE: Duration = Duration::from_millis(10);
-
-/// So often in a row a difference calls for haste while comparing changes nothing here: it may be one
-/// that the network does not let pass.
-const MOST_VAIN: u32 = 32;
 
 /// At most this many datagrams of a kind answer one, so that a comparison in up to five steps does not
 /// grow into a flood; what they leave out is found in a later comparison.
@@ -72,14 +68,16 @@ impl SharedMemory {
         for _ in 0..REPAIR_BURST {
             let lacked = self.repairs.iter().filter_map(|&key| self.store.at(key));
             let lacked = lacked.filter(|element| element.is_valid());
-            let mut lacked = lacked.map(write).peekable();
+            let mut lacked = lacked
+                .map(|element| (element.key, write(element)))
+                .peekable();
             if lacked.peek().is_none() {
                 self.repairs.clear();
                 return;
             }
-            let writes = self.pack(&mut lacked, Write::bytes);
-            for write in &writes {
-                let key = address(write).key();
+            let writes = self.pack(&mut lacked, |(_, write)| write.bytes());
+            let (keys, writes): (Vec<u64>, Vec<Write>) = writes.into_iter().unzip();
+            for key in keys {
                 self.repairs.remove(&key);
                 if let Some(element) = self.store.at_mut(key) {
                     element.touched = now;
@@ -103,28 +101,6 @@ impl SharedMemory {
         }
     }
 
-    /// Takes a datagram. What is not one of ours is ignored.
-    pub(super) fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
-        let from = message.from;
-        let is_peer = from != robot.id() && robot.fleet().binary_search(&from).is_ok();
-        let Some(datagram) = message.read::<Datagram<Content>>() else {
-            return;
-        };
-        if !is_peer || !datagram.clock.is_valid() {
-            return;
-        }
-        self.clock.observe(datagram.clock);
-        match datagram.content {
-            Content::Elements(writes) => self.merge(robot, writes),
-            Content::Announcement(theirs) => self.heard(robot, from, theirs),
-            Content::Comparison(parts) => self.compare(robot, from, &parts),
-            Content::Wanted(keys) => {
-                let known = keys.into_iter().filter(|&key| self.store.at(key).is_some());
-                self.repairs.extend(known);
-            }
-        }
-    }
-
     /// Takes note that the memory changes now.
     pub(super) fn note_change(&mut self, robot: &mut Robot<'_>) {
         let now = robot.now();
@@ -136,86 +112,8 @@ impl SharedMemory {
         }
     }
 
-    fn merge(&mut self, robot: &mut Robot<'_>, writes: Vec<Write>) {
-        let now = robot.now();
-        for write in writes {
-            let is_ours = write.variable.len() <= LONGEST_NAME
-                && write.value.len() <= self.options.longest_value
-                && write.stamp.clock().is_valid();
-            if is_ours {
-                self.merge_one(robot, element(write, now));
-            }
-        }
-    }
-
-    fn merge_one(&mut self, robot: &mut Robot<'_>, element: Element) {
-        let now = robot.now();
-        let key = element.address.key();
-        let stamp = element.stamp;
-        self.clock.observe(stamp.clock());
-        match self
-            .store
-            .merge(element, robot.id(), self.options.most_elements)
-        {
-            Merged::Applied => {
-                self.note_change(robot);
-                self.repairs.remove(&key);
-                if let Some(element) = self.store.at(key) {
-                    report::element(robot, self.port, "update", element);
-                }
-            }
-            Merged::Known => {
-                self.repairs.remove(&key);
-                if let Some(element) = self.store.at_mut(key) {
-                    element.touched = now;
-                }
-            }
-            Merged::FromEarlierLife => {
-                if let Some(present) = self.store.at(key) {
-                    let (address, value) = (present.address.clone(), present.value.clone());
-                    self.put(robot, key, address, value, "write_again");
-                }
-            }
-            Merged::Older | Merged::Refused => {}
-        }
-    }
-
-    /// Takes note of another memory.
-    fn heard(&mut self, robot: &mut Robot<'_>, from: RobotId, theirs: Announcement) {
-        let is_equal = theirs.fingerprint == self.store.fingerprint()
-            && theirs.elements == self.store.len() as u32;
-        if is_equal {
-            self.gossip.equal = self.gossip.equal.saturating_add(1);
-            return;
-        }
-        self.gossip.differing = Some(from);
-        // Otherwise a write may be on its way.
-        let is_lasting = theirs.settled && self.is_settled(robot);
-        if is_lasting && self.gossip.is_slow(&self.options) && self.gossip.vain < MOST_VAIN {
-            self.gossip.vain += 1;
-            self.hurry(robot);
-        }
-    }
-
-    fn compare(&mut self, robot: &mut Robot<'_>, from: RobotId, parts: &[Part]) {
-        let settled = robot.now() - self.options.settling();
-        let Difference {
-            parts,
-            newer,
-            wanted,
-        } = compare::compare(&self.store, parts, settled);
-        self.repairs.extend(newer);
-        self.send_parts(robot, from, parts);
-        let mut wanted = wanted.into_iter().peekable();
-        for _ in 0..MOST_ANSWERS {
-            if wanted.peek().is_some() {
-                let keys = self.pack(&mut wanted, |_| KEY_BYTES);
-                self.send(robot, Destination::Robot(from), Content::Wanted(keys));
-            }
-        }
-    }
-
-    fn send_parts(&self, robot: &mut Robot<'_>, to: RobotId, parts: Vec<Part>) {
+    /// Shows another robot parts of this memory.
+    pub(super) fn send_parts(&self, robot: &mut Robot<'_>, to: RobotId, parts: Vec<Part>) {
         let mut parts = parts.into_iter().peekable();
         for _ in 0..MOST_ANSWERS {
             if parts.peek().is_some() {
@@ -225,14 +123,25 @@ impl SharedMemory {
         }
     }
 
+    /// Asks another robot for what it has under these keys.
+    pub(super) fn send_wanted(&self, robot: &mut Robot<'_>, to: RobotId, keys: Vec<u64>) {
+        let mut keys = keys.into_iter().peekable();
+        for _ in 0..MOST_ANSWERS {
+            if keys.peek().is_some() {
+                let packed = self.pack(&mut keys, |_| KEY_BYTES);
+                self.send(robot, Destination::Robot(to), Content::Wanted(packed));
+            }
+        }
+    }
+
     /// Compares memories soon.
-    fn hurry(&mut self, robot: &mut Robot<'_>) {
+    pub(super) fn hurry(&mut self, robot: &mut Robot<'_>) {
         let after = self.gossip.begin(&self.options, robot.random());
         robot.set_timer(self.timer(GOSSIP_TIMER), after);
     }
 
     /// Whether nothing has changed for so long that no write should be on its way.
-    fn is_settled(&self, robot: &Robot<'_>) -> bool {
+    pub(super) fn is_settled(&self, robot: &Robot<'_>) -> bool {
         self.changed <= robot.now() - self.options.settling()
     }
 
@@ -263,22 +172,5 @@ fn write(element: &Element) -> Write {
         single_writer: element.address.owner.is_some(),
         stamp: element.stamp,
         value: element.value.clone(),
-    }
-}
-
-fn address(write: &Write) -> Address {
-    Address {
-        variable: write.variable.as_str().into(),
-        owner: write.single_writer.then_some(write.stamp.writer),
-    }
-}
-
-fn element(write: Write, now: starl_core::Time) -> Element {
-    Element {
-        address: address(&write),
-        stamp: write.stamp,
-        value: write.value,
-        mine: false,
-        touched: now,
     }
 }
