@@ -1,10 +1,13 @@
 #!/bin/sh
-# The language's machine and PUC Lua 5.4 (Debian: apt-get install lua5.4), side by side on the same
-# programs: best and median milliseconds of 21 runs each.
+# Programs in the language and in PUC Lua 5.4 (Debian: apt-get install lua5.4), side by side: best and
+# median milliseconds of 21 runs each. `assembly` is what a person wrote for the language's machine.
 set -eu
 cd "$(dirname "$0")/.."
 
 echo "starl"
+cargo bench --quiet -p starl-lang --bench compiled | grep -E 'loop of|fib|list of'
+
+echo "assembly"
 cargo bench --quiet -p starl-lang --no-default-features --bench machine | grep -E 'loop of|fib|list of'
 
 echo "$(lua5.4 -v | cut -d' ' -f1-2)"

@@ -193,11 +193,11 @@ impl<'p> Body<'_, 'p> {
         rest: &'p [(Option<String>, Expression)],
         to: Slot,
     ) -> Compiled {
-        let mut pieces = pieces.split("{}").peekable();
+        let mut pieces = pieces.split("{}");
         let first = pieces.next().unwrap_or_default();
         self.text(to, first);
         let mut values = rest.iter();
-        while let Some(piece) = pieces.next() {
+        for piece in pieces {
             match values.next() {
                 Some((_, value)) => self.append_value(to.object_in_out(), value)?,
                 None => self.append_piece(to.object_in_out(), "{}")?,
