@@ -1,5 +1,5 @@
-//! How much memory a fleet takes that runs Race, and how long an activation of its programs takes,
-//! compiled by hand and native.
+//! How much memory a fleet takes that runs Race, and how long an activation of its programs takes, in
+//! StarL and in Rust.
 //!
 //! `cargo bench -p starl-lang --bench robot`
 
@@ -11,7 +11,7 @@
 #[path = "../tests/robot_support/mod.rs"]
 mod robot_support;
 
-use robot_support::{load, race::RACE};
+use robot_support::compile;
 use starl_core::effect::Effects;
 use starl_core::motion::{Body, Obstacles, Workspace};
 use starl_core::{
@@ -110,7 +110,8 @@ fn measure(name: &str, make: &dyn Fn() -> Box<dyn Program>) {
 
 /// Memory that was given back would be used again, so each fleet has a process to itself.
 fn main() {
-    let program = robot_support::program(&load(RACE));
+    let source = include_str!("../../../examples/race/race.starl");
+    let program = robot_support::program(&compile(source));
     match std::env::args().nth(1).as_deref() {
         Some("starl") => measure("Race in StarL", &|| Box::new(program.clone())),
         Some("rust") => measure("Race in Rust", &|| Box::new(starl_race::Race::default())),
