@@ -17,6 +17,8 @@ struct Given {
     places: Vec<Point>,
     finished: Vec<bool>,
     up: Vec<bool>,
+    /// The versions of the robots' states, if they are told.
+    versions: Option<Vec<u64>>,
 }
 
 impl Given {
@@ -30,12 +32,16 @@ impl Given {
             places: (0..robots).map(|x| Point::planar(x as f64, 0.0)).collect(),
             finished: vec![false; robots],
             up: vec![true; robots],
+            versions: None,
         }
     }
 
     fn set(&mut self, robot: usize, variable: &str, value: Value) {
         let state = self.states[robot].as_mut().expect("the robot has started");
         assert!(self.code.program().set(state, variable, &value));
+        if let Some(versions) = &mut self.versions {
+            versions[robot] += 1;
+        }
     }
 
     fn judge(&self) -> Judge {
@@ -50,6 +56,10 @@ impl Fleet for Given {
 
     fn state_of(&self, robot: RobotId) -> Option<&State> {
         self.states.get(robot.index())?.as_ref()
+    }
+
+    fn version(&self, robot: RobotId) -> Option<u64> {
+        Some(self.versions.as_ref()?[robot.index()])
     }
 
     fn pose(&self, robot: RobotId) -> Option<Pose> {
@@ -329,4 +339,58 @@ always listed: forall r: r in peers and now >= now and robot_name(r).size() == 6
     let violations = judge.observe(seconds(2), &fleet);
     assert_eq!(violations.len(), 1);
     assert_eq!(violations[0].name, "one");
+}
+
+#[test]
+fn judging_only_what_has_changed_makes_no_difference() {
+    let source = "program Changes
+
+x: Int = 0
+y: Int = 0
+other: RobotId? = none
+
+work()
+    eff x += 1; y += 1; other = me
+
+always small: x < 4
+always elsewhere: position.x < 2.5
+always other_small: forall r: r.other == none or (r.other!).x < 3
+eventually grows: x > 2 within 6s
+always follows: x > 0 leads_to y > 0 within 2s
+";
+    let mut random = starl_core::Random::keyed(5, &[]);
+    let mut seen = 0;
+    for _ in 0..200 {
+        let mut all = Given::new(source, 3);
+        let mut changed = Given::new(source, 3);
+        changed.versions = Some(vec![1; 3]);
+        let (mut judge, mut lazy) = (all.judge(), changed.judge());
+        for second in 0..10 {
+            for _ in 0..random.below(3) {
+                let robot = random.below(3) as usize;
+                let (name, value) = match random.below(3) {
+                    0 => ("x", Value::Int(i64::from(random.below(5)))),
+                    1 => ("y", Value::Int(i64::from(random.below(2)))),
+                    _ => (
+                        "other",
+                        Value::Some(Box::new(Value::Robot(RobotId(random.below(3))))),
+                    ),
+                };
+                all.set(robot, name, value.clone());
+                changed.set(robot, name, value);
+            }
+            if random.chance(0.1) {
+                let place = Point::planar(f64::from(random.below(4)), 0.0);
+                let robot = random.below(3) as usize;
+                (all.places[robot], changed.places[robot]) = (place, place);
+            }
+            let violations = judge.observe(seconds(second), &all);
+            seen += violations.len();
+            assert_eq!(lazy.observe(seconds(second), &changed), violations);
+            for property in 0..judge.properties().len() {
+                assert_eq!(lazy.standing(property), judge.standing(property));
+            }
+        }
+    }
+    assert!(seen > 500, "{seen} violations");
 }

@@ -35,6 +35,8 @@ pub struct RobotHost<'a, 'r> {
     pub bound: &'a mut [Slot],
     /// Whether the program has said that it cannot go on.
     pub failed: bool,
+    /// Whether an action has fired.
+    pub has_fired: bool,
 }
 
 impl<'a, 'r> Context<'a, 'r> {
@@ -133,6 +135,7 @@ impl Host for RobotHost<'_, '_> {
     }
 
     fn fires(&mut self, action: u32) {
+        self.has_fired = true;
         let actions = &self.context.code.program().bytecode().actions;
         if let Some(action) = actions.get(action as usize) {
             self.context.robot.action(action.name.clone());

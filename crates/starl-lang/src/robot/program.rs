@@ -11,6 +11,7 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::any::Any;
 use core::mem;
+use starl_core::random::hash_key;
 use starl_core::{Input, Message, Payload, Port, Primitive, Program, Random, Robot};
 use starl_primitives::SharedMemory;
 use starl_primitives::shared_memory::Options;
@@ -29,6 +30,8 @@ pub struct RobotProgram {
     shared: Option<Box<SharedMemory>>,
     /// Events of primitives that wait for their handlers: the instance's number and what happened.
     reports: Vec<(u32, Report)>,
+    /// See [`RobotProgram::version`].
+    version: u64,
     phase: Phase,
 }
 
@@ -53,6 +56,7 @@ impl RobotProgram {
             code: code.clone(),
             shared: None,
             reports: Vec::new(),
+            version: 0,
             phase: Phase::New,
         })
     }
@@ -60,6 +64,12 @@ impl RobotProgram {
     /// Its variables.
     pub fn state(&self) -> &State {
         &self.state
+    }
+
+    /// A number that is another one whenever its variables may have changed, those of an earlier run
+    /// of the robot included.
+    pub fn version(&self) -> u64 {
+        self.version
     }
 
     /// What it runs.
@@ -85,12 +95,17 @@ impl RobotProgram {
             context: Context::new(code, robot, memo, &mut self.shared),
             bound: &mut self.bound,
             failed: false,
+            has_fired: false,
         };
+        let is_told = !reports.is_empty() || !matches!(part, Part::Actions);
         let (program, limits) = (code.program(), Limits::default());
         let mut machine = Machine::new(program, &mut self.state, workspace, &mut host, limits);
         let result = handle_reports(code.instances(), &reports, &mut machine)
             .and_then(|()| part.run(code, &mut machine));
         let has_failed = host.failed;
+        if host.has_fired || is_told {
+            self.version += 1;
+        }
         if let Err(error) = result {
             robot.halt();
             if !has_failed {
@@ -155,6 +170,8 @@ fn handle_reports(
 impl Program for RobotProgram {
     fn start(&mut self, robot: &mut Robot<'_>) {
         self.phase = Phase::Running;
+        // Far from the numbers of earlier runs.
+        self.version = 1 + (hash_key(robot.now().0, &[self.version]) >> 1);
         self.bound.fill_with(|| None);
         self.reports.clear();
         let memory = self.code.memory();
@@ -197,6 +214,7 @@ impl Program for RobotProgram {
     }
 
     fn corrupt(&mut self, random: &mut Random) {
+        self.version += 1;
         corruption::corrupt(self.code.program(), &mut self.state, random);
         if let Some(memory) = &mut self.shared {
             memory.corrupt(random);

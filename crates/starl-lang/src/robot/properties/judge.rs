@@ -6,7 +6,7 @@
 use super::Fleet;
 use super::observables::Court;
 use super::violation::{Reason, Violation, read_variables};
-use crate::machine::{Claim, Limits, Machine, Property};
+use crate::machine::{Claim, Limits, Machine, Property, Workspace};
 use crate::robot::code::Code;
 use crate::robot::workbench::Workbench;
 use alloc::collections::{BTreeMap, BTreeSet};
@@ -34,8 +34,16 @@ pub struct Judge {
     code: Code,
     dockets: Vec<Docket>,
     bench: Workbench,
+    /// The robots that have started.
     roster: Row,
+    /// The versions of their states; [`UNKNOWN`] where they are not known.
+    versions: Vec<u64>,
 }
+
+/// In the place of a version: nothing is known.
+const UNKNOWN: u64 = 0;
+/// In the place of a version: there is nothing more to judge.
+const CLOSED: u64 = u64::MAX;
 
 /// What is remembered of one property.
 #[derive(Clone, Debug, Default)]
@@ -52,6 +60,10 @@ struct Docket {
     waiting: BTreeMap<Row, Time>,
     /// Whether some row has not seen what is to come.
     lacks: bool,
+    /// For a property of single robots the version of each one's state, in the order of the roster,
+    /// at which nothing was out of the ordinary and nothing else was looked at: while it is the same
+    /// the robot need not be judged again.
+    marks: Vec<u64>,
 }
 
 impl Judge {
@@ -66,6 +78,7 @@ impl Judge {
             dockets: bytecode.properties.iter().map(docket).collect(),
             bench: Workbench::default(),
             roster: Row::new(),
+            versions: Vec::new(),
             code: code.clone(),
         }
     }
@@ -84,10 +97,7 @@ impl Judge {
     /// counts from the start of the run. Gives what does not hold and has not been reported.
     pub fn observe(&mut self, now: Time, fleet: &dyn Fleet) -> Vec<Violation> {
         let mut violations = Vec::new();
-        self.roster.clear();
-        let robots = fleet.robots().iter().copied();
-        let started = robots.filter(|robot| fleet.state_of(*robot).is_some());
-        self.roster.extend(started);
+        self.call_roll(fleet);
         let bytecode = self.code.program().bytecode();
         for ((index, property), docket) in bytecode
             .properties
@@ -104,8 +114,11 @@ impl Judge {
                     all: None,
                     memo: &mut self.bench.memo,
                     last: Cell::new(None),
+                    first: None,
+                    looked_elsewhere: Cell::new(false),
                 },
                 workspace: &mut self.bench.workspace,
+                versions: &self.versions,
                 property,
                 index,
                 docket,
@@ -114,6 +127,27 @@ impl Judge {
             hearing.run();
         }
         violations
+    }
+
+    /// Sees who has started, and what states there are.
+    fn call_roll(&mut self, fleet: &dyn Fleet) {
+        let robots = fleet.robots().iter().copied();
+        let started = || {
+            robots
+                .clone()
+                .filter(|robot| fleet.state_of(*robot).is_some())
+        };
+        if !started().eq(self.roster.iter().copied()) {
+            self.roster.clear();
+            self.roster.extend(started());
+            self.dockets
+                .iter_mut()
+                .for_each(|docket| docket.marks.clear());
+        }
+        self.versions.clear();
+        let versions = self.roster.iter().map(|&robot| fleet.version(robot));
+        self.versions
+            .extend(versions.map(|version| version.unwrap_or(UNKNOWN)));
     }
 
     /// How a property stands, by its place among [`Judge::properties`].
@@ -153,7 +187,8 @@ impl Judge {
 /// One property before the court.
 struct Hearing<'a> {
     court: Court<'a>,
-    workspace: &'a mut crate::machine::Workspace,
+    workspace: &'a mut Workspace,
+    versions: &'a [u64],
     property: &'a Property,
     index: usize,
     docket: &'a mut Docket,
@@ -168,6 +203,9 @@ impl Hearing<'_> {
         }
         self.docket.judged = true;
         self.docket.lacks = false;
+        if size == 1 {
+            return self.run_singly();
+        }
         let mut places: Vec<usize> = alloc::vec![0; size];
         let mut row: Row = Row::new();
         loop {
@@ -190,8 +228,51 @@ impl Hearing<'_> {
         }
     }
 
+    /// Judges the property of each robot whose state has changed, or that waits for something.
+    fn run_singly(&mut self) {
+        let (roster, versions) = (self.court.roster, self.versions);
+        let mut marks = core::mem::take(&mut self.docket.marks);
+        marks.resize(roster.len(), UNKNOWN);
+        for ((robot, &version), mark) in roster.iter().zip(versions).zip(&mut marks) {
+            if *mark == CLOSED {
+                continue;
+            }
+            if *mark == version && version != UNKNOWN && self.stays_ordinary() {
+                continue;
+            }
+            let row = core::slice::from_ref(robot);
+            if !self.docket.violated.contains(row) {
+                self.judge(row);
+            }
+            *mark = if self.is_closed(row) {
+                CLOSED
+            } else if self.court.looked_elsewhere.get() || self.docket.waiting.contains_key(row) {
+                UNKNOWN
+            } else {
+                version
+            };
+        }
+        self.docket.marks = marks;
+    }
+
+    /// What is said anew of a robot of which nothing has changed; false if it is to be judged again.
+    fn stays_ordinary(&mut self) -> bool {
+        if let Claim::Eventually { within, .. } = self.property.claim {
+            self.docket.lacks = true;
+            return within.is_none_or(|within| self.court.now <= Time(within));
+        }
+        true
+    }
+
+    /// Whether nothing can change any more for the row.
+    fn is_closed(&self, row: &[RobotId]) -> bool {
+        self.docket.violated.contains(row) || self.docket.settled.contains(row)
+    }
+
     /// Judges the property of one row of robots; nothing, if it cannot be judged any more.
     fn judge(&mut self, row: &[RobotId]) {
+        self.court.first = row.first().copied();
+        self.court.looked_elsewhere.set(false);
         let judged = match self.property.claim {
             Claim::Always(holds) => self.always(holds, row),
             Claim::Eventually { holds, within } => self.eventually(holds, within, row),

@@ -35,6 +35,13 @@ pub trait Fleet {
     /// or does not run the program.
     fn state_of(&self, robot: RobotId) -> Option<&State>;
 
+    /// A number that is another one whenever a robot's variables have other values, if there is such a
+    /// number: robots of whom nothing has changed need not be judged anew.
+    fn version(&self, robot: RobotId) -> Option<u64> {
+        let _ = robot;
+        None
+    }
+
     /// A robot's true pose; none if there is no such robot.
     fn pose(&self, robot: RobotId) -> Option<Pose>;
 

@@ -25,6 +25,10 @@ pub struct Court<'a> {
     pub memo: &'a mut Memo,
     /// The robot that was asked about last.
     pub last: Cell<Option<RobotId>>,
+    /// The robot that the row of robots begins with.
+    pub first: Option<RobotId>,
+    /// Whether anything else was looked at than this robot's state.
+    pub looked_elsewhere: Cell<bool>,
 }
 
 /// What properties may ask.
@@ -156,6 +160,7 @@ fn all(court: &mut Court<'_>, call: &mut HostCall<'_>) -> Called {
 
 impl Host for Court<'_> {
     fn call(&mut self, function: u32, call: &mut HostCall<'_>) -> Called {
+        self.looked_elsewhere.set(true);
         let joint = self.code.joint(function);
         match joint.and_then(|joint| joint.in_property) {
             Some(run) => run(self, call),
@@ -165,6 +170,9 @@ impl Host for Court<'_> {
 
     fn state_of(&self, robot: RobotId) -> Option<&State> {
         self.last.set(Some(robot));
+        if self.first != Some(robot) {
+            self.looked_elsewhere.set(true);
+        }
         self.fleet.state_of(robot)
     }
 }
