@@ -130,7 +130,7 @@ impl From<Problems> for Refusal {
 }
 
 impl Refusal {
-    /// How many errors the compiler has found, and in which files.
+    /// The files in which the compiler has found errors.
     pub fn broken_files(&self) -> impl Iterator<Item = &Findings> {
         self.findings
             .iter()
@@ -141,7 +141,7 @@ impl Refusal {
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for findings in self.broken_files() {
-            f.write_str(&findings.render(Colour::Off))?;
+            f.write_str(&findings.render(&findings.name, Colour::Off))?;
         }
         write!(f, "{}", Problems(self.problems.clone()))
     }

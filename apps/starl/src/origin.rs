@@ -7,6 +7,7 @@
 use crate::output::identity;
 use crate::target;
 use starl_catalog::examples::Example;
+use starl_catalog::language::Findings;
 use starl_sim::read::Loader;
 use std::path::{Component, Path, PathBuf};
 
@@ -80,6 +81,14 @@ impl Origin {
         match &self.scenario {
             Scenario::File(scenario) => between(&identity(scenario), &identity(program)),
             _ => format!("{BESIDE}{}", name.display()),
+        }
+    }
+
+    /// What people call the file that something was found in.
+    pub fn name(&self, findings: &Findings) -> String {
+        match self.path(&findings.path) {
+            Some(path) => path.display().to_string(),
+            None => findings.name.clone(),
         }
     }
 

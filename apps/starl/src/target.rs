@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::origin::Origin;
 use crate::output::reason;
 use starl_catalog::examples::{self, DEFAULT_SCENARIO, EXAMPLES};
-use starl_catalog::language::SUFFIX;
+use starl_catalog::language::{Findings, SUFFIX};
 use starl_catalog::{Application, Refusal};
 use starl_sim::read::{Inputs, Override, Request, Source, suggest};
 use std::fs::File;
@@ -50,12 +50,13 @@ pub fn read(arguments: &RunArguments) -> Result<Selection, Failure> {
         faults,
         ..Request::new(scenario)
     };
-    let application = starl_catalog::read(&request, &origin).map_err(refused)?;
+    let application = starl_catalog::read(&request, &origin)
+        .map_err(|refusal| tell(&refusal, |findings| origin.name(findings)))?;
     if let Some(key) = key {
         check_that_it_runs(&arguments.target, &key, &application)?;
     }
     if !arguments.quiet {
-        warn(&application);
+        warn(&application, &origin);
     }
     let files = files(arguments, &origin, &application.resolved().inputs);
     Ok(Selection { application, files })
@@ -70,19 +71,26 @@ fn files(arguments: &RunArguments, origin: &Origin, inputs: &Inputs) -> Vec<Path
 }
 
 /// Tells of warnings, once.
-fn warn(application: &Application) {
+fn warn(application: &Application, origin: &Origin) {
     for findings in application.warnings() {
-        console::complain(&findings.render(console::colour_of_errors()));
+        let text = findings.render(&origin.name(findings), console::colour_of_errors());
+        console::complain(&text);
     }
 }
 
 /// Tells of programs with errors, each with its lines; the failure sums them up.
 pub fn refused(refusal: Refusal) -> Failure {
+    tell(&refusal, |findings| findings.name.clone())
+}
+
+/// The same, where `name` is what a file is called.
+fn tell(refusal: &Refusal, name: impl Fn(&Findings) -> String) -> Failure {
     let mut sums = Vec::new();
     for findings in refusal.broken_files() {
-        console::complain(&findings.render(console::colour_of_errors()));
+        let name = name(findings);
+        console::complain(&findings.render(&name, console::colour_of_errors()));
         let errors = console::counted(findings.errors(), "error");
-        sums.push(format!("{}: {errors}", findings.name));
+        sums.push(format!("{name}: {errors}"));
     }
     sums.extend(refusal.problems.iter().map(ToString::to_string));
     Failure(sums.join("\n"))

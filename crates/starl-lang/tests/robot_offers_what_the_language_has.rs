@@ -24,6 +24,15 @@ impl Types {
         Type::Object(index as u16)
     }
 
+    /// An enum of the prelude; no function takes more than one.
+    fn variants(&mut self, name: &str, variants: &[&str]) -> Type {
+        self.0.enums = vec![Enum {
+            name: name.into(),
+            variants: variants.iter().map(ToString::to_string).collect(),
+        }];
+        Type::Enum(0)
+    }
+
     fn of(&mut self, shape: &Shape) -> Type {
         match shape {
             Shape::Named("Bool") => Type::Bool,
@@ -36,12 +45,9 @@ impl Types {
             Shape::Named("String") => self.object(ObjectType::Text),
             Shape::Named("Area") => self.object(ObjectType::Area),
             Shape::Named("Obstacles") => self.object(ObjectType::Obstacles),
-            Shape::Named("Side") => {
-                self.0.enums = vec![Enum {
-                    name: "Side".into(),
-                    variants: ["left", "right", "both"].map(String::from).to_vec(),
-                }];
-                Type::Enum(0)
+            Shape::Named("Side") => self.variants("Side", &["left", "right", "both"]),
+            Shape::Named("Planner") => {
+                self.variants("Planner", &["auto", "rrt", "rrt_connect", "rrt_star"])
             }
             Shape::Named("Detection") => {
                 let optional = |kind| Type::Optional(Box::new(kind));

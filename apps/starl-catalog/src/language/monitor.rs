@@ -69,15 +69,24 @@ struct Members<'a> {
     robots: &'a [RobotId],
 }
 
+impl Members<'_> {
+    fn program(&self, robot: RobotId) -> Option<&RobotProgram> {
+        self.witness.program(robot)?.downcast_ref()
+    }
+}
+
 impl Fleet for Members<'_> {
     fn robots(&self) -> &[RobotId] {
         self.robots
     }
 
     fn state_of(&self, robot: RobotId) -> Option<&State> {
-        let program = self.witness.program(robot)?;
-        let program = program.downcast_ref::<RobotProgram>()?;
+        let program = self.program(robot)?;
         program.has_started().then(|| program.state())
+    }
+
+    fn version(&self, robot: RobotId) -> Option<u64> {
+        self.program(robot).map(RobotProgram::version)
     }
 
     fn pose(&self, robot: RobotId) -> Option<Pose> {

@@ -13,7 +13,10 @@ use std::fmt;
 /// What the compiler has found in a file; errors, warnings or both.
 #[derive(Clone, Debug)]
 pub struct Findings {
-    /// What people call the file: its path beside that of the scenario.
+    /// The file's path from the scenario's folder.
+    pub path: String,
+    /// What people call the file where the loader knows no better name: its path beside that of the
+    /// scenario.
     pub name: String,
     /// Its text.
     pub source: String,
@@ -49,9 +52,9 @@ impl Findings {
             .count()
     }
 
-    /// How people read them: each with the lines that it is about.
-    pub fn render(&self, colour: Colour) -> String {
-        render(&self.name, &self.source, &self.diagnostics, colour)
+    /// How people read them: each with the lines that it is about. `name` is what the file is called.
+    pub fn render(&self, name: &str, colour: Colour) -> String {
+        render(name, &self.source, &self.diagnostics, colour)
     }
 }
 
@@ -86,6 +89,7 @@ pub fn compile(
         Ok(bytecode) => bytecode,
         Err(diagnostics) => {
             findings.push(Findings {
+                path: path.to_string(),
                 name: beside(scenario, path),
                 source: text,
                 diagnostics,
@@ -106,10 +110,14 @@ fn findings(checked: &Checked, path: &str, scenario: &str) -> Vec<Findings> {
     let files = checked.files.iter().enumerate();
     let found = files.filter(|(_, file)| !file.diagnostics.is_empty());
     found
-        .map(|(number, file)| Findings {
-            name: beside(scenario, &path_of(number, file, path)),
-            source: file.source.clone(),
-            diagnostics: file.diagnostics.clone(),
+        .map(|(number, file)| {
+            let path = path_of(number, file, path);
+            Findings {
+                name: beside(scenario, &path),
+                path,
+                source: file.source.clone(),
+                diagnostics: file.diagnostics.clone(),
+            }
         })
         .collect()
 }

@@ -70,11 +70,10 @@ impl Reader<'_> {
                 Value::Robot(self.fleet.find(robot).ok_or_else(unfit)?)
             }
             (Type::Enum(number), Parameter::Text(variant)) => {
-                let variants = self.variants(*number);
-                let known = variants.contains(variant);
-                known
-                    .then(|| Value::Variant(variant.clone()))
-                    .ok_or_else(unfit)?
+                // Scenarios write `rrt-connect` where a program has to write `rrt_connect`.
+                let same = |known: &&String| **known == variant.replace('-', "_");
+                let known = self.variants(*number).iter().find(same);
+                Value::Variant(known.ok_or_else(unfit)?.clone())
             }
             (Type::Point, Parameter::List(parts)) => Value::Point(point(parts).ok_or_else(unfit)?),
             (Type::Optional(kind), given) => Value::Some(Box::new(self.value(given, kind, name)?)),

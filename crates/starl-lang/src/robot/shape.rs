@@ -5,6 +5,7 @@
 use crate::machine::{Bytecode, Enum, Import, ObjectType, Type};
 use alloc::string::String;
 use alloc::vec::Vec;
+use starl_core::motion::Planner;
 
 /// A type that a function of the host takes or gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,6 +32,8 @@ pub enum Shape {
     Obstacles,
     /// The enum `Side` of the prelude.
     Side,
+    /// The enum `Planner` of the prelude.
+    Planner,
     /// The record `Detection` of the prelude.
     Detection,
     /// A list.
@@ -64,6 +67,14 @@ pub struct Signature {
 
 /// The sides of a robot, as the prelude has them.
 pub const SIDES: [&str; 3] = ["left", "right", "both"];
+
+/// The planners, as the prelude has them.
+pub const PLANNERS: [(&str, Planner); 4] = [
+    ("auto", Planner::Auto),
+    ("rrt", Planner::Rrt),
+    ("rrt_connect", Planner::RrtConnect),
+    ("rrt_star", Planner::RrtStar),
+];
 
 /// The types that bytecode declares.
 pub struct Declared {
@@ -133,6 +144,9 @@ impl Declared {
             | (Shape::Point, Type::Point)
             | (Shape::Message, Type::Record(_)) => true,
             (Shape::Side, Type::Enum(index)) => self.variants(*index) == SIDES,
+            (Shape::Planner, Type::Enum(index)) => {
+                self.variants(*index) == PLANNERS.map(|(name, _)| name)
+            }
             (Shape::Detection, Type::Record(fields)) => {
                 let kinds: Vec<Type> = fields.iter().map(|(_, kind)| kind.clone()).collect();
                 const PARTS: [Shape; 3] = [

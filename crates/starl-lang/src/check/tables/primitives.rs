@@ -57,7 +57,7 @@ const FAILED: &[Event] = &[Event {
 /// All primitives.
 pub const PRIMITIVES: &[Primitive] = &[
     Primitive {
-        constructor: "ReachAvoid(vicinity?: Float, pass_radius?: Float, off_path?: Float, stuck_after?: Duration, most_replans?: Int)",
+        constructor: "ReachAvoid(vicinity?: Float, pass_radius?: Float, off_path?: Float, stuck_after?: Duration, most_replans?: Int, planner?: Planner, most_nodes?: Int)",
         members: &[
             member(
                 "reach_avoid(target: Point, unsafe: Obstacles)",

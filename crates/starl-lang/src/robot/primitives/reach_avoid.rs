@@ -2,7 +2,7 @@
 
 use super::{Arguments, Context, Instance, Kind, Member, method, query};
 use crate::machine::Body;
-use crate::robot::shape::Shape;
+use crate::robot::shape::{PLANNERS, Shape};
 use alloc::borrow::Cow;
 use starl_core::{Primitive, Robot};
 use starl_primitives::ReachAvoid;
@@ -11,12 +11,15 @@ use starl_primitives::reach_avoid::Options;
 impl Kind for ReachAvoid {
     const NAME: &'static str = "ReachAvoid";
 
-    /// Vicinity, pass radius and distance off the path, metres; time without progress; re-plans.
+    /// Vicinity, pass radius and distance off the path, metres; time without progress; re-plans; the
+    /// planner and how large its tree may be.
     const CONSTRUCTOR: &'static [Shape] = &[
         Shape::Optional(&Shape::Float),
         Shape::Optional(&Shape::Float),
         Shape::Optional(&Shape::Float),
         Shape::Optional(&Shape::Duration),
+        Shape::Optional(&Shape::Int),
+        Shape::Optional(&Shape::Planner),
         Shape::Optional(&Shape::Int),
     ];
 
@@ -67,11 +70,15 @@ impl Kind for ReachAvoid {
             stuck_after: arguments
                 .optional(Arguments::duration)
                 .unwrap_or(default.stuck_after),
-            most_replans: match arguments.optional(Arguments::int) {
-                None => default.most_replans,
-                Some(number @ 0..) => u32::try_from(number).unwrap_or(u32::MAX),
-                Some(_) => return Err("`most_replans` is less than 0".into()),
+            most_replans: count(arguments, "most_replans", default.most_replans)?,
+            planner: match arguments.optional(Arguments::int) {
+                None => default.planner,
+                Some(variant) => {
+                    let planner = PLANNERS.get(variant as usize);
+                    planner.ok_or("there is no such planner")?.1
+                }
             },
+            most_nodes: count(arguments, "most_nodes", default.most_nodes)?,
             ..default
         };
         if options.stuck_after.is_zero() {
@@ -88,6 +95,19 @@ impl Kind for ReachAvoid {
         if self.active() {
             self.stop(robot);
         }
+    }
+}
+
+/// A number, which may be 0.
+fn count(
+    arguments: &mut Arguments<'_>,
+    name: &str,
+    default: u32,
+) -> Result<u32, Cow<'static, str>> {
+    match arguments.optional(Arguments::int) {
+        None => Ok(default),
+        Some(number @ 0..) => Ok(u32::try_from(number).unwrap_or(u32::MAX)),
+        Some(_) => Err(alloc::format!("`{name}` is less than 0").into()),
     }
 }
 
