@@ -131,10 +131,38 @@ fn a_robot_that_loses_what_it_showed_is_to_show_it_again() {
 
 #[test]
 fn a_robot_that_joins_late_is_owed_what_there_is() {
+    for (joined, late) in [(30_000, 35_000), (3000, 8000)] {
+        let mut story = robot_2_shows_nothing();
+        story.shows(1030, 2, "update", "x", (1000, 0, 5));
+        story.shares(joined, 3);
+        let verdict = story.verdict(60_000);
+        assert_only(&verdict, PROPERTY, late, &[0, 3]);
+        assert_eq!(
+            verdict[0].text,
+            "robot 3 did not come to show what robot 0 wrote to x at 1.000s within 5s"
+        );
+    }
+}
+
+/// Of many writes that a robot could not get to know it is owed the latest.
+#[test]
+fn what_was_written_while_it_was_apart_is_one_debt() {
     let mut story = robot_2_shows_nothing();
-    story.shows(1030, 2, "update", "x", (1000, 0, 5));
-    story.shares(30_000, 3);
-    assert_only(&story.verdict(60_000), PROPERTY, 35_000, &[0, 3]);
+    story.fault(900, None, "partition");
+    story.sends(1000, 0, 0, 1);
+    for second in 2..15 {
+        let write = (second * 1000, 0, second as i64);
+        story.shows(second * 1000, 0, "write", "x", write);
+        story.shows(second * 1000 + 30, 1, "update", "x", write);
+    }
+    story.fault(20_000, None, "heal");
+    let verdict = story.verdict(60_000);
+    assert_only(&verdict, PROPERTY, 25_000, &[0, 2]);
+    assert!(
+        verdict[0].text.contains("at 14.000s"),
+        "{}",
+        verdict[0].text
+    );
 }
 
 #[test]

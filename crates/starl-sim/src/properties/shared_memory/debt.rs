@@ -1,7 +1,7 @@
 //! What robots are yet to show, and by when.
 
 use super::element::{Element, Shown, Stamp};
-use super::{CONVERGENCE, Memory, SharedMemory};
+use super::{CONVERGENCE, SharedMemory};
 use crate::properties::{Violation, robot_list};
 use starl_core::{Port, RobotId, Time};
 use std::fmt;
@@ -70,9 +70,14 @@ impl SharedMemory {
         let is_latest = element.latest().is_none_or(|latest| latest <= debt.stamp);
         let (mut late, mut due) = (Vec::new(), Vec::new());
         let mut everyone = debt.to.is_none();
-        let robots = memory.members.keys().copied();
-        for robot in robots.filter(|&robot| debt.to.is_none_or(|to| to == robot)) {
-            match self.judge(robot, debt, memory, element, now) {
+        // Who has come since has debts of its own.
+        let members = memory.members.iter();
+        let robots = members.filter_map(|(&robot, &joined)| match debt.to {
+            None => (joined <= debt.written).then_some(robot),
+            Some(to) => (to == robot).then_some(robot),
+        });
+        for robot in robots {
+            match self.judge(robot, debt, element, now) {
                 Verdict::Settled => continue,
                 Verdict::Late => late.push(robot),
                 // A later write is to be shown too, and stands for this one.
@@ -107,23 +112,13 @@ impl SharedMemory {
     }
 
     /// Whether a robot shows a write, or who owes it to it since when.
-    fn judge(
-        &self,
-        robot: RobotId,
-        debt: &Debt,
-        memory: &Memory,
-        element: &Element,
-        now: Time,
-    ) -> Verdict {
+    fn judge(&self, robot: RobotId, debt: &Debt, element: &Element, now: Time) -> Verdict {
         let shown = element.shown.get(&robot);
         if shown.is_some_and(|shown| shown.may_be_at_least(debt.stamp)) {
             return Verdict::Settled;
         }
         // Since when a robot has been in a state to keep the promise.
-        let ready = |robot| {
-            let joined = memory.members.get(&robot).copied().unwrap_or(Time::NEVER);
-            self.health.well_from(robot).max(joined)
-        };
+        let ready = |robot| self.health.well_from(robot);
         let holders = element.shown.iter().filter_map(|(&holder, shown)| {
             let Shown::Write(stamp, since) = *shown else {
                 return None;
@@ -141,7 +136,7 @@ impl SharedMemory {
         let Some(owed_since) = holders.min() else {
             return Verdict::Settled;
         };
-        let owed_since = owed_since.max(ready(robot)).max(debt.written);
+        let owed_since = owed_since.max(ready(robot));
         if owed_since == Time::NEVER {
             // Nobody can show it to it now.
             return Verdict::Due(now + self.bound);

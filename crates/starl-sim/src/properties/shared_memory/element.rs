@@ -33,8 +33,8 @@ impl Shown {
 /// An element.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Element {
-    /// The value of each write, as a hash, from `oldest` on.
-    written: BTreeMap<Stamp, i64>,
+    /// The value of each write, as a hash, and when it was written, from `oldest` on.
+    written: BTreeMap<Stamp, (i64, Time)>,
     /// Earlier writes are forgotten: everyone has shown later ones.
     oldest: Option<Stamp>,
     pub shown: BTreeMap<RobotId, Shown>,
@@ -42,13 +42,20 @@ pub(super) struct Element {
 
 impl Element {
     /// Takes note of a write.
-    pub fn write(&mut self, stamp: Stamp, value: i64) {
-        self.written.insert(stamp, value);
+    pub fn write(&mut self, stamp: Stamp, value: i64, at: Time) {
+        self.written.insert(stamp, (value, at));
+    }
+
+    /// When it was written; none where that is forgotten.
+    pub fn written_at(&self, stamp: Stamp) -> Option<Time> {
+        self.written.get(&stamp).map(|&(_, at)| at)
     }
 
     /// Whether this was written; where that is forgotten, it counts as so.
     pub fn was_written(&self, stamp: Stamp, value: i64) -> bool {
-        self.oldest.is_some_and(|oldest| stamp < oldest) || self.written.get(&stamp) == Some(&value)
+        let known = self.written.get(&stamp);
+        self.oldest.is_some_and(|oldest| stamp < oldest)
+            || known.is_some_and(|&(known, _)| known == value)
     }
 
     /// Takes note of what a robot shows from now on; gives the later write that it showed before.

@@ -97,7 +97,7 @@ impl SharedMemory {
             });
         }
         if is_new {
-            element.write(stamp, value);
+            element.write(stamp, value, at);
         }
         if let Some(before) = element.show(robot, stamp, at) {
             found.push(Violation {
@@ -134,14 +134,15 @@ impl SharedMemory {
             named.map(move |(&owner, element)| (variable.clone(), owner, element))
         });
         let latest = elements.filter_map(|(variable, owner, element)| {
+            let stamp = element.latest()?;
             Some(Debt {
                 address: Address {
                     port,
                     variable,
                     owner,
                 },
-                stamp: element.latest()?,
-                written: at,
+                stamp,
+                written: element.written_at(stamp).unwrap_or(at),
                 to: Some(robot),
             })
         });
