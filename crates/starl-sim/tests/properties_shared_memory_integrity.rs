@@ -85,19 +85,39 @@ fn other_faults_excuse_nothing() {
     }
 }
 
-/// Everyone has long shown later writes; a datagram that was under way all that time is no forgery.
+/// Everyone has long shown later writes, so a datagram that was under way all that time is no forgery; what
+/// is forgotten counts as written.
 #[test]
 fn old_writes_need_not_be_remembered() {
-    let mut story = Story::of_ground_robots(2);
-    for second in 1..100 {
-        let write = (second * 1000, 0, second as i64);
-        story.shows(second * 1000, 0, "write", "x", write);
-        story.shows(second * 1000 + 30, 1, "update", "x", write);
-    }
-    story.fault(99_500, Some(1), "crash");
-    story.fault(99_600, Some(1), "restart");
-    story.shares(99_700, 1);
-    story.shows(99_800, 1, "update", "x", (2000, 0, 2));
-    story.shows(99_900, 1, "update", "x", (99_000, 0, 99));
-    assert_none(&story.verdict(200_000));
+    let story = |value| {
+        let mut story = Story::of_ground_robots(2);
+        for second in 1..100 {
+            let write = (second * 1000, 0, second as i64);
+            story.shows(second * 1000, 0, "write", "x", write);
+            story.shows(second * 1000 + 30, 1, "update", "x", write);
+        }
+        story.fault(99_500, Some(1), "crash");
+        story.fault(99_600, Some(1), "restart");
+        story.shares(99_700, 1);
+        story.shows(99_800, 1, "update", "x", (2000, 0, value));
+        story.shows(99_900, 1, "update", "x", (99_000, 0, 99));
+        story
+    };
+    assert_none(&story(2).verdict(200_000));
+    assert_none(&story(77).verdict(200_000));
+}
+
+#[test]
+fn they_are_remembered_while_one_robot_shows_earlier_ones() {
+    let mut story = one_write();
+    story.shares(0, 1);
+    story.shares(0, 2);
+    story.shows(1030, 2, "update", "x", (1000, 0, 5));
+    story.fault(1100, None, "partition");
+    story.sends(1200, 0, 0, 1);
+    story.shows(3000, 0, "write", "x", (3000, 0, 6));
+    story.shows(3030, 1, "update", "x", (3000, 0, 6));
+    story.shows(90_000, 2, "update", "x", (2000, 0, 7));
+    let verdict = story.verdict(100_000);
+    assert_only(&verdict, "shared_memory.integrity", 90_000, &[2, 0]);
 }
