@@ -15,10 +15,12 @@ use robot_support::compile;
 use starl_core::effect::Effects;
 use starl_core::motion::{Body, Obstacles, Workspace};
 use starl_core::{
-    Agent, Effect, Estimate, Input, MotionRequest, Point, Program, Random, RobotId, Sensors, Time,
-    View, WayPoint,
+    Agent, Effect, Estimate, Input, MotionRequest, Point, Pose, Program, Random, RobotId, Sensors,
+    Time, View, WayPoint,
 };
+use starl_lang::machine::State;
 use starl_lang::robot::RobotProgram;
+use starl_lang::robot::properties::{self, Judge};
 use std::time::Instant;
 
 const ROBOTS: u32 = 100_000;
@@ -108,12 +110,89 @@ fn measure(name: &str, make: &dyn Fn() -> Box<dyn Program>) {
     );
 }
 
+/// The fleet as a judge of its properties sees it.
+struct Seen<'a> {
+    fleet: &'a Fleet,
+    /// Whether the judge is told of whom nothing has changed.
+    tells_versions: bool,
+}
+
+impl Seen<'_> {
+    fn program(&self, robot: RobotId) -> Option<&RobotProgram> {
+        let agent = self.fleet.agents.get(robot.index())?;
+        agent.program().inspect()?.downcast_ref()
+    }
+}
+
+impl properties::Fleet for Seen<'_> {
+    fn robots(&self) -> &[RobotId] {
+        &self.fleet.ids
+    }
+
+    fn state_of(&self, robot: RobotId) -> Option<&State> {
+        self.program(robot).map(RobotProgram::state)
+    }
+
+    fn version(&self, robot: RobotId) -> Option<u64> {
+        let program = self.program(robot).filter(|_| self.tells_versions);
+        program.map(RobotProgram::version)
+    }
+
+    fn pose(&self, _: RobotId) -> Option<Pose> {
+        Some(Pose::default())
+    }
+
+    fn velocity(&self, _: RobotId) -> Option<Point> {
+        Some(Point::ZERO)
+    }
+
+    fn has_finished(&self, _: RobotId) -> bool {
+        false
+    }
+
+    fn is_up(&self, _: RobotId) -> bool {
+        true
+    }
+}
+
+/// How long it takes to judge Race's properties, all robots and those that have changed.
+fn measure_judge(program: &RobotProgram) {
+    let mut fleet = Fleet::new(&|| Box::new(program.clone()));
+    fleet.feed(&Input::Start);
+    fleet.feed(&Input::Activate);
+    for tells_versions in [false, true] {
+        let seen = Seen {
+            fleet: &fleet,
+            tells_versions,
+        };
+        let mut judge = Judge::new(program.code());
+        let mut times: Vec<f64> = (0..31)
+            .map(|_| {
+                let began = Instant::now();
+                assert_eq!(judge.observe(Time::ZERO, &seen), []);
+                began.elapsed().as_nanos() as f64 / f64::from(ROBOTS)
+            })
+            .collect();
+        times.sort_by(f64::total_cmp);
+        let of = if tells_versions {
+            "where nothing has changed"
+        } else {
+            "of all"
+        };
+        println!(
+            "Properties {of}: best {:.0} and median {:.0} ns a robot",
+            times[0], times[15]
+        );
+    }
+}
+
 /// Memory that was given back would be used again, so each fleet has a process to itself.
 fn main() {
     let source = include_str!("../../../examples/race/race.starl");
     let program = robot_support::program(&compile(source));
     match std::env::args().nth(1).as_deref() {
         Some("starl") => measure("Race in StarL", &|| Box::new(program.clone())),
+        Some("judge") => measure_judge(&program),
         Some("rust") => measure("Race in Rust", &|| Box::new(starl_race::Race::default())),
         _ => {
             println!(
@@ -121,7 +200,7 @@ fn main() {
                 size_of::<RobotProgram>(),
                 size_of::<starl_race::Race>()
             );
-            for fleet in ["starl", "rust"] {
+            for fleet in ["starl", "rust", "judge"] {
                 let this = std::env::current_exe().expect("this program has a path");
                 let run = std::process::Command::new(this).arg(fleet).status();
                 assert!(run.is_ok_and(|status| status.success()), "{fleet} failed");
