@@ -85,8 +85,7 @@ impl<'p> Body<'_, 'p> {
         if are_integers && self.with_constant(operator, left, right, to, is_fresh)? {
             return Ok(());
         }
-        let is_wide = *left_type != Type::Point || *right_type == Type::Point || is_fresh;
-        let spare = Some(to).filter(|_| is_fresh && is_wide);
+        let spare = Some(to).filter(|_| is_fresh);
         let left = self.left(left, spare)?;
         let right = self.value(right)?;
         let (to_scalar, l, r) = (to.output(), left.input(), right.input());

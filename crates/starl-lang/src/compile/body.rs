@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 
 use super::code::{Code, Label};
 use super::problem::{Compiled, Problem};
-use super::types::{Size, WIDEST};
+use super::types::{Size, Unsuitable, WIDEST};
 use super::unit::{Finished, Unit};
 use crate::diagnostic::{self, Span};
 use crate::ir::{self, Local, LocalId};
@@ -223,8 +223,13 @@ impl<'u, 'p> Body<'u, 'p> {
     /// The number of the type of an object.
     pub fn object_type(&mut self, ty: &ir::Type) -> Compiled<crate::machine::operand::Type> {
         let made = self.unit.types.object(ty);
-        let made = made.map_err(|why| self.unit.unsuitable(ty, why, self.file, self.span));
+        let made = made.map_err(|why| self.unsuitable(ty, why));
         made.map(crate::machine::operand::Type)
+    }
+
+    /// The problem that the machine does not take a type which is used here.
+    pub fn unsuitable(&self, ty: &ir::Type, why: Unsuitable) -> alloc::boxed::Box<Problem> {
+        self.unit.unsuitable(ty, why, self.file, self.span)
     }
 
     pub fn machine_type(&mut self, ty: &ir::Type) -> Compiled<Type> {
@@ -379,6 +384,6 @@ impl<'u, 'p> Body<'u, 'p> {
 
     pub fn parts(&mut self, ty: &ir::Type) -> Compiled<Vec<super::types::Part>> {
         let parts = self.unit.types.parts(ty);
-        parts.map_err(|why| self.unit.unsuitable(ty, why, self.file, self.span))
+        parts.map_err(|why| self.unsuitable(ty, why))
     }
 }

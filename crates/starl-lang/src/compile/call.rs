@@ -370,9 +370,17 @@ impl<'p> Body<'_, 'p> {
     }
 
     /// Tells the host the value of a shared variable, by one of its members.
-    pub fn tell_shared(&mut self, id: SharedId, member: &str, value: Slot) -> Compiled {
-        let ty = &self.unit.program[id].ty;
+    pub fn write_shared(&mut self, id: SharedId, member: &str, value: &'p Expression) -> Compiled {
         let import = self.shared_function(id, member, false);
+        let arguments = [self.shared_instance(id), Argument::Value(value)];
+        let nowhere = self.take(Size::NONE)?;
+        self.host(import, &arguments, &Type::Nothing, nowhere, false)
+    }
+
+    /// Tells the host the value of a shared variable that was changed in registers.
+    pub fn write_back_shared(&mut self, id: SharedId, value: Slot) -> Compiled {
+        let ty = &self.unit.program[id].ty;
+        let import = self.shared_function(id, "write", false);
         let mark = self.mark();
         let size = self.size(ty);
         let first = self.take(Size::SCALAR.plus(size))?;

@@ -1,6 +1,5 @@
 //! Declarations: the start of a program, its actions, handlers, roles and functions.
 
-use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -38,6 +37,20 @@ impl<'p> Unit<'p> {
         }
         body.end();
         Ok(Some(body.finish("defaults", Vec::new(), Vec::new())))
+    }
+
+    /// Notes the primitives that hosts do not have.
+    pub fn note_unavailable(&mut self) {
+        for binding in &self.program.bindings {
+            let Some(kind) = binding.primitive.filter(|kind| !kind.is_available) else {
+                continue;
+            };
+            let message = format!("robots do not have the primitive {} yet", kind.name());
+            let code = diagnostic::Code::UnavailablePrimitive;
+            let problem = Problem::new(code, binding.site.file, binding.site.span, message)
+                .note("the program can be checked, but it cannot run");
+            self.problems.push(*problem);
+        }
     }
 
     /// What a program does at its start.
@@ -318,9 +331,6 @@ impl<'p> Body<'_, 'p> {
         let Some(kind) = binding.primitive else {
             return Err(self.broken());
         };
-        if !kind.is_available {
-            return Err(unavailable(kind.name(), binding.site));
-        }
         self.part(&binding.locals, binding.site, |body| {
             let mut arguments = Vec::from([Argument::Int(number)]);
             let signature = Signature::read(kind.constructor);
@@ -343,8 +353,7 @@ impl<'p> Body<'_, 'p> {
             let nowhere = body.take(Size::NONE)?;
             body.host(import, &arguments, &Type::Nothing, nowhere, false)?;
             if let Some(initial) = &shared.initial {
-                let value = body.value(initial)?;
-                body.tell_shared(id, "initialize", value)?;
+                body.write_shared(id, "initialize", initial)?;
             }
             Ok(())
         })
@@ -375,12 +384,4 @@ impl<'p> Body<'_, 'p> {
         self.release(mark);
         Ok(())
     }
-}
-
-/// What is said of a primitive that hosts do not have.
-fn unavailable(name: &str, site: Site) -> Box<Problem> {
-    let message = format!("robots do not have the primitive {name} yet");
-    let code = diagnostic::Code::UnavailablePrimitive;
-    Problem::new(code, site.file, site.span, message)
-        .note("the program can be checked, but it cannot run")
 }

@@ -94,8 +94,7 @@ impl<'p> Body<'_, 'p> {
         if place.path.is_empty()
             && let Root::OwnElement(id) | Root::Shared(id) = &place.root
         {
-            let value = self.value(value)?;
-            return self.at(place.span, |body| body.tell_shared(*id, "write", value));
+            return self.at(place.span, |body| body.write_shared(*id, "write", value));
         }
         // Objects are moved into their place, so they must not be those of another variable.
         let size = self.size(&value.ty);
@@ -445,7 +444,7 @@ impl<'p> Body<'_, 'p> {
                     variable,
                     from: slot.object_in_out(),
                 }),
-                WriteBack::Shared(id, slot) => self.tell_shared(id, "write", slot)?,
+                WriteBack::Shared(id, slot) => self.write_back_shared(id, slot)?,
             }
         }
         Ok(())

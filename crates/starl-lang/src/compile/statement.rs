@@ -8,7 +8,7 @@ use super::problem::{Compiled, Problem};
 use super::types::Size;
 use super::unit::Routine;
 use crate::diagnostic;
-use crate::ir::{Expression, Statement, StatementKind};
+use crate::ir::{Expression, ExpressionKind, Statement, StatementKind};
 use crate::machine::operand::{Count, FunctionIndex, Slot as StateSlot};
 use crate::machine::{FunctionKind, Instruction};
 
@@ -160,7 +160,14 @@ impl<'p> Body<'_, 'p> {
         };
         let mark = self.mark();
         let size = self.size(&value.ty);
-        let from = if is_located(value) || size.objects == 0 {
+        let to = Slot {
+            scalar: 0,
+            object: 0,
+        };
+        let from = if size != Size::SCALAR && matches!(value.kind, ExpressionKind::None) {
+            self.into(value, to, true)?;
+            to
+        } else if is_located(value) || size.objects == 0 {
             self.value(value)?
         } else {
             let made = self.take(size)?;
@@ -174,10 +181,6 @@ impl<'p> Body<'_, 'p> {
             });
         } else {
             // Nothing is read after this, so that objects can be moved.
-            let to = Slot {
-                scalar: 0,
-                object: 0,
-            };
             self.move_value(to, from, size);
             self.leave(size);
         }

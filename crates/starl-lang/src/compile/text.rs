@@ -99,7 +99,8 @@ impl<'p> Body<'_, 'p> {
                 return Ok(());
             }
             Type::Enum(id) => {
-                let of = EnumIndex(self.unit.types.enumeration(*id));
+                let number = self.unit.types.enumeration(*id);
+                let of = EnumIndex(number.map_err(|why| self.unsuitable(ty, why))?);
                 self.emit(Instruction::AppendVariant { text, from, of });
                 return Ok(());
             }

@@ -70,6 +70,8 @@ pub(super) enum Unsuitable {
     TooDeep,
     /// A value, or an element with what belongs to it, takes too many registers.
     TooWide,
+    /// There are too many types already.
+    TooMany,
 }
 
 /// The most registers that a value may take.
@@ -77,6 +79,9 @@ pub(super) const WIDEST: Size = Size::new(255, 127);
 
 /// The deepest that the machine lets records, optionals or collections be nested.
 const DEEPEST: u32 = 31;
+
+/// The most types of objects, and the most enums, that a program may use.
+const MOST: usize = u16::MAX as usize - 1;
 
 /// The types that a program uses.
 pub(super) struct Types<'p> {
@@ -159,7 +164,7 @@ impl<'p> Types<'p> {
             ir::Type::Duration => Type::Duration,
             ir::Type::Robot => Type::Robot,
             ir::Type::Point => Type::Point,
-            ir::Type::Enum(id) => Type::Enum(self.enumeration(*id)),
+            ir::Type::Enum(id) => Type::Enum(self.enumeration(*id)?),
             ir::Type::Optional(inner) => Type::Optional(Box::new(self.nested(inner, depth + 1)?)),
             ir::Type::Record(id) => {
                 let fields = self.program[*id].fields.iter();
@@ -210,8 +215,11 @@ impl<'p> Types<'p> {
             ObjectType::List(part) | ObjectType::Set(part) => self.depth(part),
             ObjectType::Map(key, value) => self.depth(key).max(self.depth(value)),
         };
-        if depth > DEEPEST || self.objects.len() + 1 >= usize::from(u16::MAX) {
+        if depth > DEEPEST {
             return Err(Unsuitable::TooDeep);
+        }
+        if self.objects.len() >= MOST {
+            return Err(Unsuitable::TooMany);
         }
         self.depths.push(depth + 1);
         self.objects.push(object);
@@ -231,9 +239,12 @@ impl<'p> Types<'p> {
     }
 
     /// The number of an enum.
-    pub fn enumeration(&mut self, id: EnumId) -> u16 {
+    pub fn enumeration(&mut self, id: EnumId) -> Result<u16, Unsuitable> {
         if let Some(known) = self.numbers.get(&id) {
-            return *known;
+            return Ok(*known);
+        }
+        if self.enums.len() >= MOST {
+            return Err(Unsuitable::TooMany);
         }
         let declared = &self.program[id];
         let variants = declared.variants.iter().map(|variant| variant.name.clone());
@@ -243,7 +254,7 @@ impl<'p> Types<'p> {
         });
         let number = (self.enums.len() - 1) as u16;
         self.numbers.insert(id, number);
-        number
+        Ok(number)
     }
 
     /// The parts of a value, as they are compared.

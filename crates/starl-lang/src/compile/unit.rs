@@ -198,6 +198,11 @@ impl<'p> Unit<'p> {
                 Problem::new(diagnostic::Code::NestedTooDeep, file, span, message)
                     .note("records, optionals and collections can be nested 32 deep")
             }
+            Unsuitable::TooMany => {
+                let message = "the program has too many types";
+                Problem::new(diagnostic::Code::TooMuch, file, span, message)
+                    .note("there can be 65534 kinds of collections and as many enums")
+            }
             Unsuitable::TooWide => {
                 let message = format!("{values} have too many parts");
                 Problem::new(diagnostic::Code::TooManyRegisters, file, span, message).note(
