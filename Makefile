@@ -1,5 +1,5 @@
 # The two commands of the README, and the parts that `make test` is made of.
-.PHONY: run setup test check unit portable wasm golden wasm-module trace examples docs deny bench editors
+.PHONY: run setup test check unit portable wasm golden wasm-module trace examples docs deny bench editors diagrams
 
 VENV = target/venv/bin
 CARGO_TARGET_DIR ?= target
@@ -62,6 +62,10 @@ editors: $(STARL)
 	cd editors/vscode && npm ci --no-audit --no-fund
 	cd editors/vscode && STARL=$(abspath $(STARL)) npm test
 	cd editors/vscode && npm run package
+
+# What `starl explain` draws, read by Mermaid and Graphviz. Not part of `make test` for the same reason.
+diagrams: $(STARL)
+	tools/diagrams.sh $(STARL)
 
 bench:
 	cargo bench --workspace

@@ -1,11 +1,16 @@
 //! The StarL language.
 //!
-//! A program is read by [`syntax`] into a tree that holds every character of the source, and a
-//! problem anywhere is a [`diagnostic`]; reading never fails. [`check`] resolves names and types and
-//! gives the [`ir`], from which programs are compiled. [`format`] lays a program out anew. The
-//! [`machine`] runs what a program was compiled to, on a [`robot`] with its primitives; these two are
+//! The [`machine`] runs what a program was compiled to, on a [`robot`] with its primitives. These two are
 //! always there and need no standard library, so that a microcontroller can run programs which were
 //! compiled elsewhere. Everything else comes with the feature `compiler`, which is on by default.
+#![cfg_attr(
+    feature = "compiler",
+    doc = "
+A program is read by [`syntax`] into a tree that holds every character of the source, and a problem anywhere
+is a [`diagnostic`]; reading never fails. [`check`] resolves names and types and gives the [`ir`], from which
+[`compile`] makes bytecode. [`format`] lays a program out anew, [`explain`] draws it as a state machine, and
+[`editor`] is what editors ask while one writes it."
+)]
 
 #![no_std]
 

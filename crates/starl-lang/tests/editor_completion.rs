@@ -167,7 +167,7 @@ fn after_import_the_libraries() {
     let beside = [("tools", "library tools\n")];
     let found = complete_with("program P\nimport $0\n", &Beside(&beside));
     let found: Vec<_> = found.into_iter().map(|item| item.label).collect();
-    assert_eq!(found, ["geometry", "tools"]);
+    assert_eq!(found, ["fleet", "geometry", "lists", "tools"]);
 }
 
 #[test]

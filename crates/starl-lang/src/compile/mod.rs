@@ -1,8 +1,8 @@
 //! The compiler: from a checked program to the machine's bytecode.
 //!
 //! It walks the typed program ([`crate::ir`]) once and writes code as it goes. A function's registers
-//! are a stack ([`body`]); a value is computed where it is wanted ([`expression`]); a condition becomes
-//! jumps ([`condition`]); what functions share is numbered when it is first needed ([`unit`]).
+//! are a stack (`body`); a value is computed where it is wanted (`expression`); a condition becomes
+//! jumps (`condition`); what functions share is numbered when it is first needed (`unit`).
 //!
 //! Invariant: what is given can be loaded. What the machine or the robots cannot do is told as
 //! diagnostics.
