@@ -16,6 +16,10 @@ use starl_core::Time;
 /// A range with this many elements is listed rather than split.
 const LONGEST_LIST: usize = 16;
 
+/// At most this many parts are compared at a time, more than a datagram of ours holds: each may take a walk
+/// through the whole memory.
+const MOST_PARTS: usize = 128;
+
 /// What follows from another robot's parts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Difference {
@@ -44,7 +48,7 @@ pub(super) fn describe(store: &Store, range: Range) -> Option<Part> {
 /// to the other anyhow and does not count as newer.
 pub(super) fn compare(store: &Store, parts: &[Part], settled: Time) -> Difference {
     let mut difference = Difference::default();
-    for part in parts {
+    for part in parts.iter().take(MOST_PARTS) {
         match part {
             Part::Split(range, sums) => {
                 let parts = range.parts().into_iter().flatten();
