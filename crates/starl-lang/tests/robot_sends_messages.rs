@@ -100,3 +100,21 @@ fn values_of_every_type_arrive_as_they_were_sent() {
          none(left = 2, right = \"two\")"
     );
 }
+
+#[test]
+fn programs_of_different_names_meet_where_they_name_the_place() {
+    let hub = |name: &str, what: &str| {
+        format!(
+            "program {name}\n\nmessage Hello(word: String)\n\nradio = Broadcast({what})\nlast: String = \"\"\n\n\
+             greet()\n    eff radio.broadcast(Hello(\"from {name}\"))\n\n\
+             on Hello(from, word)\n    last = word\n"
+        )
+    };
+    for (what, last) in [("\"meeting\"", "\"from Two\""), ("", "\"\"")] {
+        let programs = [hub("One", what), hub("Two", what)];
+        let programs = programs.map(|source| robot_support::program(&compile(&source)));
+        let mut world = World::new(programs.into());
+        world.steps(2);
+        assert_eq!(world.get(0, "last").to_string(), last);
+    }
+}

@@ -1,17 +1,15 @@
 //! A program that robots can run: bytecode that was verified and joined to what robots offer.
 
-use super::builtins::{self, BUILTINS};
-use super::messages::{Inbox, Outgoing};
+use super::joint::{Joiner, Joint};
+use super::messages::Inbox;
 use super::parameter;
-use super::primitives::{Entry, KINDS};
-use super::properties::{self, OBSERVABLES};
-use super::shape::{Declared, Shape, Signature};
+use super::primitives::KINDS;
+use super::shape::Declared;
 use crate::machine::{Bytecode, Import, LoadError, Program, RuntimeError, State};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
-use core::cell::RefCell;
 
 /// A program that robots can run. Copies share it.
 #[derive(Clone)]
@@ -26,33 +24,6 @@ struct Inner {
     inbox: Inbox,
     /// The parameters' defaults; or what went wrong when they were worked out.
     initial: Result<State, String>,
-}
-
-/// An import joined to the functions that serve it.
-#[derive(Clone, Debug)]
-pub struct Joint {
-    /// What it does on a robot.
-    pub on_robot: Option<OnRobot>,
-    /// What it does where properties are judged.
-    pub in_property: Option<properties::Run>,
-    /// The message that it sends.
-    pub message: Option<Outgoing>,
-}
-
-/// What an import does on a robot; kinds are numbered as in [`KINDS`].
-#[derive(Clone, Copy, Debug)]
-pub enum OnRobot {
-    /// It is a built-in function.
-    Builtin(builtins::Run),
-    /// It binds a primitive of this kind.
-    Bind(u16),
-    /// It is a member of a kind.
-    Member {
-        /// The kind.
-        kind: u16,
-        /// The number of the member.
-        member: u16,
-    },
 }
 
 /// A primitive that the program binds.
@@ -71,13 +42,10 @@ pub struct Instance {
 impl Code {
     /// Verifies bytecode and joins it to what robots offer.
     pub fn load(bytecode: Bytecode) -> Result<Code, LoadError> {
-        let joiner = Joiner {
-            declared: Declared::of(&bytecode),
-            joints: RefCell::default(),
-        };
+        let joiner = Joiner::new(Declared::of(&bytecode));
         let program = Program::load(bytecode, &|import: &Import| joiner.join(import))?;
-        let instances = instances(program.bytecode(), &joiner.declared)?;
-        let inbox = Inbox::of(program.bytecode(), &joiner.declared);
+        let instances = instances(program.bytecode(), joiner.declared())?;
+        let inbox = Inbox::of(program.bytecode(), joiner.declared());
         let inbox = inbox.ok_or(LoadError::Invalid {
             position: None,
             reason: "a message's handler does not take the sender and the message's fields",
@@ -85,7 +53,7 @@ impl Code {
         let initial = parameter::defaults(&program);
         Ok(Code(Arc::new(Inner {
             initial: initial.map_err(|error| place(&program, &error)),
-            joints: joiner.joints.into_inner(),
+            joints: joiner.finish(),
             memory: memory_name(program.bytecode(), &instances),
             program,
             instances,
@@ -179,84 +147,4 @@ fn memory_name(bytecode: &Bytecode, instances: &[Instance]) -> Option<String> {
         .filter_map(|i| KINDS.get(usize::from(i.kind)));
     let is_needed = kinds.into_iter().any(|kind| kind.shared);
     is_needed.then(|| format!("{}/shared", bytecode.name))
-}
-
-/// Joins imports and remembers to what.
-struct Joiner {
-    declared: Declared,
-    joints: RefCell<Vec<Joint>>,
-}
-
-impl Joiner {
-    fn join(&self, import: &Import) -> Option<u32> {
-        let (on_robot, leading) = self.on_robot(import);
-        let mut observables = OBSERVABLES.iter().filter(|observable| {
-            let signature = &observable.signature;
-            signature.name == import.name && self.declared.matches(import, signature, 0)
-        });
-        let joint = Joint {
-            in_property: observables.next().map(|observable| observable.run),
-            message: on_robot.and_then(|joined| self.message(import, joined, leading)),
-            on_robot,
-        };
-        if joint.on_robot.is_none() && joint.in_property.is_none() {
-            return None;
-        }
-        let mut joints = self.joints.borrow_mut();
-        joints.push(joint);
-        u32::try_from(joints.len() - 1).ok()
-    }
-
-    /// What the import does on a robot, and how many arguments come before its own.
-    fn on_robot(&self, import: &Import) -> (Option<OnRobot>, usize) {
-        let fits =
-            |signature: &Signature, leading| self.declared.matches(import, signature, leading);
-        let Some((kind, member)) = import.name.split_once('.') else {
-            let mut those = BUILTINS.iter().filter(|b| b.signature.name == import.name);
-            let found = those.find(|builtin| fits(&builtin.signature, 0));
-            return (found.map(|builtin| OnRobot::Builtin(builtin.run)), 0);
-        };
-        let mut kinds = KINDS.iter().enumerate();
-        let Some((number, entry)) = kinds.find(|(_, entry)| entry.name == kind) else {
-            return (None, 0);
-        };
-        let number = number as u16;
-        if member == "bind" {
-            let bind = fits(&bind_signature(entry), 1);
-            return (bind.then_some(OnRobot::Bind(number)), 1);
-        }
-        let mut members = entry.members().enumerate();
-        let found = members.find(|(_, signature)| signature.name == member && fits(signature, 1));
-        let joined = found.map(|(member, _)| OnRobot::Member {
-            kind: number,
-            member: member as u16,
-        });
-        (joined, 1)
-    }
-
-    /// The message among the import's arguments.
-    fn message(&self, import: &Import, joined: OnRobot, leading: usize) -> Option<Outgoing> {
-        let OnRobot::Member { kind, member } = joined else {
-            return None;
-        };
-        let signature = (KINDS.get(usize::from(kind))?.member)(usize::from(member))?;
-        let mut parameters = signature.parameters.iter();
-        let place = parameters.position(|shape| *shape == Shape::Message)?;
-        let record = import.arguments.get(leading + place)?;
-        Some(Outgoing::new(
-            &self.declared,
-            import.labels.first()?,
-            record,
-        ))
-    }
-}
-
-fn bind_signature(entry: &Entry) -> Signature {
-    Signature {
-        name: "bind",
-        query: false,
-        parameters: entry.constructor,
-        fields: false,
-        result: None,
-    }
 }

@@ -1,13 +1,15 @@
 //! The machine's host on a robot: what a running program asks for, the robot and its primitives give.
 
 use super::arguments::{Arguments, Called};
-use super::code::{Code, Instance, OnRobot};
+use super::code::{Code, Instance};
+use super::joint::OnRobot;
 use super::messages::Outgoing;
 use super::primitives::{KINDS, Slot};
 use super::workbench::Memo;
 use crate::machine::{Host, HostCall};
 use alloc::borrow::Cow;
 use alloc::boxed::Box;
+use alloc::string::String;
 use starl_core::{Input, Payload, Port, Primitive, Robot};
 use starl_primitives::SharedMemory;
 
@@ -33,8 +35,8 @@ pub struct RobotHost<'a, 'r> {
     pub context: Context<'a, 'r>,
     /// The bound primitives.
     pub bound: &'a mut [Slot],
-    /// Whether the program has said that it cannot go on.
-    pub failed: bool,
+    /// Why the program cannot go on, once it has said so.
+    pub failure: Option<String>,
     /// Whether an action has fired.
     pub has_fired: bool,
 }

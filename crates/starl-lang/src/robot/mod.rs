@@ -14,6 +14,7 @@ mod builtins;
 mod code;
 mod corruption;
 mod host;
+mod joint;
 mod messages;
 mod parameter;
 mod primitives;

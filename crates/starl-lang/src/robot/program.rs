@@ -4,7 +4,7 @@ use super::code::{Code, Instance};
 use super::corruption;
 use super::host::{Context, RobotHost};
 use super::parameter::{self, ParameterError};
-use super::primitives::{Bound, Report, Slot};
+use super::primitives::{Attended, Report, Slot};
 use super::workbench::Workbench;
 use crate::machine::{Limits, Machine, RuntimeError, State, Value};
 use alloc::boxed::Box;
@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 use core::any::Any;
 use core::mem;
 use starl_core::random::hash_key;
-use starl_core::{Input, Message, Payload, Port, Primitive, Program, Random, Robot};
+use starl_core::{Input, Message, Port, Primitive, Program, Random, Robot};
 use starl_primitives::SharedMemory;
 use starl_primitives::shared_memory::Options;
 
@@ -94,7 +94,7 @@ impl RobotProgram {
         let mut host = RobotHost {
             context: Context::new(code, robot, memo, &mut self.shared),
             bound: &mut self.bound,
-            failed: false,
+            failure: None,
             has_fired: false,
         };
         let is_told = !reports.is_empty() || !matches!(part, Part::Actions);
@@ -102,17 +102,16 @@ impl RobotProgram {
         let mut machine = Machine::new(program, &mut self.state, workspace, &mut host, limits);
         let result = handle_reports(code.instances(), &reports, &mut machine)
             .and_then(|()| part.run(code, &mut machine));
-        let has_failed = host.failed;
-        if host.has_fired || is_told {
+        let (failure, has_fired) = (host.failure, host.has_fired);
+        if has_fired || is_told {
             self.version += 1;
         }
         if let Err(error) = result {
             robot.halt();
-            if !has_failed {
-                robot.fail(code.describe(&error));
-            }
+            robot.fail(failure.unwrap_or_else(|| code.describe(&error)));
             self.phase = Phase::Failed;
         }
+        bench.workspace.trim();
         robot.return_scratch(bench);
     }
 }
@@ -223,41 +222,5 @@ impl Program for RobotProgram {
 
     fn inspect(&self) -> Option<&dyn Any> {
         Some(self)
-    }
-}
-
-/// A primitive whose reports are taken down after each input. Where the program handles them the
-/// robot delivers an empty message to itself, so that they are handled at once.
-struct Attended<'a> {
-    bound: &'a mut dyn Bound,
-    port: Port,
-    form: &'a Instance,
-    number: u32,
-    reports: &'a mut Vec<(u32, Report)>,
-}
-
-impl Primitive for Attended<'_> {
-    fn port(&self) -> Port {
-        self.port
-    }
-
-    fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
-        if let Some(primitive) = self.bound.primitive() {
-            primitive.handle(robot, input);
-        }
-        let before = self.reports.len();
-        self.bound.take_reports(&mut |report| {
-            if self
-                .form
-                .handlers
-                .iter()
-                .any(|(event, _)| *event == report.event)
-            {
-                self.reports.push((self.number, report));
-            }
-        });
-        if self.reports.len() > before {
-            robot.deliver(robot.id(), self.port, Payload::new());
-        }
     }
 }

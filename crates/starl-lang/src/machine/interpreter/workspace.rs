@@ -53,6 +53,13 @@ impl Workspace {
         Workspace::default()
     }
 
+    /// Gives back the room that deep calls took.
+    pub fn trim(&mut self) {
+        if self.scalars.len() > 16 * WINDOW || self.objects.len() > 16 * OBJECT_WINDOW {
+            *self = Workspace::new();
+        }
+    }
+
     /// Empties object registers.
     pub(in crate::machine) fn clear(&mut self) {
         if core::mem::take(&mut self.used) {

@@ -118,8 +118,6 @@ pub fn draw_nothing(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Ca
 
 /// The program ends here, whatever statements follow.
 pub fn fail(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {
-    let text = String::from(Arguments::of(call).text());
-    host.context.robot.fail(text);
-    host.failed = true;
+    host.failure = Some(Arguments::of(call).text().into());
     Err("the program cannot go on".into())
 }

@@ -5,9 +5,12 @@
 //! else is the same for all of them. The language's own table of primitives says the same of each kind
 //! to the checker.
 
+mod attended;
 mod messaging;
 mod reach_avoid;
 mod shared;
+
+pub use attended::Attended;
 
 use super::arguments::{Arguments, Called};
 use super::code::Instance;

@@ -1,21 +1,17 @@
-//! Judging properties as time goes by.
-//!
-//! Only what is out of the ordinary is remembered: rows of robots for which something came true that
-//! was to come once, or that wait for what is to follow, or for which the property was violated.
+//! Judging properties as time goes by: who has started, what is brought before the court, how things
+//! stand.
 
 use super::Fleet;
+use super::docket::{Docket, Row, UNKNOWN};
+use super::hearing::Hearing;
 use super::observables::Court;
-use super::violation::{Reason, Violation, read_variables};
-use crate::machine::{Claim, Limits, Machine, Property, Workspace};
+use super::violation::{Violation, read_variables};
+use crate::machine::{Claim, Property};
 use crate::robot::code::Code;
 use crate::robot::workbench::Workbench;
-use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 use core::cell::Cell;
-use starl_core::{Duration, RobotId, Time};
-
-/// Robots that a property is judged of together.
-type Row = Vec<RobotId>;
+use starl_core::{RobotId, Time};
 
 /// How a property stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,32 +34,6 @@ pub struct Judge {
     roster: Row,
     /// The versions of their states; [`UNKNOWN`] where they are not known.
     versions: Vec<u64>,
-}
-
-/// In the place of a version: nothing is known.
-const UNKNOWN: u64 = 0;
-/// In the place of a version: there is nothing more to judge.
-const CLOSED: u64 = u64::MAX;
-
-/// What is remembered of one property.
-#[derive(Clone, Debug, Default)]
-struct Docket {
-    /// The variables that it reads, by their places in the program.
-    reads: Vec<usize>,
-    /// Whether it was ever judged.
-    judged: bool,
-    /// Rows for which it was violated.
-    violated: BTreeSet<Row>,
-    /// Rows for which what was to come once has come.
-    settled: BTreeSet<Row>,
-    /// Rows that wait for what is to follow, and since when.
-    waiting: BTreeMap<Row, Time>,
-    /// Whether some row has not seen what is to come.
-    lacks: bool,
-    /// For a property of single robots the version of each one's state, in the order of the roster,
-    /// at which nothing was out of the ordinary and nothing else was looked at: while it is the same
-    /// the robot need not be judged again.
-    marks: Vec<u64>,
 }
 
 impl Judge {
@@ -181,202 +151,5 @@ impl Judge {
             }
             _ => Standing::Holds,
         }
-    }
-}
-
-/// One property before the court.
-struct Hearing<'a> {
-    court: Court<'a>,
-    workspace: &'a mut Workspace,
-    versions: &'a [u64],
-    property: &'a Property,
-    index: usize,
-    docket: &'a mut Docket,
-    violations: &'a mut Vec<Violation>,
-}
-
-impl Hearing<'_> {
-    fn run(&mut self) {
-        let size = usize::from(self.property.robots);
-        if size > 0 && self.court.roster.is_empty() {
-            return;
-        }
-        self.docket.judged = true;
-        self.docket.lacks = false;
-        if size == 1 {
-            return self.run_singly();
-        }
-        let mut places: Vec<usize> = alloc::vec![0; size];
-        let mut row: Row = Row::new();
-        loop {
-            row.clear();
-            row.extend(
-                places
-                    .iter()
-                    .filter_map(|&place| self.court.roster.get(place)),
-            );
-            if self.docket.violated.is_empty() || !self.docket.violated.contains(&row) {
-                self.judge(&row);
-            }
-            // The next row, as an odometer counts.
-            let last = self.court.roster.len().saturating_sub(1);
-            let Some(turning) = places.iter().rposition(|&place| place < last) else {
-                return;
-            };
-            places[turning] += 1;
-            places[turning + 1..].fill(0);
-        }
-    }
-
-    /// Judges the property of each robot whose state has changed, or that waits for something.
-    fn run_singly(&mut self) {
-        let (roster, versions) = (self.court.roster, self.versions);
-        let mut marks = core::mem::take(&mut self.docket.marks);
-        marks.resize(roster.len(), UNKNOWN);
-        for ((robot, &version), mark) in roster.iter().zip(versions).zip(&mut marks) {
-            if *mark == CLOSED {
-                continue;
-            }
-            if *mark == version && version != UNKNOWN && self.stays_ordinary() {
-                continue;
-            }
-            let row = core::slice::from_ref(robot);
-            if !self.docket.violated.contains(row) {
-                self.judge(row);
-            }
-            *mark = if self.is_closed(row) {
-                CLOSED
-            } else if self.court.looked_elsewhere.get() || self.docket.waiting.contains_key(row) {
-                UNKNOWN
-            } else {
-                version
-            };
-        }
-        self.docket.marks = marks;
-    }
-
-    /// What is said anew of a robot of which nothing has changed; false if it is to be judged again.
-    fn stays_ordinary(&mut self) -> bool {
-        if let Claim::Eventually { within, .. } = self.property.claim {
-            self.docket.lacks = true;
-            return within.is_none_or(|within| self.court.now <= Time(within));
-        }
-        true
-    }
-
-    /// Whether nothing can change any more for the row.
-    fn is_closed(&self, row: &[RobotId]) -> bool {
-        self.docket.violated.contains(row) || self.docket.settled.contains(row)
-    }
-
-    /// Judges the property of one row of robots; nothing, if it cannot be judged any more.
-    fn judge(&mut self, row: &[RobotId]) {
-        self.court.first = row.first().copied();
-        self.court.looked_elsewhere.set(false);
-        let judged = match self.property.claim {
-            Claim::Always(holds) => self.always(holds, row),
-            Claim::Eventually { holds, within } => self.eventually(holds, within, row),
-            Claim::LeadsTo {
-                cause,
-                consequence,
-                within,
-            } => self.leads_to([cause, consequence], within, row),
-        };
-        if let Err(reason) = judged {
-            self.docket.waiting.remove(row);
-            self.docket.violated.insert(row.into());
-            let violation = Violation::new(
-                &self.court,
-                (self.index, self.property),
-                row,
-                reason,
-                &self.docket.reads,
-            );
-            self.violations.push(violation);
-        }
-    }
-
-    fn always(&mut self, holds: u32, row: &[RobotId]) -> Result<(), Reason> {
-        match self.holds(holds, row)? {
-            true => Ok(()),
-            false => Err(Reason::Untrue),
-        }
-    }
-
-    fn eventually(
-        &mut self,
-        holds: u32,
-        within: Option<u64>,
-        row: &[RobotId],
-    ) -> Result<(), Reason> {
-        if self.docket.settled.contains(row) {
-            return Ok(());
-        }
-        let within = within.map(Duration);
-        if let Some(within) = within
-            && self.court.now > Time::ZERO + within
-        {
-            self.holds(holds, row)?; // to see for whom it does not
-            return Err(Reason::NotInTime { within });
-        }
-        match self.holds(holds, row)? {
-            true => {
-                self.docket.settled.insert(row.into());
-            }
-            false => self.docket.lacks = true,
-        }
-        Ok(())
-    }
-
-    fn leads_to(
-        &mut self,
-        [cause, consequence]: [u32; 2],
-        within: Option<u64>,
-        row: &[RobotId],
-    ) -> Result<(), Reason> {
-        let now = self.court.now;
-        let since = match self.docket.waiting.get(row).copied() {
-            Some(since) => since,
-            None if self.holds(cause, row)? => now,
-            None => return Ok(()),
-        };
-        let within = within.map(Duration);
-        if let Some(within) = within
-            && now > since + within
-        {
-            self.holds(consequence, row)?; // to see for whom it does not
-            return Err(Reason::NotFollowed { since, within });
-        }
-        if self.holds(consequence, row)? {
-            self.docket.waiting.remove(row);
-        } else if since == now {
-            self.docket.waiting.insert(row.into(), since);
-        }
-        Ok(())
-    }
-
-    fn holds(&mut self, function: u32, row: &[RobotId]) -> Result<bool, Reason> {
-        let code = self.court.code;
-        let program = code.program();
-        let limits = limits(self.court.roster.len());
-        self.court.last.set(None);
-        Machine::holds(
-            program,
-            function,
-            row,
-            self.workspace,
-            &mut self.court,
-            limits,
-        )
-        .map_err(|error| Reason::Undecided(code.describe(&error)))
-    }
-}
-
-/// A property may look at all robots, and at all pairs of them if they are not too many.
-fn limits(robots: usize) -> Limits {
-    let least = Limits::default();
-    Limits {
-        fuel: 10 * least.fuel + 10_000 * robots as u64,
-        memory: least.memory + 1024 * robots,
     }
 }

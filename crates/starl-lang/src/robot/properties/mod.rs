@@ -14,6 +14,8 @@
 //! which a robot occurs twice included, and is reported once for each for which it does not hold.
 //! Robots count from when their programs have started.
 
+mod docket;
+mod hearing;
 mod judge;
 mod observables;
 mod violation;
