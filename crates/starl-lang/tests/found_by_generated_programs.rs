@@ -1,4 +1,5 @@
 //! What random programs once brought to light.
+#![cfg(feature = "compiler")]
 
 use starl_lang::check::{NoLibraries, check};
 use starl_lang::diagnostic::{Colour, render};

@@ -1,0 +1,30 @@
+//! Where a generator's choices come from: bytes, one for each choice.
+//!
+//! Invariant: equal bytes give equal choices, and where the bytes are at their end every choice is the
+//! first, which is the simplest. So whoever makes the bytes shorter or smaller makes the program simpler.
+
+/// Choices that bytes decide.
+pub struct Choices<'a> {
+    rest: &'a [u8],
+}
+
+impl<'a> Choices<'a> {
+    /// Choices by these bytes.
+    pub fn new(bytes: &'a [u8]) -> Choices<'a> {
+        Choices { rest: bytes }
+    }
+
+    /// A number below `count`, which is at least one and at most 256.
+    pub fn below(&mut self, count: usize) -> usize {
+        let Some((first, rest)) = self.rest.split_first() else {
+            return 0;
+        };
+        self.rest = rest;
+        usize::from(*first) % count
+    }
+
+    /// One of them.
+    pub fn pick<'t, T: ?Sized>(&mut self, from: &[&'t T]) -> &'t T {
+        from[self.below(from.len())]
+    }
+}

@@ -1,0 +1,107 @@
+//! Random programs that are well typed, as text: the checker must take every one of them.
+//!
+//! What is generated depends on bytes alone, so that a property test or a fuzzer may choose them. All
+//! types, declarations, statements, operators, methods and built-in functions occur that a program on
+//! a robot can use.
+
+mod behaviour;
+mod choices;
+mod collection;
+mod declaration;
+mod expression;
+pub mod layout;
+mod literal;
+mod model;
+mod names;
+mod operation;
+mod statement;
+mod types;
+
+pub use choices::Choices;
+use model::{Local, Model, Place, Type};
+
+/// A program that these bytes stand for.
+pub fn program(bytes: &[u8]) -> String {
+    generate(bytes, false)
+}
+
+/// The same with parentheses around all that has an operator.
+pub fn program_with_parentheses(bytes: &[u8]) -> String {
+    generate(bytes, true)
+}
+
+fn generate(bytes: &[u8], all_parentheses: bool) -> String {
+    let mut generator = Generator {
+        choices: Choices::new(bytes),
+        model: Model::new(),
+        locals: Vec::new(),
+        place: Place::Constant,
+        result: None,
+        all_parentheses,
+        has_atomic: false,
+        text: String::new(),
+        level: 0,
+        budget: 500,
+    };
+    generator.file();
+    generator.text
+}
+
+struct Generator<'a> {
+    choices: Choices<'a>,
+    model: Model,
+    /// The locals that can be seen.
+    locals: Vec<Local>,
+    place: Place,
+    /// What the function gives whose body is made.
+    result: Option<Type>,
+    all_parentheses: bool,
+    /// Whether there may be `atomic`, which needs primitives that robots do not have yet.
+    has_atomic: bool,
+    text: String,
+    /// How deep the block is that is made.
+    level: usize,
+    /// How many more parts of expressions may be made.
+    budget: u32,
+}
+
+impl Generator<'_> {
+    fn file(&mut self) {
+        self.line("program Generated");
+        self.has_atomic = self.choices.below(16) == 7;
+        self.enums();
+        self.records();
+        self.constants("plain");
+        self.functions();
+        self.constants("made");
+        self.parameters();
+        self.declare_roles();
+        self.bindings();
+        self.variables();
+        self.shared();
+        if self.choices.below(2) == 1 {
+            self.init();
+        }
+        self.actions("act");
+        self.handlers();
+        self.roles();
+        self.properties();
+    }
+
+    fn line(&mut self, text: &str) {
+        self.text += &"    ".repeat(self.level);
+        self.text += text;
+        self.text.push('\n');
+    }
+
+    /// A local with a name that no other has which can be seen.
+    fn add_local(&mut self, ty: Type, is_writable: bool) -> String {
+        let name = format!("x{}", self.locals.len());
+        self.locals.push(Local {
+            name: name.clone(),
+            ty,
+            is_writable,
+        });
+        name
+    }
+}

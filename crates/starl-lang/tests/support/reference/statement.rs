@@ -1,0 +1,311 @@
+//! What statements do.
+
+use super::builtin::{index, position};
+use super::operator::apply;
+use super::value::{Value, add, find, put, shown};
+use super::{Outcome, Reference, Stop, shared_kind};
+use starl_lang::check::Method;
+use starl_lang::ir::*;
+use starl_lang::machine::{self, Fault};
+
+/// What an end of a block is: none if it goes on after it, else what is returned.
+type End = Option<Option<Value>>;
+
+/// A step with its index or key, which was computed.
+enum Way {
+    Field(usize),
+    Coordinate(u8),
+    Index(i64),
+    Key(Value),
+}
+
+impl<'a> Reference<'a> {
+    pub fn procedure(&mut self, procedure: &'a Procedure) -> Outcome<()> {
+        let locals = vec![None; procedure.locals.len()];
+        self.inside(locals, |reference| reference.block(&procedure.body))?;
+        Ok(())
+    }
+
+    pub fn block(&mut self, statements: &'a [Statement]) -> Outcome<End> {
+        for statement in statements {
+            let end = self.statement(statement)?;
+            if end.is_some() {
+                return Ok(end);
+            }
+        }
+        Ok(None)
+    }
+
+    fn statement(&mut self, statement: &'a Statement) -> Outcome<End> {
+        self.step()?;
+        match &statement.kind {
+            StatementKind::Let { local, value } => {
+                let value = Self::limited(self.evaluate(value)?)?;
+                self.locals[local.index()] = Some(value);
+            }
+            StatementKind::Assign { place, value } => {
+                let way = self.way(place)?;
+                let value = self.evaluate(value)?;
+                self.change(place, &way, true, |old| {
+                    *old = value;
+                    Ok(())
+                })?;
+            }
+            StatementKind::Update {
+                place,
+                operator,
+                value,
+            } => {
+                let way = self.way(place)?;
+                let mut whole = self.root(place)?;
+                let old = with_part(&mut whole, &way, false, |part| Ok(part.clone()))?;
+                let value = self.evaluate(value)?;
+                let new = apply(*operator, old, value)?;
+                self.change(place, &way, false, |old| {
+                    *old = new;
+                    Ok(())
+                })?;
+            }
+            StatementKind::ChangeRole { value } => {
+                let role = self.evaluate(value)?;
+                let variable = self.program.roles.as_ref().expect("roles").variable.index();
+                let old = std::mem::replace(&mut self.variables[variable], role.clone());
+                let (Value::Variant(old), Value::Variant(new)) = (old, role) else {
+                    panic!("a role is a variant")
+                };
+                if old != new {
+                    self.enter_role()?;
+                }
+            }
+            StatementKind::If {
+                condition,
+                then,
+                otherwise,
+            } => {
+                let way = if self.holds(condition)? {
+                    then
+                } else {
+                    otherwise
+                };
+                return self.block(way);
+            }
+            StatementKind::For {
+                variables,
+                collection,
+                body,
+            } => {
+                for item in self.items(collection)? {
+                    self.step()?;
+                    self.bind_loop(*variables, item);
+                    let end = self.block(body)?;
+                    if end.is_some() {
+                        return Ok(end);
+                    }
+                }
+            }
+            StatementKind::Return(value) => {
+                let value = value
+                    .as_ref()
+                    .map(|value| self.evaluate(value))
+                    .transpose()?;
+                return Ok(Some(value));
+            }
+            StatementKind::Evaluate(expression) => match &expression.kind {
+                ExpressionKind::Change {
+                    place,
+                    method,
+                    arguments,
+                } => {
+                    self.method(place, *method, arguments)?;
+                }
+                _ => {
+                    self.evaluate(expression)?;
+                }
+            },
+            StatementKind::Atomic { body, .. } => return self.block(body),
+        }
+        Ok(None)
+    }
+
+    /// Does what is done on entering the role that the robot has.
+    pub fn enter_role(&mut self) -> Outcome<()> {
+        let roles = self.program.roles.as_ref().expect("roles");
+        let Value::Variant(role) = self.variables[roles.variable.index()] else {
+            panic!("a role is a variant")
+        };
+        if self.depth > 40 {
+            return Err(Stop::TooLong);
+        }
+        for (number, variable) in self.program.variables.iter().enumerate() {
+            if variable.role == Some(role) {
+                self.initialize(number)?;
+            }
+        }
+        if let Some(entry) = &roles.roles[usize::from(role)].entry {
+            self.procedure(entry)?;
+        }
+        Ok(())
+    }
+
+    /// The way to a part, its indices and keys computed.
+    fn way(&mut self, place: &'a Place) -> Outcome<Vec<Way>> {
+        let mut way = Vec::new();
+        for step in &place.path {
+            way.push(match step {
+                Step::Field(number) => Way::Field(*number as usize),
+                Step::Coordinate(axis) => Way::Coordinate(*axis),
+                Step::Index(index) => Way::Index(self.int(index)?),
+                Step::Key(key) => Way::Key(self.evaluate(key)?),
+            });
+        }
+        Ok(way)
+    }
+
+    /// The whole variable.
+    fn root(&mut self, place: &'a Place) -> Outcome<Value> {
+        Ok(match &place.root {
+            Root::Local(local) => self.locals[local.index()]
+                .clone()
+                .expect("a local has a value"),
+            Root::Variable(id) => self.variables[id.index()].clone(),
+            Root::Shared(id) => self.shared(*id)?,
+            Root::OwnElement(_) | Root::Error => panic!("it is written as a whole"),
+        })
+    }
+
+    /// Changes a part of a variable, or assigns it.
+    fn change(
+        &mut self,
+        place: &'a Place,
+        way: &[Way],
+        assigns: bool,
+        change: impl FnOnce(&mut Value) -> Outcome<()>,
+    ) -> Outcome<()> {
+        let program = self.program;
+        let mut whole = match &place.root {
+            Root::OwnElement(_) => Value::Bool(false),
+            Root::Shared(_) if assigns && way.is_empty() => Value::Bool(false),
+            _ => self.root(place)?,
+        };
+        with_part(&mut whole, way, assigns, change)?;
+        let whole = Self::limited(whole)?;
+        match &place.root {
+            Root::Local(local) => self.locals[local.index()] = Some(whole),
+            Root::Variable(id) => self.variables[id.index()] = whole,
+            Root::OwnElement(id) | Root::Shared(id) => {
+                let shared = &program[*id];
+                let instance = i64::from(id.0) + program.bindings.len() as i64;
+                let value = shown(program, &shared.ty, &whole);
+                let name = format!("{}.write", shared_kind(shared));
+                self.host(&name, vec![machine::Value::Int(instance), value])?;
+            }
+            Root::Error => panic!("no variable"),
+        }
+        Ok(())
+    }
+
+    fn method(
+        &mut self,
+        place: &'a Place,
+        method: Method,
+        arguments: &'a [Expression],
+    ) -> Outcome<()> {
+        let way = self.way(place)?;
+        let mut values = Vec::new();
+        for argument in arguments {
+            values.push(self.evaluate(argument)?);
+        }
+        self.change(place, &way, false, |value| changed(value, method, values))
+    }
+}
+
+/// What a method does that changes what it is called on.
+fn changed(value: &mut Value, method: Method, arguments: Vec<Value>) -> Outcome<()> {
+    let mut arguments = arguments.into_iter();
+    match (method.name(), value, arguments.next(), arguments.next()) {
+        ("add", Value::List(list), Some(element), _) => list.push(element),
+        ("insert", Value::List(list), Some(Value::Int(at)), Some(element)) => {
+            // One more than for reading: it may go to the end.
+            let length = list.len() as u32;
+            let fault = Stop::Fault(Fault::IndexOutOfRange { index: at, length });
+            let at = usize::try_from(at)
+                .ok()
+                .filter(|at| *at <= list.len())
+                .ok_or(fault)?;
+            list.insert(at, element);
+        }
+        ("remove_at", Value::List(list), Some(Value::Int(at)), _) => {
+            let at = index(at, list.len())?;
+            list.remove(at);
+        }
+        ("remove", Value::List(list), Some(element), _) => {
+            if let Some(at) = position(list, &element)? {
+                list.remove(at);
+            }
+        }
+        ("add", Value::Set(set), Some(element), _) => add(set, element),
+        ("remove", Value::Set(set), Some(element), _) => {
+            set.retain(|other| super::value::order(other, &element).is_ne());
+        }
+        ("remove", Value::Map(map), Some(key), _) => {
+            if let Some(at) = find(map, &key) {
+                map.remove(at);
+            }
+        }
+        (name, value, ..) => panic!("{name} of {value:?}"),
+    }
+    Ok(())
+}
+
+/// A part of a value. A key that is not there is new where it may be, as the last step.
+fn part<'v>(whole: &'v mut Value, way: &[Way], may_be_new: bool) -> Outcome<&'v mut Value> {
+    let Some((step, rest)) = way.split_first() else {
+        return Ok(whole);
+    };
+    let inner = match (step, whole) {
+        (Way::Field(number), Value::Record(fields)) => &mut fields[*number],
+        (Way::Index(at), Value::List(list)) => {
+            let at = index(*at, list.len())?;
+            &mut list[at]
+        }
+        (Way::Key(key), Value::Map(map)) => {
+            if find(map, key).is_none() {
+                if !may_be_new || !rest.is_empty() {
+                    return Err(Stop::Fault(Fault::KeyMissing));
+                }
+                put(map, key.clone(), Value::Bool(false));
+            }
+            let at = find(map, key).expect("it is there");
+            &mut map[at].1
+        }
+        (_, whole) => panic!("{whole:?} has no such part"),
+    };
+    part(inner, rest, may_be_new)
+}
+
+/// Does something with a part of a value. A coordinate is no value of its own: it is taken out and put
+/// back.
+fn with_part<T>(
+    whole: &mut Value,
+    way: &[Way],
+    may_be_new: bool,
+    then: impl FnOnce(&mut Value) -> Outcome<T>,
+) -> Outcome<T> {
+    let Some((Way::Coordinate(axis), before)) = way.split_last() else {
+        return then(part(whole, way, may_be_new)?);
+    };
+    let Value::Point(point) = part(whole, before, false)? else {
+        panic!("only a point has coordinates")
+    };
+    let coordinate = match axis {
+        0 => &mut point.x,
+        1 => &mut point.y,
+        _ => &mut point.z,
+    };
+    let mut value = Value::Float(*coordinate);
+    let result = then(&mut value)?;
+    if let Value::Float(value) = value {
+        *coordinate = value;
+    }
+    Ok(result)
+}
