@@ -365,9 +365,13 @@ always follows: x > 0 leads_to y > 0 within 2s
         let mut changed = Given::new(source, 3);
         changed.versions = Some(vec![1; 3]);
         let (mut judge, mut lazy) = (all.judge(), changed.judge());
+        let mut down: [Option<State>; 3] = Default::default();
         for second in 0..10 {
             for _ in 0..random.below(3) {
                 let robot = random.below(3) as usize;
+                if all.states[robot].is_none() {
+                    continue;
+                }
                 let (name, value) = match random.below(3) {
                     0 => ("x", Value::Int(i64::from(random.below(5)))),
                     1 => ("y", Value::Int(i64::from(random.below(2)))),
@@ -378,6 +382,16 @@ always follows: x > 0 leads_to y > 0 within 2s
                 };
                 all.set(robot, name, value.clone());
                 changed.set(robot, name, value);
+            }
+            if random.chance(0.2) {
+                // A robot crashes, or comes back as it was.
+                let robot = random.below(3) as usize;
+                let (state, other) = (&mut all.states[robot], &mut changed.states[robot]);
+                match state.take() {
+                    Some(gone) => down[robot] = Some(gone),
+                    None => *state = down[robot].take(),
+                }
+                other.clone_from(state);
             }
             if random.chance(0.1) {
                 let place = Point::planar(f64::from(random.below(4)), 0.0);

@@ -146,24 +146,10 @@ impl Object {
     }
 
     /// The size as if nothing were shared, bytes.
+    #[inline]
     pub fn bytes(&self) -> usize {
-        match self.body() {
-            None => 0,
-            Some(Body::Text(text)) => 4 * WORD + text.len(),
-            Some(Body::List(list)) => list.bytes(),
-            Some(Body::Map(map)) => 4 * WORD + map.keys.bytes() + map.values.bytes(),
-            Some(Body::Area(Area::Polygon(polygon))) => {
-                4 * WORD + 3 * WORD * polygon.vertices().len()
-            }
-            Some(Body::Area(_)) => 8 * WORD,
-            Some(Body::Obstacles(obstacles)) => {
-                let corners = obstacles.iter().map(|obstacle| match &obstacle.shape {
-                    Shape::Polygon { base, .. } => base.vertices().len(),
-                    _ => 0,
-                });
-                4 * WORD + 8 * WORD * obstacles.len() + 3 * WORD * corners.sum::<usize>()
-            }
-        }
+        // Most registers and many variables are empty.
+        self.body().map_or(0, Body::bytes)
     }
 
     /// The order of two objects of one type; areas and obstacles have none and are equal only if
@@ -227,6 +213,26 @@ impl Object {
             Some(Body::Obstacles(obstacles)) => {
                 digest.word(5);
                 digest.bytes(&starl_core::message::encode(obstacles));
+            }
+        }
+    }
+}
+
+impl Body {
+    /// The size as if nothing were shared, bytes.
+    fn bytes(&self) -> usize {
+        match self {
+            Body::Text(text) => 4 * WORD + text.len(),
+            Body::List(list) => list.bytes(),
+            Body::Map(map) => 4 * WORD + map.keys.bytes() + map.values.bytes(),
+            Body::Area(Area::Polygon(polygon)) => 4 * WORD + 3 * WORD * polygon.vertices().len(),
+            Body::Area(_) => 8 * WORD,
+            Body::Obstacles(obstacles) => {
+                let corners = obstacles.iter().map(|obstacle| match &obstacle.shape {
+                    Shape::Polygon { base, .. } => base.vertices().len(),
+                    _ => 0,
+                });
+                4 * WORD + 8 * WORD * obstacles.len() + 3 * WORD * corners.sum::<usize>()
             }
         }
     }

@@ -35,3 +35,15 @@ pub struct Docket {
     /// the robot need not be judged again.
     pub marks: Vec<u64>,
 }
+
+impl Docket {
+    /// The roster, which is in ascending order, has changed: marks follow their robots.
+    pub fn rearrange(&mut self, before: &[RobotId], now: &[RobotId]) {
+        let mark_of = |robot: &RobotId| {
+            let place = before.binary_search(robot).ok()?;
+            self.marks.get(place).copied()
+        };
+        let marks = now.iter().map(|robot| mark_of(robot).unwrap_or(UNKNOWN));
+        self.marks = marks.collect();
+    }
+}

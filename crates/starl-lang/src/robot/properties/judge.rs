@@ -108,11 +108,10 @@ impl Judge {
                 .filter(|robot| fleet.state_of(*robot).is_some())
         };
         if !started().eq(self.roster.iter().copied()) {
-            self.roster.clear();
-            self.roster.extend(started());
-            self.dockets
-                .iter_mut()
-                .for_each(|docket| docket.marks.clear());
+            let before = core::mem::replace(&mut self.roster, started().collect());
+            for docket in &mut self.dockets {
+                docket.rearrange(&before, &self.roster);
+            }
         }
         self.versions.clear();
         let versions = self.roster.iter().map(|&robot| fleet.version(robot));
