@@ -8,9 +8,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
-use starl_lang::check::{BUILTINS, METHODS, PRELUDE, PRIMITIVES, Purity, STANDARD, check};
+use starl_lang::check::{BUILTINS, METHODS, PRELUDE, PRIMITIVES, Purity, check};
 use starl_lang::diagnostic::{Colour, render};
-use starl_lang::ir::Site;
 
 fn path() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/reference/language.md")
@@ -54,7 +53,8 @@ fn methods() -> String {
 }
 
 fn primitives() -> String {
-    let mut table = "| primitive, and what it has | where | what it does |\n| --- | --- | --- |\n".to_string();
+    let mut table =
+        "| primitive, and what it has | where | what it does |\n| --- | --- | --- |\n".to_string();
     for primitive in PRIMITIVES {
         let yet = if primitive.is_available {
             ""
@@ -95,48 +95,13 @@ fn prelude() -> String {
     format!("```text\n{}\n```\n", shown.trim_end())
 }
 
-fn standard_library() -> String {
-    let mut table = "| name | what it is |\n| --- | --- |\n".to_string();
-    for (library, source) in STANDARD {
-        let program = check(source, &|_: &str| None).program;
-        let own = |site: Site| site.file == 0;
-        let constants = program
-            .constants
-            .iter()
-            .filter(|constant| own(constant.site));
-        let constants = constants.map(|constant| {
-            let name = format!("{}: {}", constant.name, program.type_name(&constant.ty));
-            (constant.site, name, &constant.documentation)
-        });
-        let functions = program
-            .functions
-            .iter()
-            .filter(|function| own(function.site));
-        let functions = functions.map(|function| {
-            let rest = &source[function.site.span.start as usize..];
-            let line = rest.lines().next().unwrap_or_default();
-            let head = line.split(" = ").next().unwrap_or_default();
-            (function.site, head.to_string(), &function.documentation)
-        });
-        let mut all: Vec<_> = constants.chain(functions).collect();
-        all.sort_by_key(|(site, ..)| site.span);
-        for (_, text, documentation) in all {
-            let name = code(&format!("{library}.{text}"));
-            let about = documentation.replace('\n', " ");
-            table += &format!("| {name} | {about} |\n");
-        }
-    }
-    table
-}
-
 /// The page with each generated part put after its mark, up to the next line that is no part of it.
 fn with_tables(page: &str) -> String {
-    let parts: [(&str, String); 5] = [
+    let parts: [(&str, String); 4] = [
         ("<!-- built-in names and functions -->", builtins()),
         ("<!-- the prelude -->", prelude()),
         ("<!-- methods -->", methods()),
         ("<!-- primitives -->", primitives()),
-        ("<!-- the standard library -->", standard_library()),
     ];
     let mut written = page.to_string();
     for (mark, part) in parts {

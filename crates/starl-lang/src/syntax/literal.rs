@@ -71,15 +71,18 @@ pub(crate) fn float(text: &str) -> Option<f64> {
 }
 
 /// The value of a duration, in nanoseconds, rounded to the nearest; none if it is too long. A whole
-/// number of the unit is exact, and so is a fraction if its value has at most 15 digits.
+/// number of the unit is exact, and so is a fraction if its value has at most 15 digits. The machine
+/// holds durations in 63 bits.
 pub(crate) fn duration(text: &str) -> Option<u64> {
+    const LONGEST: u64 = i64::MAX.unsigned_abs();
     let (digits, unit) = split(text);
     let unit = unit?;
     if let Some(count) = integer(digits).filter(|_| !digits.contains(['.', 'e', 'E'])) {
-        return count.checked_mul(unit.size as u64);
+        let nanoseconds = count.checked_mul(unit.size as u64)?;
+        return (nanoseconds <= LONGEST).then_some(nanoseconds);
     }
     let nanoseconds = (plain(digits)? * unit.size).round();
-    (nanoseconds < u64::MAX as f64).then_some(nanoseconds as u64)
+    (nanoseconds < LONGEST as f64).then_some(nanoseconds as u64)
 }
 
 fn plain(digits: &str) -> Option<f64> {

@@ -75,7 +75,7 @@ fn float(number: &str, span: Span) -> Option<Diagnostic> {
 fn duration(number: &str, span: Span) -> Option<Diagnostic> {
     let too_long = || {
         Diagnostic::new(Code::MalformedNumber, span, "this duration is too long")
-            .note("the longest Duration is about 584 years")
+            .note("the longest Duration is about 292 years")
     };
     literal::duration(number).is_none().then(too_long)
 }
