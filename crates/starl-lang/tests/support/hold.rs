@@ -3,7 +3,7 @@
 use super::compare::{Compared, compare};
 use super::generate::{Choices, layout, program, program_with_parentheses};
 use super::run;
-use starl_lang::check::{Checked, NoLibraries, check};
+use starl_lang::check::{Checked, StandardLibraries, check};
 use starl_lang::compile::compile;
 use starl_lang::diagnostic::{Colour, Diagnostic, has_errors, render};
 use starl_lang::format::format;
@@ -24,7 +24,7 @@ pub fn all(bytes: &[u8]) {
 
 /// The checker takes the program.
 pub fn checks(text: &str) -> Checked {
-    let checked = check(text, &NoLibraries);
+    let checked = check(text, &StandardLibraries);
     let errors: Vec<Diagnostic> = (checked.diagnostics().iter())
         .filter(|one| has_errors(std::slice::from_ref(one)))
         .cloned()

@@ -10,6 +10,7 @@ mod collection;
 mod declaration;
 mod expression;
 pub mod layout;
+mod library;
 mod literal;
 mod model;
 mod names;
@@ -69,6 +70,7 @@ impl Generator<'_> {
     fn file(&mut self) {
         self.line("program Generated");
         self.has_atomic = self.choices.below(16) == 7;
+        self.imports();
         self.enums();
         self.records();
         self.constants("plain");

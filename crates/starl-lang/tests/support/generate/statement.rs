@@ -272,7 +272,11 @@ impl Generator<'_> {
                 self.applied("draw_circle", &[&String, &Point, &Float], 2)
                     .text
             }
-            6 => "stop()".into(),
+            6 => match self.choices.below(3) {
+                0 => "stop()".into(),
+                1 => self.applied("draw_text", &[&String, &Point], 2).text,
+                _ => self.applied("draw_nothing", &[&String], 2).text,
+            },
             7 if self.choices.below(8) == 7 => "finish()".into(),
             8 if self.choices.below(8) == 7 => self.applied("fail", &[&String], 1).text,
             9 if self.model.roles.is_some() => {
