@@ -7,27 +7,18 @@
 //! Invariant: what is given can be loaded. What the machine or the robots cannot do is told as
 //! diagnostics.
 
-mod arithmetic;
 mod body;
-mod builtin;
 mod call;
-mod changes;
 mod code;
-mod collection;
-mod comparison;
 mod computed;
 mod condition;
 mod constant;
 mod declaration;
 mod expression;
 mod link;
-mod location;
-mod method;
-mod place;
 mod problem;
-mod property;
+mod size;
 mod statement;
-mod text;
 mod types;
 mod unit;
 

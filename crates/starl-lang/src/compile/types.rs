@@ -8,47 +8,9 @@ use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use super::size::Size;
 use crate::ir::{self, EnumId, Program, RecordId};
 use crate::machine::{Enum, ObjectType, Type};
-
-/// How many registers of each kind something takes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Size {
-    /// Scalar registers.
-    pub scalars: u32,
-    /// Object registers.
-    pub objects: u32,
-}
-
-impl Size {
-    pub const NONE: Self = Self::new(0, 0);
-    pub const SCALAR: Self = Self::new(1, 0);
-    pub const OBJECT: Self = Self::new(0, 1);
-
-    pub const fn new(scalars: u32, objects: u32) -> Self {
-        Self { scalars, objects }
-    }
-
-    pub const fn plus(self, other: Self) -> Self {
-        Self {
-            scalars: self.scalars.saturating_add(other.scalars),
-            objects: self.objects.saturating_add(other.objects),
-        }
-    }
-
-    /// Whether a value may take so many.
-    pub const fn fits(self) -> bool {
-        self.scalars <= WIDEST.scalars && self.objects <= WIDEST.objects
-    }
-
-    /// As many of each as the greater of the two.
-    pub fn max(self, other: Self) -> Self {
-        Self {
-            scalars: self.scalars.max(other.scalars),
-            objects: self.objects.max(other.objects),
-        }
-    }
-}
 
 /// A part of a value: what it is compared as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,15 +29,12 @@ pub(super) enum Part {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Unsuitable {
     /// It is nested too deeply.
-    TooDeep,
+    Depth,
     /// A value, or an element with what belongs to it, takes too many registers.
-    TooWide,
+    Width,
     /// There are too many types already.
-    TooMany,
+    Number,
 }
-
-/// The most registers that a value may take.
-pub(super) const WIDEST: Size = Size::new(255, 127);
 
 /// The deepest that the machine lets records, optionals or collections be nested.
 const DEEPEST: u32 = 31;
@@ -152,10 +111,10 @@ impl<'p> Types<'p> {
 
     fn nested(&mut self, of: &ir::Type, depth: u32) -> Result<Type, Unsuitable> {
         if !self.size(of).fits() {
-            return Err(Unsuitable::TooWide);
+            return Err(Unsuitable::Width);
         }
         if depth > DEEPEST {
-            return Err(Unsuitable::TooDeep);
+            return Err(Unsuitable::Depth);
         }
         Ok(match of {
             ir::Type::Bool => Type::Bool,
@@ -193,7 +152,7 @@ impl<'p> Types<'p> {
             _ => Size::NONE,
         };
         if !parts.fits() {
-            return Err(Unsuitable::TooWide);
+            return Err(Unsuitable::Width);
         }
         let object = match of {
             ir::Type::List(element) => ObjectType::List(self.of(element)?),
@@ -216,10 +175,10 @@ impl<'p> Types<'p> {
             ObjectType::Map(key, value) => self.depth(key).max(self.depth(value)),
         };
         if depth > DEEPEST {
-            return Err(Unsuitable::TooDeep);
+            return Err(Unsuitable::Depth);
         }
         if self.objects.len() >= MOST {
-            return Err(Unsuitable::TooMany);
+            return Err(Unsuitable::Number);
         }
         self.depths.push(depth + 1);
         self.objects.push(object);
@@ -244,7 +203,7 @@ impl<'p> Types<'p> {
             return Ok(*known);
         }
         if self.enums.len() >= MOST {
-            return Err(Unsuitable::TooMany);
+            return Err(Unsuitable::Number);
         }
         let declared = &self.program[id];
         let variants = declared.variants.iter().map(|variant| variant.name.clone());

@@ -12,7 +12,8 @@ use alloc::vec::Vec;
 use super::code::Code;
 use super::constant::folded;
 use super::problem::{Compiled, Problem};
-use super::types::{Size, Types, Unsuitable};
+use super::size::Size;
+use super::types::{Types, Unsuitable};
 use crate::diagnostic::{self, Span};
 use crate::ir::{self, ConstantId, FunctionId, ParameterId, Program, VariableId};
 use crate::machine::{FunctionKind, Import, Type};
@@ -193,17 +194,17 @@ impl<'p> Unit<'p> {
             _ => "values of this type".into(),
         };
         match why {
-            Unsuitable::TooDeep => {
+            Unsuitable::Depth => {
                 let message = format!("{values} are nested too deeply");
                 Problem::new(diagnostic::Code::NestedTooDeep, file, span, message)
                     .note("records, optionals and collections can be nested 32 deep")
             }
-            Unsuitable::TooMany => {
+            Unsuitable::Number => {
                 let message = "the program has too many types";
                 Problem::new(diagnostic::Code::TooMuch, file, span, message)
                     .note("there can be 65534 kinds of collections and as many enums")
             }
-            Unsuitable::TooWide => {
+            Unsuitable::Width => {
                 let message = format!("{values} have too many parts");
                 Problem::new(diagnostic::Code::TooManyRegisters, file, span, message).note(
                     "a value, or a key with its value, has at most 255 numbers and 127 texts and collections",

@@ -6,97 +6,28 @@
 //!
 //! Invariant: what lies at or above the top of the stack holds nothing that is still needed.
 
+mod location;
+mod moves;
+mod slot;
+
+pub(in crate::compile) use location::{Location, state_operand};
+pub(in crate::compile) use slot::Slot;
+
 use alloc::vec::Vec;
 
-use super::code::{Code, Label};
-use super::problem::{Compiled, Problem};
-use super::types::{Size, Unsuitable, WIDEST};
-use super::unit::{Finished, Unit};
-use crate::diagnostic::{self, Span};
-use crate::ir::{self, Local, LocalId};
-use crate::machine::operand::{
-    Block, Count, Immediate, In, ObjectBlock, ObjectIn, ObjectInOut, ObjectOut, Out, PointIn,
-    PointOut,
-};
+use crate::compile::code::{Code, Label};
+use crate::compile::problem::{Compiled, Problem};
+use crate::compile::size::Size;
+use crate::compile::types::Unsuitable;
+use crate::compile::unit::{Finished, Unit};
+use crate::diagnostic::Span;
+use crate::ir::{Local, LocalId};
 use crate::machine::{FunctionKind, Instruction, Type};
-
-/// The scalar and object registers that a function may use: as many as a value may have.
-const REGISTERS: Size = WIDEST;
-
-/// Registers in a row: the first scalar and the first object of a value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Slot {
-    pub scalar: u32,
-    pub object: u32,
-}
-
-/// The number of a register. That of a value which takes no register may be beyond the last one; then
-/// any will do.
-const fn number(register: u32) -> u8 {
-    if register < REGISTERS.scalars {
-        register as u8
-    } else {
-        0
-    }
-}
-
-impl Slot {
-    /// The part that begins so far into it.
-    pub const fn at(self, offset: Size) -> Self {
-        Self {
-            scalar: self.scalar + offset.scalars,
-            object: self.object + offset.objects,
-        }
-    }
-
-    pub const fn input(self) -> In {
-        In(number(self.scalar))
-    }
-
-    pub const fn output(self) -> Out {
-        Out(number(self.scalar))
-    }
-
-    pub const fn block(self) -> Block {
-        Block(number(self.scalar))
-    }
-
-    pub const fn point(self) -> PointIn {
-        PointIn(number(self.scalar))
-    }
-
-    pub const fn point_out(self) -> PointOut {
-        PointOut(number(self.scalar))
-    }
-
-    /// The object as an operand.
-    pub const fn operand(self) -> u8 {
-        if self.object < REGISTERS.objects {
-            self.object as u8
-        } else {
-            0
-        }
-    }
-
-    pub const fn objects(self) -> ObjectBlock {
-        ObjectBlock(self.operand())
-    }
-
-    pub const fn object_in(self) -> ObjectIn {
-        ObjectIn(self.operand())
-    }
-
-    pub const fn object_out(self) -> ObjectOut {
-        ObjectOut(self.operand())
-    }
-
-    pub const fn object_in_out(self) -> ObjectInOut {
-        ObjectInOut(self.operand())
-    }
-}
+use crate::{diagnostic, ir};
+use slot::REGISTERS;
 
 /// A function that is being compiled.
-pub(super) struct Body<'u, 'p> {
+pub(in crate::compile) struct Body<'u, 'p> {
     pub unit: &'u mut Unit<'p>,
     pub code: Code,
     pub kind: FunctionKind,
@@ -172,8 +103,6 @@ impl<'u, 'p> Body<'u, 'p> {
         result
     }
 
-    // Registers.
-
     /// What is in use now, to be given to [`Body::release`].
     pub fn mark(&self) -> Size {
         self.top
@@ -236,7 +165,10 @@ impl<'u, 'p> Body<'u, 'p> {
         self.unit.machine_type(ty, self.file, self.span)
     }
 
-    // Locals.
+    pub fn parts(&mut self, ty: &ir::Type) -> Compiled<Vec<crate::compile::types::Part>> {
+        let parts = self.unit.types.parts(ty);
+        parts.map_err(|why| self.unsuitable(ty, why))
+    }
 
     /// Takes registers for a local.
     pub fn declare(&mut self, local: LocalId) -> Compiled<Slot> {
@@ -279,111 +211,5 @@ impl<'u, 'p> Body<'u, 'p> {
         let message = "this cannot be compiled";
         let problem = Problem::new(diagnostic::Code::TooMuch, self.file, self.span, message);
         problem.note("the checker should have said why: please report it")
-    }
-
-    // Moving values.
-
-    /// Copies a value from registers to registers.
-    pub fn copy(&mut self, to: Slot, from: Slot, size: Size) {
-        self.copy_scalars(to, from, size.scalars);
-        for object in 0..size.objects {
-            let offset = Size::new(0, object);
-            if to.object != from.object {
-                self.emit(Instruction::CopyObject {
-                    to: to.at(offset).object_out(),
-                    from: from.at(offset).object_in(),
-                });
-            }
-        }
-    }
-
-    /// Moves a value from registers that are not needed any more.
-    pub fn move_value(&mut self, to: Slot, from: Slot, size: Size) {
-        self.copy_scalars(to, from, size.scalars);
-        for object in 0..size.objects {
-            let offset = Size::new(0, object);
-            if to.object != from.object {
-                self.emit(Instruction::MoveObject {
-                    to: to.at(offset).object_out(),
-                    from: from.at(offset).object_in_out(),
-                });
-            }
-        }
-    }
-
-    fn copy_scalars(&mut self, to: Slot, from: Slot, count: u32) {
-        if to.scalar == from.scalar {
-            return;
-        }
-        match count {
-            0 => {}
-            1 => self.emit(Instruction::Copy {
-                to: to.output(),
-                from: from.input(),
-            }),
-            3 => self.emit(Instruction::CopyPoint {
-                to: to.point_out(),
-                from: from.point(),
-            }),
-            _ => {
-                // A block's length is a byte.
-                let half = count.min(255);
-                self.emit(Instruction::CopyBlock {
-                    to: to.block(),
-                    from: from.block(),
-                    count: Count(half as u8),
-                });
-                let rest = Size::new(half, 0);
-                self.copy_scalars(to.at(rest), from.at(rest), count - half);
-            }
-        }
-    }
-
-    /// Writes a scalar that is known.
-    pub fn scalar(&mut self, to: Slot, bits: u64) {
-        let instruction = match i32::try_from(bits as i64) {
-            Ok(value) => Instruction::Int {
-                to: to.output(),
-                value: Immediate(value),
-            },
-            Err(_) => {
-                let constant = self.unit.constant(bits);
-                Instruction::Constant {
-                    to: to.output(),
-                    constant: crate::machine::operand::Constant(constant),
-                }
-            }
-        };
-        self.emit(instruction);
-    }
-
-    /// Writes a constant text.
-    pub fn text(&mut self, to: Slot, text: &str) {
-        let constant = crate::machine::operand::Text(self.unit.text(text));
-        self.emit(Instruction::Text {
-            to: to.object_out(),
-            constant,
-        });
-    }
-
-    /// Writes the value of a type that is all zeros, empty and none.
-    pub fn zeros(&mut self, to: Slot, ty: &ir::Type) -> Compiled {
-        for scalar in 0..self.size(ty).scalars {
-            self.scalar(to.at(Size::new(scalar, 0)), 0);
-        }
-        for part in self.parts(ty)? {
-            if let super::types::Part::Object(offset, kind) = part {
-                self.emit(Instruction::ClearObject {
-                    to: to.at(Size::new(0, offset)).object_out(),
-                    kind: crate::machine::operand::Type(kind),
-                });
-            }
-        }
-        Ok(())
-    }
-
-    pub fn parts(&mut self, ty: &ir::Type) -> Compiled<Vec<super::types::Part>> {
-        let parts = self.unit.types.parts(ty);
-        parts.map_err(|why| self.unsuitable(ty, why))
     }
 }

@@ -2,10 +2,12 @@
 //!
 //! An expression changes no variable, so that a variable may be read as late as where it is needed.
 
-use super::body::{Body, Slot};
-use super::problem::Compiled;
-use super::types::{Part, Size};
-use crate::ir::{self, Expression, ExpressionKind, RobotMember};
+use crate::compile::body::{Body, Slot};
+use crate::compile::problem::Compiled;
+use crate::compile::size::Size;
+use crate::compile::types::Part;
+use crate::ir;
+use crate::ir::{Expression, ExpressionKind, RobotMember};
 use crate::machine::Instruction;
 use crate::machine::operand::{
     FIRST_STATE_OPERAND, In, ObjectIn, ObjectOut, ObjectSlot, Slot as StateSlot,
@@ -13,7 +15,7 @@ use crate::machine::operand::{
 
 /// A place where a value is.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Location {
+pub(in crate::compile) enum Location {
     /// In registers.
     Registers(Slot),
     /// In the state, from this scalar and object on.
@@ -34,7 +36,7 @@ impl Location {
 }
 
 /// The operand for an object of the state, if there is one.
-pub(super) fn state_operand(object: u32) -> Option<u8> {
+pub(in crate::compile) fn state_operand(object: u32) -> Option<u8> {
     let operand = object.checked_add(u32::from(FIRST_STATE_OPERAND))?;
     u8::try_from(operand).ok()
 }

@@ -1,18 +1,22 @@
 //! Conditions: jumps that depend on Bools, without making the Bool where that can be helped.
 
-use super::body::{Body, Slot};
-use super::code::Label;
-use super::constant::folded;
-use super::expression::is_located;
-use super::location::Location;
-use super::problem::Compiled;
-use super::types::Size;
-use crate::ir::{Expression, ExpressionKind, LocalId, Operator, Type};
+mod binding;
+mod equality;
+mod order;
+mod quantifier;
+
+use crate::compile::body::{Body, Location, Slot};
+use crate::compile::code::Label;
+use crate::compile::constant::folded;
+use crate::compile::expression::is_located;
+use crate::compile::problem::Compiled;
+use crate::compile::size::Size;
+use crate::ir::{Expression, ExpressionKind, Operator, Type};
 use crate::machine::Instruction;
 use crate::machine::operand::{Short, ShortSlot};
 
 /// The operand for a scalar of the state in a jump, if there is one.
-pub(super) fn short_slot(location: Location) -> Option<ShortSlot> {
+pub(in crate::compile) fn short_slot(location: Location) -> Option<ShortSlot> {
     match location {
         Location::State(start) => u8::try_from(start.scalars).ok().map(ShortSlot),
         _ => None,
@@ -43,17 +47,8 @@ impl<'p> Body<'_, 'p> {
                 left,
                 right,
             } => {
-                // `or` is `and` of the opposites, the other way round.
                 let decides = *operator == Operator::Or;
-                if when == decides {
-                    self.branch(left, when, label)?;
-                    return self.branch(right, when, label);
-                }
-                let end = self.label();
-                self.branch(left, decides, end)?;
-                self.branch(right, when, label)?;
-                self.place(end);
-                return Ok(());
+                return self.branch_both(decides, [left, right], when, label);
             }
             ExpressionKind::Bind { local, value } => {
                 return self.branch_bind(*local, value, when, label);
@@ -103,6 +98,25 @@ impl<'p> Body<'_, 'p> {
         Ok(())
     }
 
+    /// `and` or `or`, of which `decides` is what one side must be to decide.
+    fn branch_both(
+        &mut self,
+        decides: bool,
+        [left, right]: [&'p Expression; 2],
+        when: bool,
+        label: Label,
+    ) -> Compiled {
+        if when == decides {
+            self.branch(left, when, label)?;
+            return self.branch(right, when, label);
+        }
+        let end = self.label();
+        self.branch(left, decides, end)?;
+        self.branch(right, when, label)?;
+        self.place(end);
+        Ok(())
+    }
+
     /// Goes to the label if the first scalar of a value, a Bool, is `when`.
     fn branch_flag(&mut self, value: &'p Expression, when: bool, label: Label) -> Compiled {
         if is_located(value)
@@ -137,53 +151,6 @@ impl<'p> Body<'_, 'p> {
             true => Instruction::JumpIf { condition, target },
             false => Instruction::JumpUnless { condition, target },
         });
-    }
-
-    /// `some local = value`
-    fn branch_bind(
-        &mut self,
-        local: LocalId,
-        value: &'p Expression,
-        when: bool,
-        label: Label,
-    ) -> Compiled {
-        let absent = match when {
-            true => self.label(),
-            false => label,
-        };
-        let ty = &self.declared[local.index()].ty;
-        let size = self.size(ty);
-        // A local that has its place already is one of those that a guard hands to its effect.
-        let reserved = self.bound(local);
-        if is_located(value) {
-            let slot = match reserved {
-                Some(slot) => slot,
-                None => self.declare(local)?,
-            };
-            let mark = self.mark();
-            if let Some(location) = self.locate(value)? {
-                self.branch_location(location, false, absent)?;
-                self.load(slot, location.at(Size::SCALAR), ty);
-            }
-            self.release(mark);
-        } else {
-            let mark = self.mark();
-            let optional = self.take(Size::SCALAR.plus(size))?;
-            self.into(value, optional, true)?;
-            self.jump_on(optional, false, absent);
-            match reserved {
-                Some(slot) => {
-                    self.move_value(slot, optional.at(Size::SCALAR), size);
-                    self.release(mark);
-                }
-                None => self.bind(local, optional.at(Size::SCALAR)),
-            }
-        }
-        if when {
-            self.jump(label);
-            self.place(absent);
-        }
-        Ok(())
     }
 
     /// `item in start..end`
@@ -223,53 +190,6 @@ impl<'p> Body<'_, 'p> {
                 target: label.target(),
             });
         }
-        Ok(())
-    }
-
-    /// `forall` or `exists`: a loop over the robots for each local.
-    fn branch_quantifier(
-        &mut self,
-        is_universal: bool,
-        robots: &'p [LocalId],
-        condition: &'p Expression,
-        when: bool,
-        label: Label,
-    ) -> Compiled {
-        // The loop is left as soon as one decides: that is what `decided` is for.
-        let decided = if is_universal == when {
-            self.label()
-        } else {
-            label
-        };
-        let mark = self.mark();
-        let all = self.take(Size::OBJECT)?;
-        self.all_robots(all)?;
-        self.for_robots(all, robots, condition, !is_universal, decided)?;
-        self.release(mark);
-        if is_universal == when {
-            self.jump(label);
-            self.place(decided);
-        }
-        Ok(())
-    }
-
-    fn for_robots(
-        &mut self,
-        all: Slot,
-        robots: &'p [LocalId],
-        condition: &'p Expression,
-        when: bool,
-        decided: Label,
-    ) -> Compiled {
-        let Some((first, rest)) = robots.split_first() else {
-            return self.branch(condition, when, decided);
-        };
-        let mark = self.mark();
-        let robot = self.declare(*first)?;
-        self.run_over(all.object_in(), Some(robot), |body| {
-            body.for_robots(all, rest, condition, when, decided)
-        })?;
-        self.release(mark);
         Ok(())
     }
 

@@ -1,12 +1,17 @@
 //! Statements.
 
-use super::body::{Body, Slot};
-use super::changes::may_change;
-use super::expression::is_located;
-use super::location::Location;
-use super::problem::{Compiled, Problem};
-use super::types::Size;
-use super::unit::Routine;
+mod assignment;
+mod change;
+mod changes;
+mod repetition;
+mod way;
+
+use crate::compile::body::{Body, Location, Slot};
+use crate::compile::expression::is_located;
+use crate::compile::problem::{Compiled, Problem};
+use crate::compile::size::Size;
+use crate::compile::statement::changes::may_change;
+use crate::compile::unit::Routine;
 use crate::diagnostic;
 use crate::ir::{Expression, ExpressionKind, Statement, StatementKind};
 use crate::machine::operand::{Count, FunctionIndex, Slot as StateSlot};

@@ -4,7 +4,7 @@ use crate::ir::{Expression, ExpressionKind, LocalId, Place, Root, Statement, Sta
 
 /// Whether the statements may change the variable that the expression is, or is a part of. What is
 /// computed anew is not changed by anything.
-pub(super) fn may_change(statements: &[Statement], expression: &Expression) -> bool {
+pub(in crate::compile) fn may_change(statements: &[Statement], expression: &Expression) -> bool {
     match root(expression) {
         Some(variable) => statements
             .iter()

@@ -3,11 +3,11 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::body::{Body, Slot};
-use super::call::{Argument, HostFunction};
-use super::problem::Compiled;
-use super::types::Size;
 use crate::check::{Builtin, Purity};
+use crate::compile::body::{Body, Slot};
+use crate::compile::call::{Argument, HostFunction};
+use crate::compile::problem::Compiled;
+use crate::compile::size::Size;
 use crate::ir::{Expression, Type};
 use crate::machine::operand::{Binary, Rounding, Unary};
 use crate::machine::{Instruction, operand};
@@ -176,80 +176,24 @@ impl<'p> Body<'_, 'p> {
         }
         Ok(())
     }
+}
 
-    fn geometry(
-        &mut self,
-        builtin: Builtin,
-        arguments: &'p [Option<Expression>],
-        to: Slot,
-    ) -> Compiled {
-        match builtin {
-            Builtin::MakePoint => {
-                for axis in 0..3 {
-                    let at = to.at(Size::new(axis, 0));
-                    match arguments.get(axis as usize).and_then(Option::as_ref) {
-                        Some(coordinate) => self.into(coordinate, at, true)?,
-                        None => self.scalar(at, 0),
-                    }
-                }
-                Ok(())
-            }
-            Builtin::Distance => {
-                let left = self.value(self.given(arguments, 0)?)?.point();
-                let right = self.value(self.given(arguments, 1)?)?.point();
-                self.emit(Instruction::Distance {
-                    to: to.output(),
-                    left,
-                    right,
-                });
-                Ok(())
-            }
-            Builtin::Bearing => {
-                let from = self.value(self.given(arguments, 0)?)?.point();
-                let at = self.value(self.given(arguments, 1)?)?.point();
-                let way = self.take(Size::new(3, 0))?;
-                self.emit(Instruction::SubtractPoint {
-                    to: way.point_out(),
-                    left: at,
-                    right: from,
-                });
-                self.emit(Instruction::Binary {
-                    to: to.output(),
-                    left: way.at(Size::SCALAR).input(),
-                    right: way.input(),
-                    function: Binary::ArcTangent,
-                });
-                Ok(())
-            }
-            Builtin::Circle => {
-                self.area_type()?;
-                let center = self.value(self.given(arguments, 0)?)?.point();
-                let radius = self.value(self.given(arguments, 1)?)?.input();
-                self.emit(Instruction::Circle {
-                    to: to.object_out(),
-                    center,
-                    radius,
-                });
-                Ok(())
-            }
-            Builtin::Polygon => {
-                self.area_type()?;
-                let corners = self.object(self.given(arguments, 0)?)?;
-                self.emit(Instruction::Polygon {
-                    to: to.object_out(),
-                    corners,
-                });
-                Ok(())
-            }
-            _ => Err(self.broken()),
-        }
+fn lesser_or_greater(
+    is_float: bool,
+    is_greater: bool,
+    to: operand::Out,
+    [left, right]: [Slot; 2],
+) -> Instruction {
+    let (left, right) = (left.input(), right.input());
+    match (is_float, is_greater) {
+        (true, true) => Instruction::MaximumFloat { to, left, right },
+        (true, false) => Instruction::MinimumFloat { to, left, right },
+        (false, true) => Instruction::MaximumInt { to, left, right },
+        (false, false) => Instruction::MinimumInt { to, left, right },
     }
+}
 
-    /// Areas have to be among the program's types where one is made.
-    fn area_type(&mut self) -> Compiled<operand::Type> {
-        self.object_type(&Type::Area)
-    }
-
+impl<'p> Body<'_, 'p> {
     /// A random element of a list.
     fn choose(&mut self, list: &'p Expression, ty: &Type, to: Slot) -> Compiled {
         let from = self.object(list)?;
@@ -266,21 +210,6 @@ impl<'p> Body<'_, 'p> {
             body.copy(index, first, Size::SCALAR);
             Ok(())
         })
-    }
-}
-
-fn lesser_or_greater(
-    is_float: bool,
-    is_greater: bool,
-    to: operand::Out,
-    [left, right]: [Slot; 2],
-) -> Instruction {
-    let (left, right) = (left.input(), right.input());
-    match (is_float, is_greater) {
-        (true, true) => Instruction::MaximumFloat { to, left, right },
-        (true, false) => Instruction::MinimumFloat { to, left, right },
-        (false, true) => Instruction::MaximumInt { to, left, right },
-        (false, false) => Instruction::MinimumInt { to, left, right },
     }
 }
 

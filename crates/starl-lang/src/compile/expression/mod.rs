@@ -1,13 +1,26 @@
-//! Expressions: which part of the compiler each kind belongs to, and those that are made of parts.
+//! Expressions: which part of the compiler each kind belongs to.
 //!
 //! A value is computed `into` registers, or wherever it is best with `value`. Registers are *fresh* if
 //! what they hold is not read any more: then they may be written before all operands are read.
 
-use super::body::{Body, Slot};
-use super::constant::folded;
-use super::problem::Compiled;
-use super::types::Size;
-use super::unit::Routine;
+pub(in crate::compile) mod arithmetic;
+mod builtin;
+mod choice;
+mod collection;
+mod element;
+mod geometry;
+mod log;
+mod method;
+mod small;
+mod span;
+mod text;
+
+use crate::compile::body::Location;
+use crate::compile::body::{Body, Slot};
+use crate::compile::constant::folded;
+use crate::compile::problem::Compiled;
+use crate::compile::size::Size;
+use crate::compile::unit::Routine;
 use crate::ir::{Expression, ExpressionKind, Operator, RobotMember};
 use crate::machine::Instruction;
 use crate::machine::operand::ObjectIn;
@@ -25,7 +38,7 @@ impl<'p> Body<'_, 'p> {
         }
         if let Some(location) = self.locate(expression)? {
             return match (location, spare) {
-                (super::location::Location::Registers(slot), _) => Ok(slot),
+                (Location::Registers(slot), _) => Ok(slot),
                 (_, Some(spare)) => {
                     self.at(expression.span, |body| {
                         body.load(spare, location, &expression.ty)
@@ -127,6 +140,47 @@ impl<'p> Body<'_, 'p> {
                 self.into(value, to.at(Size::SCALAR), true)
             }
             ExpressionKind::Record(values) => self.sequence(values.iter(), to),
+            ExpressionKind::Index { base, index } => self.index(base, index, to),
+            ExpressionKind::Lookup { base, key } => self.lookup(base, key, to),
+            ExpressionKind::Default { optional, default } => {
+                self.or_default(optional, default, to, is_fresh)
+            }
+            ExpressionKind::Negate(value) => self.negate(value, to),
+            ExpressionKind::Binary {
+                operator:
+                    Operator::Add
+                    | Operator::Subtract
+                    | Operator::Multiply
+                    | Operator::Divide
+                    | Operator::Remainder,
+                ..
+            } => self.arithmetic(expression, to, is_fresh),
+            ExpressionKind::Conditional {
+                condition,
+                then,
+                otherwise,
+            } => self.conditional(condition, [then, otherwise], to, is_fresh),
+            ExpressionKind::List(elements) => self.list(elements, ty, to),
+            ExpressionKind::Set(elements) => self.set(elements, ty, to),
+            ExpressionKind::Map(entries) => self.map(entries, ty, to),
+            ExpressionKind::Comprehension(made) => self.comprehension(made, ty, to),
+            ExpressionKind::OfRobot { robot, member } => {
+                self.of_robot(robot, *member, to, ty, is_fresh)
+            }
+            ExpressionKind::Not(_)
+            | ExpressionKind::IsNone(_)
+            | ExpressionKind::In { .. }
+            | ExpressionKind::Bind { .. }
+            | ExpressionKind::Quantifier { .. }
+            | ExpressionKind::Binary { .. } => self.truth(expression, to),
+            _ => self.compute_call(expression, to, is_fresh),
+        }
+    }
+
+    /// A value that a function, the host or a primitive gives.
+    fn compute_call(&mut self, expression: &'p Expression, to: Slot, is_fresh: bool) -> Compiled {
+        let ty = &expression.ty;
+        match &expression.kind {
             ExpressionKind::Constant(id) => {
                 let function = self.unit.routine(Routine::Constant(*id));
                 self.call_function(function, &[], to, ty, is_fresh)
@@ -163,39 +217,6 @@ impl<'p> Body<'_, 'p> {
             }
             ExpressionKind::SharedMap(shared) => self.shared_map(*shared, to, ty, is_fresh),
             ExpressionKind::Shared(shared) => self.shared(*shared, to, ty, is_fresh),
-            ExpressionKind::Index { base, index } => self.index(base, index, to),
-            ExpressionKind::Lookup { base, key } => self.lookup(base, key, to),
-            ExpressionKind::Default { optional, default } => {
-                self.or_default(optional, default, to, is_fresh)
-            }
-            ExpressionKind::Negate(value) => self.negate(value, to),
-            ExpressionKind::Binary {
-                operator:
-                    Operator::Add
-                    | Operator::Subtract
-                    | Operator::Multiply
-                    | Operator::Divide
-                    | Operator::Remainder,
-                ..
-            } => self.arithmetic(expression, to, is_fresh),
-            ExpressionKind::Conditional {
-                condition,
-                then,
-                otherwise,
-            } => self.conditional(condition, [then, otherwise], to, is_fresh),
-            ExpressionKind::List(elements) => self.list(elements, ty, to),
-            ExpressionKind::Set(elements) => self.set(elements, ty, to),
-            ExpressionKind::Map(entries) => self.map(entries, ty, to),
-            ExpressionKind::Comprehension(made) => self.comprehension(made, ty, to),
-            ExpressionKind::OfRobot { robot, member } => {
-                self.of_robot(robot, *member, to, ty, is_fresh)
-            }
-            ExpressionKind::Not(_)
-            | ExpressionKind::IsNone(_)
-            | ExpressionKind::In { .. }
-            | ExpressionKind::Bind { .. }
-            | ExpressionKind::Quantifier { .. }
-            | ExpressionKind::Binary { .. } => self.truth(expression, to),
             // Literals are folded, variables and their parts are located.
             _ => Err(self.broken()),
         }
@@ -220,87 +241,10 @@ impl<'p> Body<'_, 'p> {
         }
         Ok(first)
     }
-
-    fn conditional(
-        &mut self,
-        condition: &'p Expression,
-        [then, otherwise]: [&'p Expression; 2],
-        to: Slot,
-        is_fresh: bool,
-    ) -> Compiled {
-        let (no, end) = (self.label(), self.label());
-        self.branch(condition, false, no)?;
-        self.into(then, to, is_fresh)?;
-        self.jump(end);
-        self.place(no);
-        self.into(otherwise, to, is_fresh)?;
-        self.place(end);
-        Ok(())
-    }
-
-    fn or_default(
-        &mut self,
-        optional: &'p Expression,
-        default: &'p Expression,
-        to: Slot,
-        is_fresh: bool,
-    ) -> Compiled {
-        let (no, end) = (self.label(), self.label());
-        let mark = self.mark();
-        // The default may be an optional again: then the whole of the other is the value.
-        let skipped = match optional.ty == default.ty {
-            true => Size::NONE,
-            false => Size::SCALAR,
-        };
-        let size = self.size(&default.ty);
-        if is_located(optional)
-            && let Some(location) = self.locate(optional)?
-        {
-            let present = self.scalar_at(location)?;
-            self.emit(Instruction::JumpUnless {
-                condition: present.input(),
-                target: no.target(),
-            });
-            self.load(to, location.at(skipped), &default.ty);
-        } else {
-            let value = self.value(optional)?;
-            self.emit(Instruction::JumpUnless {
-                condition: value.input(),
-                target: no.target(),
-            });
-            self.move_value(to, value.at(skipped), size);
-        }
-        self.release(mark);
-        self.jump(end);
-        self.place(no);
-        self.into(default, to, is_fresh)?;
-        self.place(end);
-        Ok(())
-    }
-
-    fn of_robot(
-        &mut self,
-        robot: &'p Expression,
-        member: RobotMember,
-        to: Slot,
-        ty: &'p crate::ir::Type,
-        is_fresh: bool,
-    ) -> Compiled {
-        let name = match member {
-            RobotMember::Position => "robot.position",
-            RobotMember::Heading => "robot.heading",
-            RobotMember::Velocity => "robot.velocity",
-            RobotMember::Finished => "robot.finished",
-            RobotMember::Up => "robot.up",
-            RobotMember::Id => return self.into(robot, to, is_fresh),
-            RobotMember::Variable(_) | RobotMember::Parameter(_) => return Err(self.broken()),
-        };
-        self.ask(name, &[robot], to, ty, is_fresh)
-    }
 }
 
 /// Whether the value is a variable or a part of one.
-pub(super) fn is_located(expression: &Expression) -> bool {
+pub(in crate::compile) fn is_located(expression: &Expression) -> bool {
     match &expression.kind {
         ExpressionKind::Local(_) | ExpressionKind::Variable(_) | ExpressionKind::Parameter(_) => {
             true

@@ -1,9 +1,9 @@
 //! Methods that change nothing.
 
-use super::body::{Body, Slot};
-use super::problem::Compiled;
-use super::types::Size;
 use crate::check::Method;
+use crate::compile::body::{Body, Slot};
+use crate::compile::problem::Compiled;
+use crate::compile::size::Size;
 use crate::ir::{Expression, Type};
 use crate::machine::Instruction;
 use crate::machine::operand::{Immediate, ObjectIn};
@@ -56,50 +56,51 @@ impl<'p> Body<'_, 'p> {
                 },
             }),
             MapGet => self.map_get(from, receiver, arguments, ty, to)?,
-            MapKeys => {
-                let kind = self.object_type(ty)?;
-                self.emit(Instruction::MapKeys {
-                    to: to.object_out(),
-                    map: from,
-                    kind,
-                });
-            }
-            MapValues => {
-                let kind = self.object_type(ty)?;
-                self.emit(Instruction::MapValues {
-                    to: to.object_out(),
-                    map: from,
-                    kind,
-                });
-            }
-            StringContains => {
-                let part = self.object(self.argument_of(arguments, 0)?)?;
-                self.emit(Instruction::ContainsText {
-                    to: output,
-                    text: from,
-                    part,
-                });
-            }
-            StringSplit => {
-                let separator = self.object(self.argument_of(arguments, 0)?)?;
-                let kind = self.object_type(ty)?;
-                self.emit(Instruction::SplitText {
-                    to: to.object_out(),
-                    text: from,
-                    separator,
-                    kind,
-                });
-            }
-            AreaContains => {
-                let point = self.value(self.argument_of(arguments, 0)?)?.point();
-                self.emit(Instruction::AreaContains {
-                    to: output,
-                    area: from,
-                    point,
-                });
-            }
-            _ => return Err(self.broken()),
+            _ => return self.given_method(expression, from, method, arguments, to),
         }
+        Ok(())
+    }
+
+    /// Methods that are one instruction each.
+    fn given_method(
+        &mut self,
+        expression: &'p Expression,
+        from: ObjectIn,
+        method: Method,
+        arguments: &'p [Expression],
+        to: Slot,
+    ) -> Compiled {
+        let (output, object) = (to.output(), to.object_out());
+        let instruction = match method {
+            Method::MapKeys => Instruction::MapKeys {
+                to: object,
+                map: from,
+                kind: self.object_type(&expression.ty)?,
+            },
+            Method::MapValues => Instruction::MapValues {
+                to: object,
+                map: from,
+                kind: self.object_type(&expression.ty)?,
+            },
+            Method::StringContains => Instruction::ContainsText {
+                to: output,
+                text: from,
+                part: self.object(self.argument_of(arguments, 0)?)?,
+            },
+            Method::StringSplit => Instruction::SplitText {
+                to: object,
+                text: from,
+                separator: self.object(self.argument_of(arguments, 0)?)?,
+                kind: self.object_type(&expression.ty)?,
+            },
+            Method::AreaContains => Instruction::AreaContains {
+                to: output,
+                area: from,
+                point: self.value(self.argument_of(arguments, 0)?)?.point(),
+            },
+            _ => return Err(self.broken()),
+        };
+        self.emit(instruction);
         Ok(())
     }
 

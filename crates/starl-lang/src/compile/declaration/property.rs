@@ -4,13 +4,13 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::body::Body;
-use super::computed::computed;
-use super::problem::{Compiled, Problem};
-use super::unit::{Finished, Unit};
-use crate::diagnostic;
+use crate::compile::body::Body;
+use crate::compile::computed::computed;
+use crate::compile::problem::{Compiled, Problem};
+use crate::compile::unit::{Finished, Unit};
 use crate::ir::{Claim, Expression, Property};
-use crate::machine::{self, FunctionKind, Type};
+use crate::machine::{FunctionKind, Type};
+use crate::{diagnostic, machine};
 
 impl<'p> Unit<'p> {
     /// Compiles a property; its functions are defined.

@@ -1,0 +1,149 @@
+//! Shared variables: instances of two kinds of primitive, after those of the program.
+
+use alloc::boxed::Box;
+use alloc::format;
+use alloc::vec::Vec;
+
+use crate::compile::body::{Body, Slot};
+use crate::compile::call::{Argument, HostFunction};
+use crate::compile::problem::Compiled;
+use crate::compile::size::Size;
+use crate::ir::{Expression, SharedId, Type};
+use crate::machine::operand::ImportIndex;
+use crate::machine::{Import, Instruction};
+use crate::{ir, machine};
+
+/// The kind of primitive that a shared variable is.
+pub(in crate::compile) fn shared_kind(shared: &ir::Shared) -> &'static str {
+    match shared.is_single_writer {
+        true => "SingleWriter",
+        false => "MultiWriter",
+    }
+}
+
+impl<'p> Body<'_, 'p> {
+    fn shared_function(&self, id: SharedId, member: &str, is_query: bool) -> HostFunction {
+        let kind = shared_kind(&self.unit.program[id]);
+        HostFunction {
+            name: format!("{kind}.{member}"),
+            is_query,
+            labels: Vec::new(),
+        }
+    }
+
+    fn shared_instance(&self, id: SharedId) -> Argument<'p> {
+        Argument::Int((self.unit.program.bindings.len() + id.index()) as u32)
+    }
+
+    /// `name[robot]` of a single-writer variable.
+    pub fn shared_element(
+        &mut self,
+        id: SharedId,
+        robot: &'p Expression,
+        to: Slot,
+        ty: &Type,
+        is_fresh: bool,
+    ) -> Compiled {
+        let import = self.shared_function(id, "element", true);
+        let arguments = [self.shared_instance(id), Argument::Value(robot)];
+        self.read_optional(
+            import,
+            &arguments,
+            &self.unit.program[id].ty,
+            to,
+            ty,
+            is_fresh,
+        )
+    }
+
+    /// Asks for an optional of a type. If that is an optional itself, the two are one to the program.
+    fn read_optional(
+        &mut self,
+        import: HostFunction,
+        arguments: &[Argument<'p>],
+        inner: &Type,
+        to: Slot,
+        ty: &Type,
+        is_fresh: bool,
+    ) -> Compiled {
+        let optional = Type::Optional(Box::new(inner.clone()));
+        if *ty == optional {
+            return self.host(import, arguments, &optional, to, is_fresh);
+        }
+        let mark = self.mark();
+        let whole = self.take_for(&optional)?;
+        self.host(import, arguments, &optional, whole, true)?;
+        if inner != ty {
+            return Err(self.broken());
+        }
+        let size = self.size(ty);
+        self.move_value(to, whole.at(Size::SCALAR), size);
+        self.release(mark);
+        Ok(())
+    }
+
+    /// All of a single-writer variable.
+    pub fn shared_map(&mut self, id: SharedId, to: Slot, ty: &Type, is_fresh: bool) -> Compiled {
+        let import = self.shared_function(id, "all", true);
+        let arguments = [self.shared_instance(id)];
+        self.host(import, &arguments, ty, to, is_fresh)
+    }
+
+    /// A multi-writer variable. With an initial value it has one always.
+    pub fn shared(&mut self, id: SharedId, to: Slot, ty: &Type, is_fresh: bool) -> Compiled {
+        let shared: &'p ir::Shared = &self.unit.program[id];
+        let import = self.shared_function(id, "read", true);
+        let arguments = [self.shared_instance(id)];
+        if shared.initial.is_none() {
+            return self.read_optional(import, &arguments, &shared.ty, to, ty, is_fresh);
+        }
+        let mark = self.mark();
+        let optional = Type::Optional(Box::new(shared.ty.clone()));
+        let whole = self.take_for(&optional)?;
+        self.host(import, &arguments, &optional, whole, true)?;
+        self.emit(Instruction::Require {
+            present: whole.input(),
+        });
+        let size = self.size(ty);
+        self.move_value(to, whole.at(Size::SCALAR), size);
+        self.release(mark);
+        Ok(())
+    }
+
+    /// Tells the host the value of a shared variable, by one of its members.
+    pub fn write_shared(&mut self, id: SharedId, member: &str, value: &'p Expression) -> Compiled {
+        let import = self.shared_function(id, member, false);
+        let arguments = [self.shared_instance(id), Argument::Value(value)];
+        let nowhere = self.take(Size::NONE)?;
+        self.host(import, &arguments, &Type::Nothing, nowhere, false)
+    }
+
+    /// Tells the host the value of a shared variable that was changed in registers.
+    pub fn write_back_shared(&mut self, id: SharedId, value: Slot) -> Compiled {
+        let ty = &self.unit.program[id].ty;
+        let import = self.shared_function(id, "write", false);
+        let mark = self.mark();
+        let size = self.size(ty);
+        let first = self.take(Size::SCALAR.plus(size))?;
+        let Argument::Int(instance) = self.shared_instance(id) else {
+            return Err(self.broken());
+        };
+        self.scalar(first, u64::from(instance));
+        self.copy(first.at(Size::SCALAR), value, size);
+        let kind = self.machine_type(ty)?;
+        let import = self.unit.import(Import {
+            name: import.name,
+            query: false,
+            labels: Vec::new(),
+            arguments: Vec::from([machine::Type::Int, kind]),
+            results: Vec::new(),
+        });
+        self.emit(Instruction::CallHost {
+            scalars: first.block(),
+            objects: first.objects(),
+            import: ImportIndex(import),
+        });
+        self.release(mark);
+        Ok(())
+    }
+}

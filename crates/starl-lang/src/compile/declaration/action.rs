@@ -1,0 +1,67 @@
+//! Actions: guards and effects.
+
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::compile::body::Body;
+use crate::compile::problem::Compiled;
+use crate::compile::size::Size;
+use crate::compile::unit::{Finished, Unit};
+use crate::machine::{FunctionKind, Instruction};
+use crate::{ir, machine};
+
+impl<'p> Unit<'p> {
+    /// The guard of an action.
+    pub fn guard(&mut self, action: &'p ir::Action) -> Compiled<Finished> {
+        let mut body = Body::new(self, FunctionKind::Guard, &action.locals, action.site);
+        // The result: whether it holds, then the bindings.
+        let holds = body.take(Size::SCALAR)?;
+        let mut results = Vec::from([machine::Type::Bool]);
+        let mut size = Size::SCALAR;
+        for local in &action.bindings {
+            body.declare(*local)?;
+            let ty = &action.locals[local.index()].ty;
+            results.push(body.machine_type(ty)?);
+            size = size.plus(body.size(ty));
+        }
+        let no = body.label();
+        let always = crate::compile::constant::folded(body.unit, &action.guard) == Some(1);
+        body.branch(&action.guard, false, no)?;
+        body.scalar(holds, 1);
+        body.leave(size);
+        if !always {
+            body.place(no);
+            body.emit(Instruction::ReturnFalse {
+                until: machine::operand::Count(0),
+            });
+        }
+        let name = format!("{}.pre", body.unit.action_name(action));
+        Ok(body.finish(&name, Vec::new(), results))
+    }
+
+    /// The effect of an action.
+    pub fn effect(&mut self, action: &'p ir::Action) -> Compiled<Finished> {
+        let mut body = Body::new(self, FunctionKind::Procedure, &action.locals, action.site);
+        let mut arguments = Vec::new();
+        for local in &action.bindings {
+            body.declare(*local)?;
+            arguments.push(body.machine_type(&action.locals[local.index()].ty)?);
+        }
+        body.block(&action.effect)?;
+        body.end();
+        let name = format!("{}.eff", body.unit.action_name(action));
+        Ok(body.finish(&name, arguments, Vec::new()))
+    }
+
+    /// The name of an action, with that of its role.
+    pub fn action_name(&self, action: &ir::Action) -> String {
+        match (action.role, &self.program.roles) {
+            (Some(role), Some(roles)) => match roles.roles.get(usize::from(role)) {
+                Some(role) => format!("{}.{}", role.name, action.name),
+                None => action.name.clone(),
+            },
+            _ => action.name.clone(),
+        }
+    }
+}

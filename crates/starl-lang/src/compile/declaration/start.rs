@@ -1,0 +1,146 @@
+//! The start of a program: primitives are bound, variables get their first values.
+
+use alloc::format;
+use alloc::vec::Vec;
+
+use crate::check::Signature;
+use crate::compile::body::Body;
+use crate::compile::call::{Argument, HostFunction, shared_kind};
+use crate::compile::problem::{Compiled, Problem};
+use crate::compile::size::Size;
+use crate::compile::unit::{Finished, Routine, Unit};
+use crate::diagnostic::Span;
+use crate::ir::{Site, Type};
+use crate::machine::FunctionKind;
+use crate::{diagnostic, ir};
+
+impl<'p> Unit<'p> {
+    /// What gives the parameters their default values; nothing if none has one.
+    pub fn defaults(&mut self) -> Compiled<Option<Finished>> {
+        let program = self.program;
+        let Some(first) = (program.parameters.iter()).find(|parameter| parameter.default.is_some())
+        else {
+            return Ok(None);
+        };
+        let mut body = Body::new(self, FunctionKind::Procedure, &[], first.site);
+        for (number, parameter) in program.parameters.iter().enumerate() {
+            let Some(default) = &parameter.default else {
+                continue;
+            };
+            let place = body.unit.parameter(ir::ParameterId(number as u32));
+            body.part(&parameter.locals, parameter.site, |body| {
+                let value = body.take_for(&parameter.ty)?;
+                body.into(default, value, true)?;
+                body.store(place, value, &parameter.ty)
+            })?;
+        }
+        body.end();
+        Ok(Some(body.finish("defaults", Vec::new(), Vec::new())))
+    }
+
+    /// Notes the primitives that hosts do not have.
+    pub fn note_unavailable(&mut self) {
+        for binding in &self.program.bindings {
+            let Some(kind) = binding.primitive.filter(|kind| !kind.is_available) else {
+                continue;
+            };
+            let message = format!("robots do not have the primitive {} yet", kind.name());
+            let code = diagnostic::Code::UnavailablePrimitive;
+            let problem = Problem::new(code, binding.site.file, binding.site.span, message)
+                .note("the program can be checked, but it cannot run");
+            self.problems.push(*problem);
+        }
+    }
+
+    /// What a program does at its start.
+    pub fn start(&mut self) -> Compiled<Finished> {
+        let program = self.program;
+        let site = Site {
+            file: 0,
+            span: Span::empty(0),
+        };
+        let mut body = Body::new(self, FunctionKind::Procedure, &[], site);
+        for (number, binding) in program.bindings.iter().enumerate() {
+            body.bind_primitive(number as u32, binding)?;
+        }
+        for number in 0..program.shared.len() {
+            body.bind_shared(ir::SharedId(number as u32))?;
+        }
+        for number in 0..program.variables.len() {
+            body.initialize(ir::VariableId(number as u32), false)?;
+        }
+        if program.init.is_some() {
+            body.run(Routine::Init)?;
+        }
+        if program.roles.is_some() {
+            body.run(Routine::Enter)?;
+        }
+        body.end();
+        Ok(body.finish("start", Vec::new(), Vec::new()))
+    }
+
+    pub fn init(&mut self) -> Compiled<Finished> {
+        let site = Site {
+            file: 0,
+            span: Span::empty(0),
+        };
+        let Some(init) = &self.program.init else {
+            return Ok(self.nothing("init"));
+        };
+        let mut body = Body::new(self, FunctionKind::Procedure, &init.locals, site);
+        body.block(&init.body)?;
+        body.end();
+        Ok(body.finish("init", Vec::new(), Vec::new()))
+    }
+}
+
+impl<'p> Body<'_, 'p> {
+    fn bind_primitive(&mut self, number: u32, binding: &'p ir::Binding) -> Compiled {
+        let Some(kind) = binding.primitive else {
+            return Err(self.broken());
+        };
+        self.part(&binding.locals, binding.site, |body| {
+            let mut arguments = Vec::from([Argument::Int(number)]);
+            let signature = Signature::read(kind.constructor);
+            arguments.extend(body.arguments(&signature, &binding.arguments)?);
+            let import = HostFunction::effect(&format!("{}.bind", kind.name()));
+            let nowhere = body.take(Size::NONE)?;
+            body.host(import, &arguments, &Type::Nothing, nowhere, false)
+        })
+    }
+
+    fn bind_shared(&mut self, id: ir::SharedId) -> Compiled {
+        let shared: &'p ir::Shared = &self.unit.program[id];
+        let number = (self.unit.program.bindings.len() + id.index()) as u32;
+        self.part(&shared.locals, shared.site, |body| {
+            let import = HostFunction::effect(&format!("{}.bind", shared_kind(shared)));
+            let arguments = [
+                Argument::Int(number),
+                Argument::MaybeText(shared.consistency.as_deref()),
+            ];
+            let nowhere = body.take(Size::NONE)?;
+            body.host(import, &arguments, &Type::Nothing, nowhere, false)?;
+            if let Some(initial) = &shared.initial {
+                body.write_shared(id, "initialize", initial)?;
+            }
+            Ok(())
+        })
+    }
+
+    /// Gives a variable its first value. That of its type is there at the start already.
+    pub fn initialize(&mut self, id: ir::VariableId, is_again: bool) -> Compiled {
+        let variable: &'p ir::Variable = &self.unit.program[id];
+        let place = self.unit.variable(id);
+        self.part(&variable.locals, variable.site, |body| {
+            if variable.initial.is_none() && !is_again {
+                return Ok(());
+            }
+            let value = body.take_for(&variable.ty)?;
+            match &variable.initial {
+                Some(initial) => body.into(initial, value, true)?,
+                None => body.zeros(value, &variable.ty)?,
+            }
+            body.store(place, value, &variable.ty)
+        })
+    }
+}

@@ -1,0 +1,97 @@
+//! Collections: literals and comprehensions.
+
+use crate::compile::body::{Body, Slot};
+use crate::compile::problem::Compiled;
+use crate::ir::{Comprehension, Element, Expression, Type};
+use crate::machine::Instruction;
+
+impl<'p> Body<'_, 'p> {
+    pub fn clear(&mut self, to: Slot, ty: &Type) -> Compiled {
+        let kind = self.object_type(ty)?;
+        self.emit(Instruction::ClearObject {
+            to: to.object_out(),
+            kind,
+        });
+        Ok(())
+    }
+
+    /// `[a, b]`
+    pub fn list(&mut self, elements: &'p [Expression], ty: &'p Type, to: Slot) -> Compiled {
+        self.clear(to, ty)?;
+        elements
+            .iter()
+            .try_for_each(|element| self.add(to, ty, element))
+    }
+
+    /// `{a, b}`
+    pub fn set(&mut self, elements: &'p [Expression], ty: &'p Type, to: Slot) -> Compiled {
+        self.list(elements, ty, to)
+    }
+
+    /// `{k: v}`
+    pub fn map(
+        &mut self,
+        entries: &'p [(Expression, Expression)],
+        ty: &'p Type,
+        to: Slot,
+    ) -> Compiled {
+        self.clear(to, ty)?;
+        (entries.iter()).try_for_each(|(key, value)| self.put(to, ty, key, value))
+    }
+
+    /// Adds an element to a list or set in a register.
+    fn add(&mut self, to: Slot, ty: &Type, element: &'p Expression) -> Compiled {
+        let mark = self.mark();
+        let slot = self.value(element)?;
+        let kind = self.object_type(ty)?;
+        let (scalars, objects) = (slot.block(), slot.objects());
+        self.emit(match ty {
+            Type::Set(_) => Instruction::SetAdd {
+                set: to.object_in_out(),
+                scalars,
+                objects,
+                kind,
+            },
+            _ => Instruction::ListAdd {
+                list: to.object_in_out(),
+                scalars,
+                objects,
+                kind,
+            },
+        });
+        self.release(mark);
+        Ok(())
+    }
+
+    /// Puts an entry into a map in a register.
+    fn put(&mut self, to: Slot, ty: &Type, key: &'p Expression, value: &'p Expression) -> Compiled {
+        let mark = self.mark();
+        let entry = self.row(&[key, value])?;
+        let kind = self.object_type(ty)?;
+        self.emit(Instruction::MapPut {
+            map: to.object_in_out(),
+            scalars: entry.block(),
+            objects: entry.objects(),
+            kind,
+        });
+        self.release(mark);
+        Ok(())
+    }
+
+    /// `[f(x) for x in xs if c]`
+    pub fn comprehension(&mut self, made: &'p Comprehension, ty: &'p Type, to: Slot) -> Compiled {
+        self.clear(to, ty)?;
+        self.for_each(&made.collection, made.variables, false, |body| {
+            let next = body.label();
+            if let Some(condition) = &made.condition {
+                body.branch(condition, false, next)?;
+            }
+            match &made.element {
+                Element::One(element) => body.add(to, ty, element)?,
+                Element::Entry(key, value) => body.put(to, ty, key, value)?,
+            }
+            body.place(next);
+            Ok(())
+        })
+    }
+}

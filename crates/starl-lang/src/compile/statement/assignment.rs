@@ -1,0 +1,152 @@
+//! Assignments.
+
+use crate::compile::body::{Body, Location, Slot};
+use crate::compile::expression::arithmetic::Left;
+use crate::compile::problem::Compiled;
+use crate::compile::statement::way::{Prepared, Way};
+use crate::ir::{Expression, ExpressionKind, Operator, Place, Root, Step, Type};
+use crate::machine::Instruction;
+
+impl<'p> Body<'_, 'p> {
+    /// `place = value`
+    pub fn assign(&mut self, place: &'p Place, value: &'p Expression) -> Compiled {
+        if let Some(added) = self.grown(place, value) {
+            return self.update(place, Operator::Add, added);
+        }
+        let mark = self.mark();
+        let prepared = self.prepare(place)?;
+        match (place.path.last(), prepared.last()) {
+            (Some(Step::Key(key)), Some(Prepared::Entry(entry))) => {
+                let at = entry.at(self.size(&key.ty));
+                self.into(value, at, true)?;
+                let (way, _) = self.go(place, &prepared, place.path.len() - 1)?;
+                self.put_entry(way, *entry)?;
+            }
+            (Some(Step::Index(_)), Some(Prepared::Index(index))) => {
+                let element = self.value(value)?;
+                let (mut way, _) = self.go(place, &prepared, place.path.len() - 1)?;
+                let list = self.container(&mut way)?;
+                self.at(place.span, |body| {
+                    body.emit(Instruction::ListSet {
+                        list,
+                        index: *index,
+                        scalars: element.block(),
+                        objects: element.objects(),
+                    });
+                });
+                self.write_back(way.back)?;
+            }
+            _ => self.assign_part(place, &prepared, value)?,
+        }
+        self.release(mark);
+        Ok(())
+    }
+
+    /// Writes a whole variable, or a field of what is on the way.
+    fn assign_part(
+        &mut self,
+        place: &'p Place,
+        prepared: &[Prepared],
+        value: &'p Expression,
+    ) -> Compiled {
+        if let (Root::Local(local), true) = (&place.root, place.path.is_empty()) {
+            let slot = self.local(*local)?;
+            return self.into(value, slot, false);
+        }
+        if place.path.is_empty()
+            && let Root::OwnElement(id) | Root::Shared(id) = &place.root
+        {
+            return self.at(place.span, |body| body.write_shared(*id, "write", value));
+        }
+        // Objects are moved into their place, so they must not be those of another variable.
+        let size = self.size(&value.ty);
+        let made = if size.objects == 0 {
+            self.value(value)?
+        } else {
+            let made = self.take(size)?;
+            self.into(value, made, true)?;
+            made
+        };
+        let (way, ty) = self.go(place, prepared, place.path.len())?;
+        self.at(place.span, |body| body.write(way.at, made, ty))?;
+        self.write_back(way.back)
+    }
+
+    /// Moves a value to where it belongs.
+    fn write(&mut self, at: Location, from: Slot, ty: &Type) -> Compiled {
+        match at {
+            Location::Registers(to) => {
+                let size = self.size(ty);
+                self.move_value(to, from, size);
+                Ok(())
+            }
+            Location::State(to) => self.store(to, from, ty),
+            Location::Other(..) => Err(self.broken()),
+        }
+    }
+
+    /// What is added to a text or a list by `x = x + value`.
+    fn grown(&self, place: &Place, value: &'p Expression) -> Option<&'p Expression> {
+        let ExpressionKind::Binary {
+            operator: Operator::Add,
+            left,
+            right,
+        } = &value.kind
+        else {
+            return None;
+        };
+        let is_same = match (&place.root, &left.kind) {
+            (Root::Local(local), ExpressionKind::Local(other)) => local == other,
+            (Root::Variable(id), ExpressionKind::Variable(other)) => id == other,
+            _ => false,
+        };
+        let grows = matches!(value.ty, Type::String | Type::List(_));
+        (is_same && grows && place.path.is_empty()).then_some(right)
+    }
+
+    /// `place += value` and the like.
+    pub fn update(
+        &mut self,
+        place: &'p Place,
+        operator: Operator,
+        value: &'p Expression,
+    ) -> Compiled {
+        let mark = self.mark();
+        let prepared = self.prepare(place)?;
+        let (mut way, ty) = self.go(place, &prepared, place.path.len())?;
+        if matches!(ty, Type::String | Type::List(_)) {
+            // What is added may be a part of the variable itself: it is read before that changes.
+            let object = self.container(&mut way)?;
+            self.append(object.0, value)?;
+            self.write_back(way.back)?;
+            self.release(mark);
+            return Ok(());
+        }
+        match way.at {
+            Location::Registers(slot) => {
+                self.operate(operator, Left::Value(slot, ty), value, slot, false)?;
+            }
+            at => {
+                let slot = self.value_at(at, ty)?;
+                self.operate(operator, Left::Value(slot, ty), value, slot, false)?;
+                self.at(place.span, |body| body.write(at, slot, ty))?;
+            }
+        }
+        self.write_back(way.back)?;
+        self.release(mark);
+        Ok(())
+    }
+
+    /// Puts a key and its value into the map that a way has come to.
+    fn put_entry(&mut self, mut way: Way<'p>, entry: Slot) -> Compiled {
+        let kind = self.object_type(way.ty)?;
+        let map = self.container(&mut way)?;
+        self.emit(Instruction::MapPut {
+            map,
+            scalars: entry.block(),
+            objects: entry.objects(),
+            kind,
+        });
+        self.write_back(way.back)
+    }
+}

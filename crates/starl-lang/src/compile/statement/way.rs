@@ -1,0 +1,214 @@
+//! The way from a variable to a part of it, and back.
+//!
+//! Indices and keys on the way are computed first. Then the way is gone from the variable on: fields
+//! lie within their record; an element of a list or a value of a map is read into registers, changed
+//! there, and written back, the innermost first.
+
+use alloc::vec::Vec;
+
+use crate::compile::body::{Body, Location, Slot, state_operand};
+use crate::compile::problem::Compiled;
+use crate::compile::size::Size;
+use crate::ir::{Place, Root, SharedId, Step, Type};
+use crate::machine::operand::{In, ObjectIn, ObjectInOut, ObjectOut, ObjectSlot};
+use crate::machine::{Instruction, operand};
+
+/// What a step needs that was computed before the way is gone.
+#[derive(Clone, Copy)]
+pub(super) enum Prepared {
+    /// A step within registers.
+    Nothing,
+    /// The index of an element.
+    Index(In),
+    /// Registers for a key and its value, of which the key is there.
+    Entry(Slot),
+}
+
+/// What is to be done when a part was changed.
+pub(super) enum WriteBack {
+    List(ObjectInOut, In, Slot),
+    Map(ObjectInOut, Slot, operand::Type),
+    Object(ObjectSlot, Slot),
+    Shared(SharedId, Slot),
+}
+
+/// A way that was gone.
+pub(super) struct Way<'p> {
+    /// Where it led.
+    pub at: Location,
+    /// The type of what is there.
+    pub ty: &'p Type,
+    /// What is to be written back, the innermost last.
+    pub back: Vec<WriteBack>,
+}
+
+impl<'p> Body<'_, 'p> {
+    /// Computes the indices and keys of a way.
+    pub(super) fn prepare(&mut self, place: &'p Place) -> Compiled<Vec<Prepared>> {
+        let mut ty = self.root_type(&place.root)?;
+        let mut prepared = Vec::new();
+        for step in &place.path {
+            prepared.push(match step {
+                Step::Field(_) | Step::Coordinate(_) => Prepared::Nothing,
+                Step::Index(index) => Prepared::Index(self.value(index)?.input()),
+                Step::Key(key) => {
+                    let value = self.step_type(ty, step)?;
+                    let size = self.size(&key.ty).plus(self.size(value));
+                    let entry = self.take(size)?;
+                    self.into(key, entry, true)?;
+                    Prepared::Entry(entry)
+                }
+            });
+            ty = self.step_type(ty, step)?;
+        }
+        Ok(prepared)
+    }
+
+    fn root_type(&self, root: &Root) -> Compiled<&'p Type> {
+        let program = self.unit.program;
+        Ok(match root {
+            Root::Error => return Err(self.broken()),
+            Root::Local(local) => &self.declared[local.index()].ty,
+            Root::Variable(id) => &program[*id].ty,
+            Root::OwnElement(id) | Root::Shared(id) => &program[*id].ty,
+        })
+    }
+
+    fn step_type(&self, ty: &'p Type, step: &Step) -> Compiled<&'p Type> {
+        match (step, ty) {
+            (Step::Field(field), Type::Record(id)) => {
+                let fields = &self.unit.program[*id].fields;
+                let field = fields.get(*field as usize).ok_or_else(|| self.broken())?;
+                Ok(&field.ty)
+            }
+            (Step::Coordinate(_), _) => Ok(&Type::Float),
+            (Step::Index(_), Type::List(element)) => Ok(element),
+            (Step::Key(_), Type::Map(_, value)) => Ok(value),
+            _ => Err(self.broken()),
+        }
+    }
+
+    /// Goes so many steps of the way; gives the type of what is there too.
+    pub(super) fn go(
+        &mut self,
+        place: &'p Place,
+        prepared: &[Prepared],
+        steps: usize,
+    ) -> Compiled<(Way<'p>, &'p Type)> {
+        let ty = self.root_type(&place.root)?;
+        let mut way = Way {
+            at: Location::State(Size::NONE),
+            ty,
+            back: Vec::new(),
+        };
+        way.at = match &place.root {
+            Root::Local(local) => Location::Registers(self.local(*local)?),
+            Root::Variable(id) => Location::State(self.unit.variable(*id)),
+            Root::Shared(id) => {
+                let slot = self.take_for(ty)?;
+                self.at(place.span, |body| body.shared(*id, slot, ty, true))?;
+                way.back.push(WriteBack::Shared(*id, slot));
+                Location::Registers(slot)
+            }
+            Root::OwnElement(_) | Root::Error => return Err(self.broken()),
+        };
+        for (step, prepared) in place.path.iter().zip(prepared).take(steps) {
+            let outer = core::mem::replace(&mut self.span, place.span);
+            self.step(&mut way, step, *prepared)?;
+            self.span = outer;
+        }
+        let ty = way.ty;
+        Ok((way, ty))
+    }
+
+    fn step(&mut self, way: &mut Way<'p>, step: &Step, prepared: Prepared) -> Compiled {
+        let next = self.step_type(way.ty, step)?;
+        match (step, prepared) {
+            (Step::Field(field), _) => {
+                let offset = self.field_offset(way.ty, *field);
+                way.at = way.at.at(offset);
+            }
+            (Step::Coordinate(axis), _) => {
+                way.at = way.at.at(Size::new(u32::from(*axis), 0));
+            }
+            (Step::Index(_), Prepared::Index(index)) => {
+                let list = self.container(way)?;
+                let element = self.take_for(next)?;
+                self.emit(Instruction::ListGet {
+                    list: ObjectIn(list.0),
+                    index,
+                    scalars: element.block(),
+                    objects: element.objects(),
+                });
+                way.back.push(WriteBack::List(list, index, element));
+                way.at = Location::Registers(element);
+            }
+            (Step::Key(key), Prepared::Entry(entry)) => {
+                let kind = self.object_type(way.ty)?;
+                let map = self.container(way)?;
+                let value = entry.at(self.size(&key.ty));
+                self.emit(Instruction::MapAt {
+                    map: ObjectIn(map.0),
+                    scalars: entry.block(),
+                    objects: entry.objects(),
+                    to: value.block(),
+                    to_objects: value.objects(),
+                    kind,
+                });
+                way.back.push(WriteBack::Map(map, entry, kind));
+                way.at = Location::Registers(value);
+            }
+            _ => return Err(self.broken()),
+        }
+        way.ty = next;
+        Ok(())
+    }
+
+    /// The operand of the object that a way has come to. One that is out of reach is read, to be
+    /// written back.
+    pub(super) fn container(&mut self, way: &mut Way<'p>) -> Compiled<ObjectInOut> {
+        match way.at {
+            Location::Registers(slot) => Ok(slot.object_in_out()),
+            Location::State(start) => match state_operand(start.objects) {
+                Some(operand) => Ok(ObjectInOut(operand)),
+                None => {
+                    let slot = self.take(Size::OBJECT)?;
+                    self.emit(Instruction::LoadObject {
+                        to: ObjectOut(slot.operand()),
+                        variable: ObjectSlot(start.objects),
+                    });
+                    let variable = ObjectSlot(start.objects);
+                    way.back.push(WriteBack::Object(variable, slot));
+                    way.at = Location::Registers(slot);
+                    Ok(slot.object_in_out())
+                }
+            },
+            Location::Other(..) => Err(self.broken()),
+        }
+    }
+
+    pub(super) fn write_back(&mut self, back: Vec<WriteBack>) -> Compiled {
+        for part in back.into_iter().rev() {
+            match part {
+                WriteBack::List(list, index, element) => self.emit(Instruction::ListSet {
+                    list,
+                    index,
+                    scalars: element.block(),
+                    objects: element.objects(),
+                }),
+                WriteBack::Map(map, entry, kind) => self.emit(Instruction::MapPut {
+                    map,
+                    scalars: entry.block(),
+                    objects: entry.objects(),
+                    kind,
+                }),
+                WriteBack::Object(variable, slot) => self.emit(Instruction::StoreObject {
+                    variable,
+                    from: slot.object_in_out(),
+                }),
+                WriteBack::Shared(id, slot) => self.write_back_shared(id, slot)?,
+            }
+        }
+        Ok(())
+    }
+}
