@@ -196,6 +196,24 @@ fn what_may_be_typed_is_suggested() {
 }
 
 #[test]
+fn a_call_shows_what_it_takes() {
+    let (text, place) = cursor(&RACE.replace("index += 1", "motion.reach_avoid(position, $0)"));
+    let mut editor = opened(&text);
+    let help = editor
+        .at("textDocument/signatureHelp", URI, place)
+        .expect("an answer");
+    let signature = &help["signatures"][0];
+    let label = signature["label"].as_str().expect("a text");
+    assert_eq!(
+        label,
+        "ReachAvoid.reach_avoid(target: Point, unsafe: Obstacles)"
+    );
+    assert_eq!(help["activeParameter"], 1);
+    assert_eq!(signature["parameters"][1]["label"], json!([38, 55]));
+    assert_eq!(&label[38..55], "unsafe: Obstacles");
+}
+
+#[test]
 fn a_name_leads_to_its_declaration_and_its_other_uses() {
     let (text, place) = cursor(&RACE.replace("loc = pick\n", "loc = pi$0ck\n"));
     let mut editor = opened(&text);

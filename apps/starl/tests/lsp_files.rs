@@ -174,5 +174,26 @@ fn libraries_beside_are_suggested() {
         .iter()
         .filter_map(|item| item["label"].as_str())
         .collect();
-    assert_eq!(labels, ["geometry", "tools"]);
+    assert!(labels.contains(&"geometry") && labels.contains(&"tools"), "{labels:?}");
+    assert!(!labels.contains(&"p"), "a program is no library");
+}
+
+#[test]
+fn a_library_that_comes_later_is_found() {
+    let mut place = place("lsp_later");
+    let program = name_of(&place.program);
+    let later = place.tools.with_file_name("later.starl");
+    place
+        .editor
+        .open(&program, "program P\nimport later\nx: Int = later.one\n");
+    let problems = place.editor.problems(&program, 1);
+    assert_eq!(codes(&problems), ["E0210"], "{problems:?}");
+    place
+        .editor
+        .open(&name_of(&later), "library later\nconst one = 1\n");
+    let codes_now = place.editor.problems(&program, 1);
+    assert!(
+        codes(&codes_now).iter().all(|code| code.starts_with('W')),
+        "{codes_now:?}"
+    );
 }

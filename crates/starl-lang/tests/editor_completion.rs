@@ -3,6 +3,7 @@
 mod editor_support;
 
 use editor_support::{Beside, complete, complete_with, labels};
+use starl_lang::check::{Libraries, StandardLibraries};
 use starl_lang::editor::Call;
 
 /// A program with the line or lines in an effect.
@@ -167,7 +168,11 @@ fn after_import_the_libraries() {
     let beside = [("tools", "library tools\n")];
     let found = complete_with("program P\nimport $0\n", &Beside(&beside));
     let found: Vec<_> = found.into_iter().map(|item| item.label).collect();
-    assert_eq!(found, ["fleet", "geometry", "lists", "tools"]);
+    let mut expected = StandardLibraries.names();
+    expected.push("tools".to_string());
+    expected.sort();
+    assert_eq!(found, expected);
+    assert!(expected.len() > 1, "there are standard libraries");
 }
 
 #[test]
@@ -223,4 +228,23 @@ fn in_a_text_with_errors_too() {
     has(&found, &["position", "motion"]);
     let found = labels("program P\nmotion = ReachAvoid()\ngo(\n    eff if motion.$0");
     has(&found, &["active"]);
+}
+
+#[test]
+fn an_argument_may_be_given_by_its_name() {
+    let items = complete(&effect("").replace("ReachAvoid()", "ReachAvoid(vicinity = size, $0)"));
+    let given = items.iter().filter(|item| item.call == Call::Given);
+    let given: Vec<String> = given.map(|item| item.label.clone()).collect();
+    has(&given, &["off_path", "stuck_after"]);
+    lacks(&given, &["vicinity"]);
+    let items = complete(&effect("        pairs.add(Pair(1, $0))"));
+    let given = items.iter().filter(|item| item.call == Call::Given);
+    let given: Vec<&str> = given.map(|item| item.label.as_str()).collect();
+    assert_eq!(given, ["right"]);
+}
+
+#[test]
+fn what_has_the_expected_type_comes_first() {
+    let found = labels("program P\na: Point\nb: Int\nc: Int\ngo()\n    eff let d = 3; b = $0\n");
+    assert_eq!(found[..4], ["b", "c", "d", "a"]);
 }

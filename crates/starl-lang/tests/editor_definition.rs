@@ -87,7 +87,7 @@ fn of_what_a_guard_binds() {
 
 #[test]
 fn of_roles_as_values() {
-    let text = "program P\nrole leader\n    go()\n        eff role = foll$0ower\nrole follower\n    back()\n        pre role == follower\n        eff role = leader\n";
+    let text = "program P\nrole leader\n    go()\n        eff role = $0follower\nrole follower\n    back()\n        pre role == follower\n        eff role = leader\n";
     let found = marked(text);
     assert!(found.contains("role «follower»"));
     assert!(found.contains("eff role = ‹follower›"));

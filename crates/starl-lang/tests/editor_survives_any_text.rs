@@ -41,6 +41,14 @@ fn ask(text: &str, every: usize) {
             inside(span);
         }
         inside(completions(text, at, &StandardLibraries).span);
+        if let Some(help) = analysis.call_help(at) {
+            let last = help.parameters.last().map_or(0, |span| span.end as usize);
+            assert!(last <= help.signature.len(), "{help:?}");
+            assert!(
+                help.active
+                    .is_none_or(|active| active < help.parameters.len())
+            );
+        }
         if let Ok(found) = analysis.renameable(at) {
             let _ = analysis.rename(found.symbol, "something_else", &StandardLibraries);
         }

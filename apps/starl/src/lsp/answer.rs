@@ -42,6 +42,13 @@ impl Answers<'_> {
                 let list = assist::completions(this.documents, &checked, at.position, snippets);
                 Ok(Some(CompletionResponse::List(list)))
             }),
+            ask::SignatureHelpRequest::METHOD => {
+                self.of::<ask::SignatureHelpRequest>(params, |this, params| {
+                    let at = params.text_document_position_params;
+                    let checked = this.checked(&at.text_document)?;
+                    Ok(assist::signature(&checked, at.position))
+                })
+            }
             ask::GotoDefinition::METHOD => {
                 self.of::<ask::GotoDefinition>(params, |this, params| {
                     let at = params.text_document_position_params;

@@ -4,7 +4,8 @@ use super::convert::Text;
 use super::documents::{Checked, Documents};
 use lsp_types::{
     CompletionItem, CompletionItemKind, CompletionList, CompletionTextEdit, Documentation, Hover,
-    HoverContents, InsertTextFormat, MarkupContent, MarkupKind, Position, TextEdit,
+    HoverContents, InsertTextFormat, MarkupContent, MarkupKind, ParameterInformation,
+    ParameterLabel, Position, SignatureHelp, SignatureInformation, TextEdit,
 };
 use starl_lang::check::Symbol;
 use starl_lang::editor::{self, Call, Completion, Description};
@@ -36,6 +37,34 @@ fn markdown(value: String) -> MarkupContent {
         kind: MarkupKind::Markdown,
         value,
     }
+}
+
+/// What the call takes whose arguments are being typed.
+pub fn signature(checked: &Checked, position: Position) -> Option<SignatureHelp> {
+    let text = Text::new(checked.analysis.text());
+    let help = checked.analysis.call_help(text.offset(position))?;
+    let own = Text::new(&help.signature);
+    let parameters = help.parameters.iter().map(|span| {
+        let range = own.range(*span);
+        let label = [range.start.character, range.end.character];
+        ParameterInformation {
+            label: ParameterLabel::LabelOffsets(label),
+            documentation: None,
+        }
+    });
+    let parameters = parameters.collect();
+    let active = help.active.map(|number| number as u32);
+    Some(SignatureHelp {
+        active_signature: Some(0),
+        active_parameter: active,
+        signatures: vec![SignatureInformation {
+            parameters: Some(parameters),
+            documentation: (!help.documentation.is_empty())
+                .then(|| Documentation::MarkupContent(markdown(help.documentation.clone()))),
+            active_parameter: active,
+            label: help.signature,
+        }],
+    })
 }
 
 /// What may be typed at a place of a text; `snippets` says whether the editor can put the cursor between
@@ -76,6 +105,7 @@ pub fn completions(
 fn inserted(label: &str, call: Call, snippets: bool) -> (String, InsertTextFormat) {
     match call {
         Call::Empty => (format!("{label}()"), InsertTextFormat::PLAIN_TEXT),
+        Call::Given => (format!("{label} = "), InsertTextFormat::PLAIN_TEXT),
         Call::Arguments if snippets => (format!("{label}($0)"), InsertTextFormat::SNIPPET),
         _ => (label.to_string(), InsertTextFormat::PLAIN_TEXT),
     }
@@ -83,6 +113,7 @@ fn inserted(label: &str, call: Call, snippets: bool) -> (String, InsertTextForma
 
 fn kind(item: &Completion) -> CompletionItemKind {
     match item.symbol {
+        None if item.call == Call::Given => CompletionItemKind::FIELD,
         None if item.detail.starts_with("library ") && item.documentation.is_empty() => {
             CompletionItemKind::MODULE
         }

@@ -6,7 +6,7 @@ use starl_lang::check::{Libraries, StandardLibraries};
 use starl_lang::editor::Analysis;
 use starl_lang::syntax::MAX_LENGTH;
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -30,6 +30,13 @@ struct Document {
     is_told: bool,
 }
 
+/// A library that is a file.
+struct Found {
+    path: PathBuf,
+    /// As the editor named it, if it is open.
+    uri: Option<Uri>,
+}
+
 /// A text that was checked.
 pub struct Checked {
     /// What is known of it.
@@ -37,7 +44,9 @@ pub struct Checked {
     /// Where it is.
     pub uri: Uri,
     /// The libraries that it was checked with, by name, as far as they are files.
-    found: BTreeMap<String, PathBuf>,
+    found: BTreeMap<String, Found>,
+    /// The files that would change it, if they came or changed.
+    asked: BTreeSet<PathBuf>,
 }
 
 impl Checked {
@@ -47,7 +56,7 @@ impl Checked {
             return Some(self.uri.clone());
         }
         let name = &self.analysis.checked.files.get(file as usize)?.name;
-        location::uri(self.found.get(name)?)
+        self.found.get(name)?.uri.clone()
     }
 
     /// The path of one of its files.
@@ -56,7 +65,7 @@ impl Checked {
             return location::path(&self.uri);
         }
         let name = &self.analysis.checked.files.get(file as usize)?.name;
-        self.found.get(name).cloned()
+        Some(self.found.get(name)?.path.clone())
     }
 }
 
@@ -70,7 +79,7 @@ impl Documents {
     /// Takes in that a text was opened.
     pub fn open(&mut self, uri: Uri, version: i32, text: String) {
         let path = location::path(&uri);
-        self.forget_beside(path.as_deref());
+        self.forget_importers(path.as_deref());
         let document = Document {
             path,
             version,
@@ -92,14 +101,14 @@ impl Documents {
         document.is_told = false;
         document.checked.take();
         let path = document.path.clone();
-        self.forget_beside(path.as_deref());
+        self.forget_importers(path.as_deref());
         true
     }
 
     /// Takes in that a text was closed.
     pub fn close(&mut self, uri: &Uri) {
         if let Some(document) = self.open.remove(uri.as_str()) {
-            self.forget_beside(document.path.as_deref());
+            self.forget_importers(document.path.as_deref());
         }
     }
 
@@ -111,16 +120,17 @@ impl Documents {
         }
     }
 
-    /// Forgets what is known of the texts that may import this one: those in its folder.
-    fn forget_beside(&mut self, path: Option<&Path>) {
-        let Some(folder) = path.and_then(Path::parent) else {
-            return;
-        };
+    /// Forgets what is known of the texts that import this one, or tried to.
+    fn forget_importers(&mut self, path: Option<&Path>) {
+        let Some(path) = path else { return };
         for document in self.open.values_mut() {
-            let own = document.path.as_deref().and_then(Path::parent);
-            if own == Some(folder) {
+            let known = document.checked.get_mut();
+            if known
+                .as_ref()
+                .is_some_and(|known| known.asked.contains(path))
+            {
                 document.is_told = false;
-                document.checked.take();
+                *known = None;
             }
         }
     }
@@ -144,6 +154,7 @@ impl Documents {
             analysis,
             uri: uri.clone(),
             found: beside.found.into_inner(),
+            asked: beside.asked.into_inner(),
         }
     }
 
@@ -158,6 +169,7 @@ impl Documents {
             documents: self,
             folder: path.and_then(Path::parent).map(Path::to_path_buf),
             found: RefCell::default(),
+            asked: RefCell::default(),
         }
     }
 
@@ -204,6 +216,11 @@ impl Documents {
         importers
     }
 
+    /// The text of a file, if it is open.
+    pub fn checked_file(&self, path: &Path) -> Option<Rc<Checked>> {
+        self.checked(&self.open_text(path)?.uri)
+    }
+
     fn open_text(&self, path: &Path) -> Option<&Document> {
         let mut documents = self.open.values();
         documents.find(|document| document.path.as_deref() == Some(path))
@@ -214,18 +231,21 @@ impl Documents {
 pub struct Beside<'a> {
     documents: &'a Documents,
     folder: Option<PathBuf>,
-    found: RefCell<BTreeMap<String, PathBuf>>,
+    found: RefCell<BTreeMap<String, Found>>,
+    asked: RefCell<BTreeSet<PathBuf>>,
 }
 
 impl Libraries for Beside<'_> {
     fn source(&self, name: &str) -> Option<String> {
         let beside = self.folder.as_ref().and_then(|folder| {
             let path = folder.join(name).with_extension(SUFFIX);
-            let text = match self.documents.open_text(&path) {
-                Some(document) => document.text.to_string(),
-                None => file_text(&path)?,
+            self.asked.borrow_mut().insert(path.clone());
+            let (text, uri) = match self.documents.open_text(&path) {
+                Some(document) => (document.text.to_string(), Some(document.uri.clone())),
+                None => (file_text(&path)?, location::uri(&path)),
             };
-            self.found.borrow_mut().insert(name.to_string(), path);
+            let found = Found { path, uri };
+            self.found.borrow_mut().insert(name.to_string(), found);
             Some(text)
         });
         beside.or_else(|| StandardLibraries.source(name))

@@ -78,7 +78,7 @@ pub fn users(
     for other in documents
         .importers(&path)
         .into_iter()
-        .chain(declarer(documents, &path))
+        .chain(documents.checked_file(&path))
     {
         if other.uri == checked.uri {
             continue;
@@ -88,11 +88,6 @@ pub fn users(
         }
     }
     users
-}
-
-/// The text in which something is declared, if it is open.
-fn declarer(documents: &Documents, path: &std::path::Path) -> Option<Rc<Checked>> {
-    documents.checked(&location::uri(path)?)
 }
 
 /// What a text calls that which is declared at a place of a file.

@@ -3,8 +3,8 @@
 use super::convert::Text;
 use super::documents::{Checked, Documents};
 use super::navigate::users;
-use lsp_types::{Position, PrepareRenameResponse, TextEdit, WorkspaceEdit};
-use std::collections::{BTreeMap, HashMap};
+use lsp_types::{Position, PrepareRenameResponse, TextEdit, Uri, WorkspaceEdit};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// The name that can be renamed at a place, or why there is none.
@@ -40,7 +40,8 @@ pub fn rename(
     let text = Text::new(checked.analysis.text());
     let found = checked.analysis.renameable(text.offset(position))?;
     check_place(checked, found.symbol)?;
-    let mut changes = HashMap::new();
+    // By the names of the files and the places in them: several texts may import one library.
+    let mut changes: BTreeMap<String, (Uri, BTreeMap<(u32, u32), TextEdit>)> = BTreeMap::new();
     for (user, symbol) in users(documents, checked, found.symbol) {
         let libraries = documents.libraries(&user.uri);
         let renamed = user.analysis.rename(symbol, name, &libraries);
@@ -54,14 +55,14 @@ pub fn rename(
             };
             let source = &user.analysis.checked.files[file.file as usize].source;
             let text = Text::new(source);
-            // Several texts may import the library whose places these are.
-            let own: &mut BTreeMap<(u32, u32), TextEdit> = changes.entry(uri).or_default();
+            let key = uri.as_str().to_string();
+            let (_, own) = changes.entry(key).or_insert((uri, BTreeMap::new()));
             for edit in &file.edits {
                 own.insert((edit.span.start, edit.span.end), text.edit(edit));
             }
         }
     }
-    let changes = changes.into_iter();
+    let changes = changes.into_values();
     let changes = changes.map(|(uri, edits)| (uri, edits.into_values().collect()));
     Ok(WorkspaceEdit::new(changes.collect()))
 }

@@ -77,9 +77,6 @@ impl Session {
             (Some(id), Some(method)) => {
                 let answer = self.answer(method, params);
                 self.output.answer(id, answer)?;
-                if method == "initialize" && self.phase == Phase::New {
-                    self.phase = Phase::Ready;
-                }
             }
             (None, Some("exit")) => {
                 let after_shutdown = self.phase == Phase::ShutDown;
@@ -110,6 +107,7 @@ impl Session {
                         version: Some(env!("CARGO_PKG_VERSION").to_string()),
                     }),
                 };
+                self.phase = Phase::Ready;
                 serde_json::to_value(result).map_err(|error| (Fault::Internal, error.to_string()))
             }
             (Phase::New, _) => {

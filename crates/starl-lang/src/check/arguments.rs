@@ -131,11 +131,15 @@ impl Checker {
         arguments: &[ast::Argument],
         span: Span,
     ) -> Arranged {
+        if self.probe.is_some() {
+            self.note_probed_arguments(&parameters.names, arguments);
+        }
         let mut values: Vec<Option<ast::Expression>> =
             parameters.names.iter().map(|_| None).collect();
         let mut rest = Vec::new();
         let mut position = 0;
         let mut surplus = None;
+        let mut is_doubled = false;
         for argument in arguments {
             let Some(value) = argument.value() else {
                 continue;
@@ -143,7 +147,14 @@ impl Checker {
             let Some(name) = argument.name() else {
                 match values.get_mut(position) {
                     Some(place @ None) => *place = Some(value),
-                    Some(_) => {}
+                    Some(_) => {
+                        let message = format!("`{}` is given twice", parameters.names[position].0);
+                        self.error(Code::ArgumentCount, argument.span(), message);
+                        if !self.needs_hint(&value) || self.holds_probe(&value) {
+                            self.infer(Some(value), None);
+                        }
+                        is_doubled = true;
+                    }
                     None if parameters.takes_values => rest.push((None, value)),
                     None => surplus = surplus.or(Some((argument.span(), value))),
                 }
@@ -168,6 +179,10 @@ impl Checker {
                     return Arranged { values, rest };
                 }
             }
+        }
+        if is_doubled {
+            // What it was meant for is not missing.
+            return Arranged { values, rest };
         }
         let given = arguments.len();
         if let Some((at, _)) = surplus {

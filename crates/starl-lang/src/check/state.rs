@@ -115,6 +115,8 @@ pub(super) struct Checker {
     pub probe: Option<u32>,
     /// What it may be.
     pub surroundings: Option<Surroundings>,
+    /// The parameters that it may be the name of.
+    pub probed_parameters: Vec<String>,
 }
 
 impl Checker {
@@ -142,6 +144,7 @@ impl Checker {
             resolutions: Resolutions::default(),
             probe: None,
             surroundings: None,
+            probed_parameters: Vec::new(),
         }
     }
 

@@ -3,6 +3,7 @@
 //! The editor puts a name that nothing has, the probe, in the place of the one that is being typed, and
 //! the checker notes what it knows where it comes upon the probe.
 
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::body::Where;
@@ -54,6 +55,8 @@ pub struct Reach {
     pub sees_primitives: bool,
     /// Whether it stands in a property.
     pub in_property: bool,
+    /// If it is an argument: the parameters that are not given yet.
+    pub parameters: Vec<String>,
 }
 
 impl Checker {
@@ -76,6 +79,25 @@ impl Checker {
         self.surroundings.get_or_insert(surroundings);
     }
 
+    /// Notes of which parameters the probe may be the name, if it is one of the arguments.
+    pub fn note_probed_arguments(&mut self, names: &[(&str, bool)], arguments: &[ast::Argument]) {
+        let is_probe = |argument: &ast::Argument| match argument.value() {
+            Some(ast::Expression::Name(name)) => {
+                argument.name().is_none() && self.is_probe(name.span())
+            }
+            _ => false,
+        };
+        let Some(at) = arguments.iter().position(is_probe) else {
+            return;
+        };
+        let given: Vec<String> = (arguments.iter())
+            .filter_map(|argument| Some(argument.name()?.text()))
+            .collect();
+        let open = names.iter().skip(at).map(|(name, _)| *name);
+        let open = open.filter(|name| given.iter().all(|given| given != name));
+        self.probed_parameters = open.map(String::from).collect();
+    }
+
     /// The same where it is a value.
     pub fn note_probed_value(&mut self, expected: Option<&Type>) {
         let place = self.body.place;
@@ -96,6 +118,7 @@ impl Checker {
             sees_parameters: sees_state || place == Where::Binding,
             sees_primitives: matches!(place, Where::Guard | Where::Effect),
             in_property: place == Where::Property,
+            parameters: core::mem::take(&mut self.probed_parameters),
         };
         self.note_probe(Surroundings::Value(reach));
     }

@@ -5,7 +5,10 @@
 
 mod candidates;
 mod context;
+mod label;
+mod members;
 
+use alloc::collections::BTreeSet;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
@@ -24,6 +27,8 @@ pub enum Call {
     Empty,
     /// With arguments.
     Arguments,
+    /// Not called; a value is given to it: `name = `.
+    Given,
 }
 
 /// Something that may be typed.
@@ -61,7 +66,8 @@ pub fn completions(text: &str, offset: u32, libraries: &dyn Libraries) -> Comple
         None => Vec::new(),
     };
     items.sort_by(|a, b| (a.rank, &a.label).cmp(&(b.rank, &b.label)));
-    items.dedup_by(|a, b| a.label == b.label);
+    let mut seen = BTreeSet::new();
+    items.retain(|item| seen.insert((item.label.clone(), item.symbol)));
     Completions { span, items }
 }
 
@@ -145,5 +151,6 @@ fn anything() -> Surroundings {
         sees_parameters: true,
         sees_primitives: true,
         in_property: false,
+        parameters: Vec::new(),
     })
 }

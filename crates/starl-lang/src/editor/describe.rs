@@ -4,8 +4,9 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use super::built_in::built_in;
 use super::index::headers;
-use crate::check::{Checked, PRIMITIVES, Symbol};
+use crate::check::{Checked, Symbol};
 use crate::ir::{EnumId, RecordId, Site, Type};
 use crate::syntax::ast::{self, AstNode, Documented, Item};
 use crate::syntax::{SyntaxKind, SyntaxNode};
@@ -25,7 +26,7 @@ pub struct Description {
 }
 
 impl Description {
-    fn new(signature: impl Into<String>, documentation: impl Into<String>) -> Self {
+    pub(super) fn new(signature: impl Into<String>, documentation: impl Into<String>) -> Self {
         Self {
             signature: signature.into(),
             documentation: documentation.into(),
@@ -33,77 +34,6 @@ impl Description {
         }
     }
 }
-
-/// Built-in types with what is said of them.
-pub(super) const TYPES: &[(&str, &str, &str)] = &[
-    ("Bool", "Bool", "`true` or `false`."),
-    (
-        "Int",
-        "Int",
-        "A whole number of 64 bits; overflow is a run-time error.",
-    ),
-    (
-        "Float",
-        "Float",
-        "A number with a fraction; lengths are in metres, angles in radians.",
-    ),
-    ("String", "String", "A text."),
-    (
-        "Point",
-        "Point",
-        "A place or a direction: `x`, `y` and `z`, metres.",
-    ),
-    ("Time", "Time", "A time on this robot's clock."),
-    (
-        "Duration",
-        "Duration",
-        "How long something takes, such as `500ms`; never negative.",
-    ),
-    ("RobotId", "RobotId", "A robot of the fleet."),
-    ("Area", "Area", "A part of the floor plane."),
-    ("Obstacles", "Obstacles", "What is to be kept clear of."),
-    ("List", "List[T]", "Elements in a row, counted from 0."),
-    (
-        "Set",
-        "Set[T]",
-        "Elements that are there once each, in rising order.",
-    ),
-    (
-        "Map",
-        "Map[K, V]",
-        "A value for each key, in the rising order of the keys.",
-    ),
-];
-
-/// What properties may say of every robot.
-pub(super) const ROBOT_MEMBERS: &[(&str, &str, &str)] = &[
-    (
-        "position",
-        "position: Point",
-        "Where the robot is, metres: the true position where the host knows it.",
-    ),
-    (
-        "heading",
-        "heading: Float",
-        "Where the robot looks, radians from the x axis.",
-    ),
-    (
-        "velocity",
-        "velocity: Point",
-        "How the robot moves, metres per second.",
-    ),
-    (
-        "finished",
-        "finished: Bool",
-        "Whether the robot's program has said that it reached its goal.",
-    ),
-    (
-        "up",
-        "up: Bool",
-        "Whether the robot runs, rather than having crashed.",
-    ),
-    ("id", "id: RobotId", "The robot's number."),
-];
 
 pub(super) fn describe(checked: &Checked, symbol: Symbol) -> Description {
     let program = &checked.program;
@@ -176,52 +106,6 @@ pub(super) fn describe(checked: &Checked, symbol: Symbol) -> Description {
         Symbol::File(file) => header(checked, file),
         _ => built_in(symbol),
     }
-}
-
-/// What every program has.
-fn built_in(symbol: Symbol) -> Description {
-    let of_table = |table: &[(&str, &str, &str)], name: &str| {
-        let found = table.iter().find(|(own, ..)| *own == name);
-        found.map_or(Description::default(), |(_, signature, documentation)| {
-            Description::new(*signature, *documentation)
-        })
-    };
-    match symbol {
-        Symbol::Builtin(builtin) => Description::new(builtin.text(), builtin.documentation()),
-        Symbol::Type(name) => of_table(TYPES, name),
-        Symbol::Method(method) => Description::new(method.text(), method.documentation()),
-        Symbol::Primitive(number) => {
-            let primitive = &PRIMITIVES[number];
-            Description::new(primitive.constructor, primitive.documentation)
-        }
-        Symbol::Member(primitive, number) => {
-            let primitive = &PRIMITIVES[primitive];
-            let member = &primitive.members[number];
-            let text = format!("{}.{}", primitive.name(), member.text);
-            Description::new(text, member.documentation)
-        }
-        Symbol::Event(primitive, number) => {
-            let primitive = &PRIMITIVES[primitive];
-            let event = &primitive.events[number];
-            let text = format!("on {}.{}", primitive.name(), event.text);
-            Description::new(text, event.documentation)
-        }
-        Symbol::Coordinate(axis) => {
-            Description::new(format!("Point.{axis}: Float"), "A coordinate, metres.")
-        }
-        Symbol::Argument(signature, name) => argument(signature, name),
-        Symbol::RobotMember(name) => of_table(ROBOT_MEMBERS, name),
-        _ => Description::default(),
-    }
-}
-
-/// A parameter, by the signature that it is of.
-fn argument(signature: &str, name: &str) -> Description {
-    let inside = signature.split_once('(').map_or("", |(_, inside)| inside);
-    let is_own = |part: &&str| part.trim_start().starts_with(name);
-    let found = inside.split(", ").find(is_own).unwrap_or(name);
-    let text = found.split(')').next().unwrap_or(found);
-    Description::new(text.trim(), format!("`{signature}`"))
 }
 
 fn enum_text(checked: &Checked, id: EnumId, name: &str) -> String {

@@ -1,7 +1,7 @@
 //! What an editor asks of the language, as functions without input or output.
 //!
 //! An [`Analysis`] is one text, checked together with what it imports: its problems, what each name
-//! stands for, and from these what to show at a place ([`Analysis::hover`]), where something is declared
+//! stands for, and from these what to show at a place ([`Analysis::hover`], [`Analysis::call_help`]), where something is declared
 //! and used ([`Analysis::definition`], [`Analysis::references`]), how to rename it
 //! ([`Analysis::rename`]), the [`outline`] and the [`tokens`] to colour. [`completions`] says what a name
 //! that is being typed may be; [`layout`] lays the text out anew by the smallest changes. All of them work
@@ -12,6 +12,7 @@
 //! ([`crate::check::Resolutions`]): nothing is resolved a second time.
 
 mod analysis;
+mod built_in;
 mod completion;
 mod describe;
 mod document;
@@ -20,6 +21,7 @@ mod layout;
 mod outline;
 mod position;
 mod rename;
+mod signature;
 mod token;
 mod words;
 
@@ -32,4 +34,5 @@ pub use layout::layout;
 pub use outline::{OutlineEntry, OutlineKind, outline};
 pub use position::{Utf16Lines, Utf16Position};
 pub use rename::{FileEdits, Renamed};
+pub use signature::CallHelp;
 pub use token::{Token, TokenKind, TokenModifiers, tokens};

@@ -3,29 +3,31 @@
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::super::describe::{ROBOT_MEMBERS, TYPES, describe};
-use super::super::index::headers;
+use super::super::built_in::ROBOT_MEMBERS;
+use super::super::describe::describe;
 use super::super::words::{self, Word};
 use super::context::Context;
 use super::{Call, Completion};
-use crate::check::{BUILTINS, Checked, Libraries, Method, PRIMITIVES, Reach, Surroundings, Symbol};
+use crate::check::{BUILTINS, Checked, Libraries, PRIMITIVES, Reach, Surroundings, Symbol};
 use crate::ir::{
     BindingId, ConstantId, EnumId, FunctionId, ParameterId, RecordId, SharedId, Site, Type,
     VariableId,
 };
 
-/// How likely something is to be meant: what is expected, what is near, what the program declares, what
-/// every program has, and words of the language.
+/// How likely something is to be meant: the variants of what is expected, what fits, what is near, what the
+/// program declares, names of parameters, what every program has, and words of the language.
 const EXPECTED: u8 = 0;
-const LOCAL: u8 = 1;
-const OWN: u8 = 2;
-const COMMON: u8 = 3;
-const WORD: u8 = 4;
+const FITTING: u8 = 1;
+const LOCAL: u8 = 2;
+pub(super) const OWN: u8 = 3;
+const ARGUMENT: u8 = 4;
+pub(super) const COMMON: u8 = 5;
+const WORD: u8 = 6;
 
 /// Collects what may stand in a context of a checked text.
 pub(super) struct Candidates<'a> {
-    checked: &'a Checked,
-    items: Vec<Completion>,
+    pub checked: &'a Checked,
+    pub items: Vec<Completion>,
 }
 
 impl<'a> Candidates<'a> {
@@ -89,7 +91,7 @@ impl<'a> Candidates<'a> {
     }
 
     /// Adds what a name stands for.
-    fn symbol(&mut self, symbol: Symbol, rank: u8) {
+    pub fn symbol(&mut self, symbol: Symbol, rank: u8) {
         let Some((label, call)) = self.named(symbol) else {
             return;
         };
@@ -104,66 +106,17 @@ impl<'a> Candidates<'a> {
         });
     }
 
-    /// The name of something and how it is called; none of what has none.
-    fn named(&self, symbol: Symbol) -> Option<(String, Call)> {
-        let program = &self.checked.program;
-        let calls = |parameters: usize| match parameters {
-            0 => Call::Empty,
-            _ => Call::Arguments,
-        };
-        let signed = |signature: crate::check::Signature| match signature.is_call {
-            true if signature.takes_values || signature.takes_fields => Call::Arguments,
-            true => calls(signature.parameters.len()),
-            false => Call::No,
-        };
-        Some(match symbol {
-            Symbol::Enum(id) => (program[id].name.clone()?, Call::No),
-            Symbol::Variant(id, number) => {
-                let variant = program[id].variants.get(number as usize)?;
-                (variant.name.clone(), Call::No)
-            }
-            Symbol::Record(id) => {
-                let record = &program[id];
-                (record.name.clone(), calls(record.fields.len()))
-            }
-            Symbol::Field(id, number) => {
-                let field = program[id].fields.get(number as usize)?;
-                (field.name.clone(), Call::No)
-            }
-            Symbol::Parameter(id) => (program[id].name.clone(), Call::No),
-            Symbol::Constant(id) => (program[id].name.clone(), Call::No),
-            Symbol::Variable(id) => (program[id].name.clone(), Call::No),
-            Symbol::Shared(id) => (program[id].name.clone(), Call::No),
-            Symbol::Binding(id) => (program[id].name.clone(), Call::No),
-            Symbol::Function(id) => {
-                let function = &program[id];
-                (function.name.clone(), calls(function.parameters as usize))
-            }
-            Symbol::File(file) => (
-                self.checked.files.get(file as usize)?.name.clone(),
-                Call::No,
-            ),
-            Symbol::Builtin(builtin) => (builtin.name().into(), signed(builtin.signature())),
-            Symbol::Type(name) | Symbol::Coordinate(name) | Symbol::RobotMember(name) => {
-                (name.into(), Call::No)
-            }
-            Symbol::Method(method) => (method.name().into(), signed(method.signature())),
-            Symbol::Primitive(number) => (PRIMITIVES.get(number)?.name().into(), Call::Arguments),
-            Symbol::Member(primitive, number) => {
-                let member = PRIMITIVES.get(primitive)?.members.get(number)?;
-                (member.name().into(), signed(member.signature()))
-            }
-            Symbol::Event(primitive, number) => {
-                let event = PRIMITIVES.get(primitive)?.events.get(number)?;
-                (event.name().into(), Call::Arguments)
-            }
-            Symbol::Argument(..) | Symbol::Local(_) | Symbol::Action(_) | Symbol::Property(_) => {
-                return None;
-            }
-        })
-    }
-
     fn values(&mut self, reach: &Reach) {
+        for name in &reach.parameters {
+            self.items.push(Completion {
+                label: name.clone(),
+                symbol: None,
+                detail: alloc::format!("{name} = ..."),
+                documentation: String::new(),
+                call: Call::Given,
+                rank: ARGUMENT,
+            });
+        }
         self.expected_variants(reach.expected.as_ref());
         for local in &reach.locals {
             let site = Site {
@@ -185,9 +138,36 @@ impl<'a> Candidates<'a> {
         }
         self.declared(reach);
         self.common(reach);
+        self.prefer(reach.expected.as_ref());
         if reach.in_property {
             self.words(words::QUANTIFIERS);
             self.robot_members();
+        }
+    }
+
+    /// What has the type that is expected is likelier than the rest of its kind.
+    fn prefer(&mut self, expected: Option<&Type>) {
+        let Some(expected) = expected else { return };
+        let program = &self.checked.program;
+        let fits = |ty: &Type| {
+            ty == expected || matches!(expected, Type::Optional(inner) if **inner == *ty)
+        };
+        let locals = &self.checked.resolutions.locals;
+        for item in &mut self.items {
+            let is_meant = item.symbol.is_some_and(|symbol| match symbol {
+                Symbol::Parameter(id) => fits(&program[id].ty),
+                Symbol::Constant(id) => fits(&program[id].ty),
+                Symbol::Variable(id) => fits(&program[id].ty),
+                Symbol::Function(id) => fits(&program[id].result),
+                Symbol::Local(site) => {
+                    let mut own = locals.iter().filter(|(other, _)| *other == site);
+                    own.any(|(_, ty)| fits(ty))
+                }
+                _ => false,
+            });
+            if is_meant && item.rank > EXPECTED {
+                item.rank = FITTING;
+            }
         }
     }
 
@@ -202,7 +182,7 @@ impl<'a> Candidates<'a> {
         }
     }
 
-    fn variants(&mut self, id: EnumId, rank: u8) {
+    pub fn variants(&mut self, id: EnumId, rank: u8) {
         for number in 0..self.checked.program[id].variants.len() {
             self.symbol(Symbol::Variant(id, number as u16), rank);
         }
@@ -239,7 +219,7 @@ impl<'a> Candidates<'a> {
     }
 
     /// The libraries that the file imports.
-    fn imported(&mut self) {
+    pub fn imported(&mut self) {
         for (site, symbol) in &self.checked.resolutions.uses {
             if site.file == 0 && matches!(symbol, Symbol::File(_)) {
                 self.symbol(*symbol, OWN);
@@ -248,7 +228,7 @@ impl<'a> Candidates<'a> {
     }
 
     /// The constants, functions, records and enums that a file declares.
-    fn of_file(&mut self, file: u32, rank: u8) {
+    pub fn of_file(&mut self, file: u32, rank: u8) {
         let program = &self.checked.program;
         for (number, constant) in program.constants.iter().enumerate() {
             if constant.site.file == file {
@@ -263,7 +243,7 @@ impl<'a> Candidates<'a> {
         self.types_of_file(file, rank);
     }
 
-    fn types_of_file(&mut self, file: u32, rank: u8) {
+    pub fn types_of_file(&mut self, file: u32, rank: u8) {
         let program = &self.checked.program;
         let roles = program.roles.as_ref();
         let role_enum = roles.map(|roles| &program[roles.variable].ty);
@@ -290,137 +270,9 @@ impl<'a> Candidates<'a> {
         self.of_file(super::super::analysis::PRELUDE_FILE, COMMON);
     }
 
-    fn robot_members(&mut self) {
+    pub fn robot_members(&mut self) {
         for (name, ..) in ROBOT_MEMBERS {
             self.symbol(Symbol::RobotMember(name), COMMON);
-        }
-    }
-
-    /// What stands after the dot of a value.
-    fn members(&mut self, of: &Type, in_property: bool) {
-        let receiver = match of {
-            Type::List(_) => "List",
-            Type::Set(_) => "Set",
-            Type::Map(..) => "Map",
-            Type::String => "String",
-            Type::Area => "Area",
-            _ => "",
-        };
-        for method in Method::of(receiver) {
-            self.symbol(Symbol::Method(method), OWN);
-        }
-        match of {
-            Type::Record(id) => {
-                for number in 0..self.checked.program[*id].fields.len() {
-                    self.symbol(Symbol::Field(*id, number as u32), OWN);
-                }
-            }
-            Type::Point => {
-                for axis in ["x", "y", "z"] {
-                    self.symbol(Symbol::Coordinate(axis), OWN);
-                }
-            }
-            Type::Robot if in_property => {
-                let program = &self.checked.program;
-                for number in 0..program.variables.len() {
-                    self.symbol(Symbol::Variable(VariableId(number as u32)), OWN);
-                }
-                for number in 0..program.parameters.len() {
-                    self.symbol(Symbol::Parameter(ParameterId(number as u32)), OWN);
-                }
-                self.robot_members();
-            }
-            _ => {}
-        }
-    }
-
-    /// What stands after the dot of something that is no value.
-    fn parts(&mut self, symbol: Symbol) {
-        match symbol {
-            Symbol::File(file) => self.of_file(file, OWN),
-            Symbol::Enum(id) => self.variants(id, OWN),
-            Symbol::Binding(id) => {
-                let Some(primitive) = self.kind_of(id) else {
-                    return;
-                };
-                for number in 0..PRIMITIVES[primitive].members.len() {
-                    self.symbol(Symbol::Member(primitive, number), OWN);
-                }
-            }
-            _ => {}
-        }
-    }
-
-    /// The number of the kind of a bound primitive.
-    fn kind_of(&self, id: BindingId) -> Option<usize> {
-        let kind = self.checked.program[id].primitive?;
-        let mut kinds = PRIMITIVES.iter();
-        kinds.position(|other| other.name() == kind.name())
-    }
-
-    fn types(&mut self) {
-        for (name, ..) in TYPES {
-            self.symbol(Symbol::Type(name), COMMON);
-        }
-        self.types_of_file(0, OWN);
-        self.types_of_file(super::super::analysis::PRELUDE_FILE, COMMON);
-        self.imported();
-        // A call makes a value; a type has no brackets.
-        for item in &mut self.items {
-            item.call = Call::No;
-        }
-    }
-
-    fn events(&mut self) {
-        let program = &self.checked.program;
-        for (number, record) in program.records.iter().enumerate() {
-            if record.is_message {
-                self.symbol(Symbol::Record(RecordId(number as u32)), OWN);
-            }
-        }
-        for (number, binding) in program.bindings.iter().enumerate() {
-            let reports = binding
-                .primitive
-                .is_some_and(|kind| !kind.events.is_empty());
-            if reports {
-                self.symbol(Symbol::Binding(BindingId(number as u32)), OWN);
-            }
-        }
-        for item in &mut self.items {
-            // The sender comes before the fields.
-            if matches!(item.symbol, Some(Symbol::Record(_))) {
-                item.call = Call::Arguments;
-            }
-        }
-    }
-
-    fn events_of(&mut self, symbol: Symbol) {
-        let Symbol::Binding(id) = symbol else { return };
-        let Some(primitive) = self.kind_of(id) else {
-            return;
-        };
-        for number in 0..PRIMITIVES[primitive].events.len() {
-            self.symbol(Symbol::Event(primitive, number), OWN);
-        }
-    }
-
-    /// The libraries that there are, but for the text itself.
-    fn libraries(&mut self, libraries: &dyn Libraries) {
-        let own = headers(self.checked).find(|(file, _)| *file == 0);
-        let own = own.map_or(String::new(), |(_, site)| {
-            site.span.of(&self.checked.files[0].source).into()
-        });
-        for name in libraries.names() {
-            if name != own {
-                self.items.push(Completion {
-                    detail: alloc::format!("library {name}"),
-                    label: name,
-                    symbol: None,
-                    documentation: String::new(),
-                    call: Call::No,
-                    rank: OWN,
-                });
-            }
         }
     }
 }
