@@ -306,3 +306,39 @@ fn constant_partitions_do_not_excuse_those_that_hear_each_other() {
     }
     assert_only(&story.verdict(60_000), PROPERTY, 6000, &[0, 2]);
 }
+
+#[test]
+fn a_partition_that_joins_those_that_one_separated_lets_the_bound_begin() {
+    let mut story = robot_2_shows_nothing();
+    story.fault(900, None, "partition");
+    story.fault(3000, None, "partition");
+    story.sends(3100, 0, 0, 2);
+    assert_only(&story.verdict(60_000), PROPERTY, 8000, &[0, 2]);
+}
+
+#[test]
+fn a_partition_is_remembered_when_another_one_ends() {
+    let mut story = robot_2_shows_nothing();
+    story.fault(900, None, "partition");
+    story.fault(4000, None, "heal");
+    story.fault(4100, None, "partition");
+    story.sends(4110, 0, 0, 2);
+    story.fault(4200, None, "heal");
+    assert_only(&story.verdict(60_000), PROPERTY, 9000, &[0, 2]);
+}
+
+#[test]
+fn a_datagram_after_the_healing_says_nothing_of_the_parts_before() {
+    let mut story = robot_2_shows_nothing();
+    story.fault(900, None, "partition");
+    story.fault(4000, None, "heal");
+    story.sends(4100, 0, 0, 2);
+    assert_only(&story.verdict(60_000), PROPERTY, 9000, &[0, 2]);
+}
+
+#[test]
+fn a_fault_after_the_bound_excuses_nobody() {
+    let mut story = robot_2_shows_nothing();
+    story.fault(6010, Some(2), "crash");
+    assert_only(&story.verdict(60_000), PROPERTY, 6000, &[0, 2]);
+}

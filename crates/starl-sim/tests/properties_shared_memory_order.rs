@@ -95,3 +95,23 @@ fn so_does_one_whose_memory_is_corrupted_but_no_other() {
         assert_eq!(!story.verdict(10_000).is_empty(), is_violated);
     }
 }
+
+/// A fault takes effect at the beginning of the step in which it is recorded.
+#[test]
+fn a_fault_that_is_recorded_a_little_later_excuses_too() {
+    for (fault, at, is_violated) in [
+        ("corrupt state", 2510, false),
+        ("crash", 2510, false),
+        ("corrupt state", 2600, true),
+        ("stuck motor", 2510, true),
+    ] {
+        let mut story = two_writes();
+        story.shows(2500, 1, "update", "x", (1000, 0, 5));
+        story.fault(at, Some(1), fault);
+        assert_eq!(!story.verdict(10_000).is_empty(), is_violated, "{fault}");
+    }
+    let mut other = two_writes();
+    other.shows(2500, 1, "update", "x", (1000, 0, 5));
+    other.fault(2510, Some(2), "corrupt state");
+    assert_only(&other.verdict(10_000), "shared_memory.order", 2500, &[1]);
+}

@@ -18,7 +18,7 @@ use debt::{Address, Debt};
 use element::{Element, Shown, Stamp};
 use starl_core::event::{Event, Value};
 use starl_core::{Duration, Port, Record, RobotId, Time};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 const INTEGRITY: &str = "shared_memory.integrity";
@@ -35,6 +35,11 @@ pub(super) struct SharedMemory {
     /// What is to be shown, by the time at which it is judged and a running number.
     owed: BTreeMap<(Time, u64), Debt>,
     debts: u64,
+    /// Robots that went back, as long as a fault that excuses them may be on record later: faults take
+    /// effect at the beginning of the step in which they are recorded.
+    backward: VecDeque<Violation>,
+    /// How long that is.
+    step: Duration,
     /// Whether some state was corrupted, so that memories may hold what was never written.
     corrupted: bool,
 }
@@ -59,6 +64,8 @@ impl SharedMemory {
             memories: BTreeMap::new(),
             owed: BTreeMap::new(),
             debts: 0,
+            backward: VecDeque::new(),
+            step: scenario.physics.step,
             corrupted: false,
         }
     }
@@ -100,7 +107,7 @@ impl SharedMemory {
             element.write(stamp, value, at);
         }
         if let Some(before) = element.show(robot, stamp, at) {
-            found.push(Violation {
+            self.backward.push_back(Violation {
                 property: ORDER.into(),
                 at,
                 robots: vec![robot],
@@ -151,8 +158,21 @@ impl SharedMemory {
         }
     }
 
+    /// Time has come to `now`.
+    fn pass(&mut self, now: Time, found: &mut Vec<Violation>) {
+        self.check_bound(now, found);
+        while self
+            .backward
+            .front()
+            .is_some_and(|back| back.at + self.step < now)
+        {
+            found.extend(self.backward.pop_front());
+        }
+    }
+
     /// A robot has lost its memories.
     fn crashed(&mut self, robot: RobotId) {
+        self.backward.retain(|back| back.robots[0] != robot);
         for memory in self.memories.values_mut() {
             if memory.members.remove(&robot).is_some() {
                 for element in memory.variables.values_mut().flat_map(|e| e.values_mut()) {
@@ -165,6 +185,7 @@ impl SharedMemory {
     /// A robot's memories were overwritten.
     fn corrupted(&mut self, robot: RobotId) {
         self.corrupted = true;
+        self.backward.retain(|back| back.robots[0] != robot);
         for memory in self.memories.values_mut() {
             if memory.members.contains_key(&robot) {
                 for element in memory.variables.values_mut().flat_map(|e| e.values_mut()) {
@@ -185,12 +206,12 @@ impl Checker for SharedMemory {
             Event::Sent { .. } | Event::Delivered { .. } => self.parts.observe(record),
             Event::Primitive { .. } => {
                 if let Some(report) = Report::of(record, "shared_memory") {
-                    self.check_bound(record.at, violations);
+                    self.pass(record.at, violations);
                     self.reported(&report, violations);
                 }
             }
             Event::Fault(fault) => {
-                self.check_bound(record.at, violations);
+                self.pass(record.at, violations);
                 self.health.observe(record);
                 self.parts.observe(record);
                 match (record.robot, &**fault) {
@@ -200,7 +221,7 @@ impl Checker for SharedMemory {
                 }
             }
             Event::Failed(_) => {
-                self.check_bound(record.at, violations);
+                self.pass(record.at, violations);
                 self.health.observe(record);
             }
             _ => {}
@@ -208,7 +229,7 @@ impl Checker for SharedMemory {
     }
 
     fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
-        self.check_bound(now, violations);
+        self.pass(now, violations);
     }
 }
 
