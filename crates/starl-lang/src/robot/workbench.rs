@@ -20,32 +20,34 @@ pub struct Workbench {
 /// Values that robots of one fleet have in common, made once for all of them.
 #[derive(Clone, Default)]
 pub struct Memo {
-    way_points: (Vec<Point>, Object),
-    fleet: (Vec<RobotId>, Object),
+    way_points: Object,
+    fleet: Object,
 }
 
 impl Memo {
     /// The places of the way-points as a list.
     pub fn way_points(&mut self, way_points: &[WayPoint]) -> Object {
-        let (known, list) = &mut self.way_points;
         let places = way_points.iter().map(|way_point| way_point.position);
         let bits = |p: Point| [p.x, p.y, p.z].map(f64::to_bits);
-        if !known.iter().copied().map(bits).eq(places.clone().map(bits)) {
-            *known = places.collect();
-            *list = List::of_points(known).into();
+        if !holds(&self.way_points, places.clone().flat_map(bits)) {
+            self.way_points = List::of_points(&places.collect::<Vec<_>>()).into();
         }
-        list.clone()
+        self.way_points.clone()
     }
 
     /// The robots of the fleet, which are in ascending order, as a set.
     pub fn fleet(&mut self, fleet: &[RobotId]) -> Object {
-        let (known, set) = &mut self.fleet;
-        if known != fleet {
-            *known = fleet.into();
-            *set = robots(fleet.iter().copied());
+        if !holds(&self.fleet, fleet.iter().map(|robot| u64::from(robot.0))) {
+            self.fleet = robots(fleet.iter().copied());
         }
-        set.clone()
+        self.fleet.clone()
     }
+}
+
+/// Whether a list, or a set, holds these scalars.
+fn holds(object: &Object, scalars: impl Iterator<Item = u64>) -> bool {
+    let known = object.list().map_or(&[][..], List::scalars);
+    scalars.eq(known.iter().copied())
 }
 
 /// A list of robots; a set, if they are in ascending order.
