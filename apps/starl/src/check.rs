@@ -138,6 +138,8 @@ struct Findings {
     files: usize,
     errors: usize,
     warnings: usize,
+    /// What the first problem is of.
+    first: Option<Code>,
     reports: Vec<serde_json::Value>,
 }
 
@@ -148,6 +150,7 @@ impl Findings {
             files: 0,
             errors: 0,
             warnings: 0,
+            first: None,
             reports: Vec::new(),
         }
     }
@@ -172,6 +175,7 @@ impl Findings {
 
     fn count(&mut self, diagnostics: &[Diagnostic]) {
         for diagnostic in diagnostics {
+            self.first.get_or_insert(diagnostic.code);
             match diagnostic.severity() {
                 Severity::Error => self.errors += 1,
                 Severity::Warning => self.warnings += 1,
@@ -179,16 +183,19 @@ impl Findings {
         }
     }
 
-    /// `3 files: 1 error, 2 warnings`
+    /// Where to read more, and `3 files: 1 error, 2 warnings`.
     fn summary(&self) -> String {
+        let more = self.first.map_or_else(String::new, |code| {
+            format!("to read more: starl explain {code}\n")
+        });
         let files = console::counted(self.files, "file");
         let errors = console::counted(self.errors, "error");
         let warnings = console::counted(self.warnings, "warning");
         match (self.errors, self.warnings) {
             (0, 0) => format!("{files}: no problems\n"),
-            (0, _) => format!("{files}: {warnings}\n"),
-            (_, 0) => format!("{files}: {errors}\n"),
-            _ => format!("{files}: {errors}, {warnings}\n"),
+            (0, _) => format!("{more}{files}: {warnings}\n"),
+            (_, 0) => format!("{more}{files}: {errors}\n"),
+            _ => format!("{more}{files}: {errors}, {warnings}\n"),
         }
     }
 
