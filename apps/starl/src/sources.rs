@@ -196,7 +196,11 @@ fn programs(folder: &Path, files: &mut Vec<PathBuf>, failures: &mut Vec<Failure>
     };
     entries.sort_by_key(fs::DirEntry::file_name);
     for entry in entries {
-        let path = entry.path();
+        // What is found in `.` is called by its name alone, as it would be if it were given.
+        let path = match folder == Path::new(".") {
+            true => PathBuf::from(entry.file_name()),
+            false => entry.path(),
+        };
         let is_hidden = entry.file_name().as_encoded_bytes().starts_with(b".");
         let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
         if is_hidden {

@@ -25,6 +25,27 @@ fn a_program_is_drawn_for_mermaid_or_graphviz() {
 }
 
 #[test]
+fn examples_are_drawn_by_their_names() {
+    let folder = folder("explain_examples");
+    for (example, step) in [
+        ("race", "    pick --> wait: pick\n"),
+        ("formation", "    calc --> wait: update\n"),
+    ] {
+        let output = starl(&folder, &["explain", example]);
+        assert!(stdout(&output).contains(step), "{}", stdout(&output));
+        assert_eq!((status(&output), stderr(&output)), (0, String::new()));
+    }
+}
+
+#[test]
+fn the_recipe_shows_race_as_it_is() {
+    let recipe = include_str!("../../../docs/how-to/check-a-program.md");
+    let output = starl(&folder("explain_recipe"), &["explain", "race"]);
+    let block = format!("```text\n{}```\n", stdout(&output));
+    assert!(recipe.contains(&block), "{block}");
+}
+
+#[test]
 fn the_drawing_goes_to_a_file_in_the_language_of_its_suffix() {
     let folder = folder("explain_output");
     file(&folder, "door.starl", DOOR);

@@ -33,7 +33,7 @@ fn check_lists_what_would_change_and_changes_nothing() {
     file(&folder, "tidy.starl", TIDY);
     file(&folder, "untidy.starl", UNTIDY);
     let output = starl(&folder, &["fmt", "--check", "."]);
-    assert_eq!(stdout(&output), "./untidy.starl\n");
+    assert_eq!(stdout(&output), "untidy.starl\n");
     assert_eq!(status(&output), 1);
     assert_eq!(content(&folder, "untidy.starl"), UNTIDY);
     let tidy = starl(&folder, &["fmt", "--check", "tidy.starl"]);

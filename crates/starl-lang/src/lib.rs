@@ -11,7 +11,6 @@ is a [`diagnostic`]; reading never fails. [`check`] resolves names and types and
 [`compile`] makes bytecode. [`format`] lays a program out anew, [`explain`] draws it as a state machine, and
 [`editor`] is what editors ask while one writes it."
 )]
-
 #![no_std]
 
 extern crate alloc;
