@@ -7,9 +7,9 @@ use core::fmt;
 pub enum WriteError {
     /// The variable's name is longer than 255 bytes.
     NameTooLong,
-    /// The value is longer than [`Options::longest_value`].
+    /// The value is longer than [`longest_value`](super::Options::longest_value).
     ValueTooLong,
-    /// There are [`Options::most_elements`] already.
+    /// There are [`most_elements`](super::Options::most_elements) already.
     Full,
     /// Another variable has taken the place that this name is given in memories: rename one. The odds
     /// are one in 10^9 among 100,000 variables.
