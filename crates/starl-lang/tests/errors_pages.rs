@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
-use starl_lang::check::{CheckedFile, check};
+use starl_lang::check::{Checked, CheckedFile, check};
 use starl_lang::compile::compile;
 use starl_lang::diagnostic::{Code, Colour, render};
 
@@ -152,6 +152,43 @@ fn every_page_is_true() {
         }
     }
     assert!(problems.is_empty(), "\n{problems}");
+}
+
+#[test]
+fn what_a_page_suggests_puts_one_thing_right() {
+    for code in Code::ALL.iter().filter(|code| **code != Code::TooLong) {
+        let path = folder().join(format!("{code}.md"));
+        let mut libraries = Libraries::new();
+        let parts = parts(&fs::read_to_string(path).expect("a page"));
+        let blocks = parts.iter().filter_map(|part| match part {
+            Part::Block(kind, block) => Some((kind, block)),
+            Part::Line(_) => None,
+        });
+        for (kind, block) in blocks.take_while(|(kind, _)| *kind != "text") {
+            if let Some(name) = kind.strip_prefix("starl ") {
+                libraries.insert(name.into(), block.clone());
+                continue;
+            }
+            let before = check(block, &|name: &str| libraries.get(name).cloned());
+            for mend in before
+                .diagnostics()
+                .iter()
+                .filter_map(|one| one.mend.as_ref())
+            {
+                let text = mend.apply(block);
+                let after = check(&text, &|name: &str| libraries.get(name).cloned());
+                let count = |checked: &Checked| {
+                    let all = checked.diagnostics().iter();
+                    all.filter(|one| one.code == *code).count()
+                };
+                assert!(
+                    count(&after) < count(&before),
+                    "{code}: {}\n{text}",
+                    mend.message
+                );
+            }
+        }
+    }
 }
 
 #[test]
