@@ -18,8 +18,7 @@ impl Checker {
         span: Span,
         expected: Option<&Type>,
     ) -> Expression {
-        let expected = there(expected);
-        let hint = match expected {
+        let hint = match there(expected) {
             Some(Type::List(element)) => Some(&**element),
             _ => None,
         };
@@ -44,11 +43,10 @@ impl Checker {
         span: Span,
         expected: Option<&Type>,
     ) -> Expression {
-        let expected = there(expected);
         if node.is_map() {
             return self.map(node, span, expected);
         }
-        let hint = match expected {
+        let hint = match there(expected) {
             Some(Type::Set(element)) => Some(&**element),
             _ => None,
         };
@@ -61,7 +59,7 @@ impl Checker {
         }
         let elements: Vec<_> = node.elements().collect();
         if elements.is_empty() && hint.is_none() {
-            if let Some(Type::Map(..)) = expected {
+            if let Some(Type::Map(..)) = there(expected) {
                 let problem = Diagnostic::new(Code::WrongType, span, "`{}` is the empty set");
                 self.report(problem.replace("write `{:}`, the empty map", span, "{:}"));
                 return broken(span);
@@ -80,7 +78,7 @@ impl Checker {
         span: Span,
         expected: Option<&Type>,
     ) -> Expression {
-        let (mut key, mut value) = match expected {
+        let (mut key, mut value) = match there(expected) {
             Some(Type::Map(key, value)) => (Some((**key).clone()), Some((**value).clone())),
             _ => (None, None),
         };

@@ -110,7 +110,7 @@ fn span_of(nanoseconds: i128) -> Outcome<u64> {
 /// The nearest nanosecond.
 fn rounded(nanoseconds: f64) -> Outcome<u64> {
     let whole = math::round(nanoseconds);
-    if whole >= 0.0 && whole < 9_223_372_036_854_775_808.0 {
+    if (0.0..9_223_372_036_854_775_808.0).contains(&whole) {
         Ok(whole as u64)
     } else {
         Err(Stop::Fault(Fault::Overflow))
