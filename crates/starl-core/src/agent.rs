@@ -33,6 +33,7 @@ impl Agent {
                     primitive.handle(&mut robot, input);
                 }
             });
+            tell(program, &mut robot);
             deliver(program, &mut robot);
         }
         match input {
@@ -55,6 +56,15 @@ impl Agent {
     /// Shows the program, e.g. to a test.
     pub fn program(&self) -> &dyn Program {
         &*self.program
+    }
+}
+
+/// Tells the primitives what a failure detector among them has found out.
+fn tell(program: &mut dyn Program, robot: &mut Robot<'_>) {
+    for verdict in robot.verdicts() {
+        program.primitives(&mut |primitive: &mut dyn Primitive| {
+            primitive.handle(robot, &verdict);
+        });
     }
 }
 

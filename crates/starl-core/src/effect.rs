@@ -66,6 +66,8 @@ pub struct Effects {
     pub list: Vec<Effect>,
     /// Messages that primitives hand up to their own robot's program.
     pub(crate) upcalls: Vec<crate::Message>,
+    /// What a failure detector tells the other primitives of its own robot.
+    pub(crate) verdicts: Vec<crate::Input>,
     /// Room for work.
     pub(crate) scratch: Scratch,
 }

@@ -1,7 +1,7 @@
 //! The contract of every primitive.
 
 use crate::motion::Path;
-use crate::{Message, Port, Robot, TimerKey};
+use crate::{Message, Port, Robot, RobotId, TimerKey};
 use serde::{Deserialize, Serialize};
 
 /// All that can happen to a state machine. What a robot knows at that moment is in its
@@ -25,13 +25,20 @@ pub enum Input {
         /// Way-points from the robot to the target; none where the planner gave up.
         path: Option<Path>,
     },
+    /// The program's failure detector believes that a robot has failed; it may be wrong. A robot that
+    /// was noticed to have restarted is suspected and trusted again at once, since it has lost what it
+    /// knew.
+    Suspected(RobotId),
+    /// The program's failure detector trusts a robot again.
+    Trusted(RobotId),
 }
 
 /// A building block of programs: a pure state machine that answers inputs with effects.
 ///
 /// A program owns its primitives as fields, calls their methods, and reads their flags. Inputs reach
 /// them through [`crate::Program::primitives`]: a message or timer goes to the one primitive whose
-/// port it names, every other input to all of them, before the program itself sees it.
+/// port it names, every other input to all of them, before the program itself sees it. What a failure
+/// detector among them finds out reaches all of them next.
 pub trait Primitive {
     /// The endpoint of this instance.
     fn port(&self) -> Port;

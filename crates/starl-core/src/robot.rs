@@ -5,8 +5,8 @@ use crate::event::{Fields, Level, Mark, MarkShape, Name, Value};
 use crate::message::{self, Message, Payload};
 use crate::motion::{Body, Obstacles, PlanRequest};
 use crate::{
-    Command, Destination, Duration, Effect, Estimate, Event, MotionRequest, Point, Port, Random,
-    RobotId, Sensors, Time, TimerKey,
+    Command, Destination, Duration, Effect, Estimate, Event, Input, MotionRequest, Point, Port,
+    Random, RobotId, Sensors, Time, TimerKey,
 };
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -257,6 +257,22 @@ impl<'a> Robot<'a> {
     /// Leaves working memory for the next input.
     pub fn return_scratch<T: Any + Send + Sync>(&mut self, scratch: Box<T>) {
         self.effects.scratch.keep(scratch);
+    }
+
+    /// For failure detectors: tells all primitives of this robot's own program that they should
+    /// suspect a robot ([`Input::Suspected`]).
+    pub fn suspect(&mut self, peer: RobotId) {
+        self.effects.verdicts.push(Input::Suspected(peer));
+    }
+
+    /// For failure detectors: tells all primitives of this robot's own program that they can trust a
+    /// robot again ([`Input::Trusted`]).
+    pub fn trust(&mut self, peer: RobotId) {
+        self.effects.verdicts.push(Input::Trusted(peer));
+    }
+
+    pub(crate) fn verdicts(&mut self) -> Vec<Input> {
+        core::mem::take(&mut self.effects.verdicts)
     }
 
     pub(crate) fn has_upcalls(&self) -> bool {

@@ -10,6 +10,7 @@ extern crate alloc;
 
 pub mod broadcast;
 mod channel;
+pub mod failure_detector;
 pub mod geocast;
 pub mod reach_avoid;
 pub mod reliable;
@@ -18,6 +19,7 @@ pub mod unicast;
 
 pub use broadcast::Broadcast;
 pub use channel::Failure;
+pub use failure_detector::FailureDetector;
 pub use geocast::Geocast;
 pub use reach_avoid::ReachAvoid;
 pub use shared_memory::SharedMemory;

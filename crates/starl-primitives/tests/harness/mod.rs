@@ -6,6 +6,7 @@
 pub mod pilot;
 pub mod sharer;
 mod talker;
+pub mod watcher;
 
 pub use talker::{Talker, broadcast, geocast, unicast};
 
