@@ -3,6 +3,7 @@
 
 #![allow(dead_code, unused_imports)] // each test uses a part of it
 
+pub mod locker;
 pub mod pilot;
 pub mod sharer;
 mod talker;

@@ -1,0 +1,39 @@
+//! What robots say to each other about resources.
+
+use super::Resources;
+use serde::{Deserialize, Serialize};
+
+/// Names a request among all that its robot ever makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct RequestId {
+    /// Drawn when the robot starts.
+    pub incarnation: u32,
+    /// Counts its requests since then.
+    pub number: u32,
+}
+
+/// A message.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Packet {
+    /// The sender wants all of these resources.
+    Request(Wish),
+    /// As far as the sender of this is concerned, the receiver may have what it asked for.
+    Permit {
+        /// Its request.
+        id: RequestId,
+        /// And which attempt of it.
+        attempt: u32,
+    },
+}
+
+/// What a robot wants.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Wish {
+    pub id: RequestId,
+    /// Counts how often permissions were asked for anew. An answer to an earlier attempt may be one
+    /// that its sender does not remember.
+    pub attempt: u32,
+    /// When it was first asked, on Lamport's clock: what was asked earlier is given first.
+    pub clock: u64,
+    pub resources: Resources,
+}

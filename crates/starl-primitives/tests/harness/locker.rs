@@ -1,0 +1,186 @@
+//! A program that asks for resources, uses them for a while and gives them back, again and again; and
+//! what its events say of who held what when.
+
+use super::World;
+use starl_core::event::Name;
+use starl_core::{
+    Duration, Event, Port, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value,
+};
+use starl_primitives::mutex::{Options, Resources};
+use starl_primitives::{FailureDetector, Mutex, failure_detector};
+use std::any::Any;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The resources that there are.
+pub const RESOURCES: [&str; 4] = ["a", "b", "c", "d"];
+
+#[derive(Clone)]
+pub struct Locker {
+    pub mutex: Mutex,
+    detector: FailureDetector,
+    /// Whether it asks by itself.
+    is_busy: bool,
+    /// When it gives back the next resource.
+    next_release: Option<Time>,
+    /// When it asks again.
+    next_request: Time,
+}
+
+impl Locker {
+    /// Robots that ask by themselves, at random, if they are busy.
+    pub fn boxed(is_busy: bool) -> impl Fn() -> Box<dyn Program> {
+        move || {
+            Box::new(Locker {
+                mutex: Mutex::new("lock", None, Options::default()),
+                detector: FailureDetector::new("watch", failure_detector::Options::default()),
+                is_busy,
+                next_release: None,
+                next_request: Time::ZERO,
+            })
+        }
+    }
+}
+
+/// The set of these.
+pub fn set(resources: &[&str]) -> Resources {
+    resources.iter().map(|&resource| resource.into()).collect()
+}
+
+/// The resources with the bits of this number.
+fn numbered(bits: u32) -> Resources {
+    let chosen = RESOURCES.iter().enumerate();
+    let chosen = chosen.filter(|(index, _)| bits >> index & 1 == 1);
+    chosen.map(|(_, &resource)| resource.into()).collect()
+}
+
+const ACQUIRE: u16 = 0;
+const RELEASE: u16 = 1;
+
+fn command(kind: u16, resources: &[&str]) -> TimerKey {
+    let bit = |resource: &&str| RESOURCES.iter().position(|name| name == resource);
+    TimerKey {
+        port: Port::PROGRAM,
+        kind,
+        number: resources.iter().filter_map(bit).map(|bit| 1 << bit).sum(),
+    }
+}
+
+/// Tells a robot to ask for these.
+pub fn acquire(resources: &[&str]) -> TimerKey {
+    command(ACQUIRE, resources)
+}
+
+/// Tells a robot to give these back.
+pub fn release(resources: &[&str]) -> TimerKey {
+    command(RELEASE, resources)
+}
+
+fn pause(random: &mut Random) -> Duration {
+    Duration::from_millis(u64::from(random.below(1500)))
+}
+
+impl Program for Locker {
+    fn activate(&mut self, robot: &mut Robot<'_>) {
+        if !self.is_busy {
+            return;
+        }
+        let now = robot.now();
+        if !self.mutex.held().is_empty() {
+            let due = *self
+                .next_release
+                .get_or_insert_with(|| now + pause(robot.random()));
+            if now >= due {
+                let count = self.mutex.held().len() as u32;
+                let first = robot.random().below(count) as usize;
+                let some = self.mutex.held().iter().skip(first).cloned().collect();
+                self.mutex.release(robot, &some);
+                self.next_release = None;
+                self.next_request = now + pause(robot.random());
+            }
+        } else if !self.mutex.is_waiting() && now >= self.next_request {
+            let wanted = numbered(1 + robot.random().below(15));
+            self.mutex.acquire(robot, wanted).expect("it holds nothing");
+        }
+    }
+
+    fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
+        let resources = numbered(key.number);
+        match key.kind {
+            ACQUIRE => self
+                .mutex
+                .acquire(robot, resources)
+                .expect("it holds nothing"),
+            _ => self.mutex.release(robot, &resources),
+        }
+    }
+
+    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
+        visit(&mut self.detector);
+        visit(&mut self.mutex);
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        self.mutex.corrupt(random, &set(&RESOURCES));
+    }
+
+    fn inspect(&self) -> Option<&dyn Any> {
+        Some(self)
+    }
+}
+
+/// The mutex of a robot that is up.
+pub fn mutex(world: &World, robot: usize) -> &Mutex {
+    let program = world.program(robot).expect("the robot is up");
+    let locker = program
+        .inspect()
+        .and_then(|any| any.downcast_ref::<Locker>());
+    &locker.expect("it is a locker").mutex
+}
+
+/// Judges a run by its events: at no time two robots hold the same resource. Crashes are given, since
+/// they leave no event. Gives how many requests each robot was granted.
+pub fn entries(world: &World, crashes: &[(Time, u32)]) -> BTreeMap<u32, usize> {
+    let mut holders: BTreeMap<String, u32> = BTreeMap::new();
+    let mut entries: BTreeMap<u32, BTreeSet<Time>> = BTreeMap::new();
+    let mut crashes = crashes.iter().copied().peekable();
+    for (at, RobotId(robot), event) in &world.records {
+        while let Some((_, crashed)) = crashes.next_if(|(time, _)| time < at) {
+            holders.retain(|_, holder| *holder != crashed);
+        }
+        let Event::Primitive {
+            primitive,
+            name,
+            fields,
+            ..
+        } = event
+        else {
+            continue;
+        };
+        if primitive != "mutex" {
+            continue;
+        }
+        let Some((Name::Borrowed("resource"), Value::Text(resource))) = fields.first() else {
+            panic!("{name} has no resource");
+        };
+        match &**name {
+            "enter" => {
+                let before = holders.insert(resource.to_string(), *robot);
+                assert_eq!(before, None, "{robot} enters {resource} at {at:?}");
+                entries.entry(*robot).or_default().insert(*at);
+            }
+            "release" => {
+                let before = holders.remove(&**resource);
+                assert_eq!(
+                    before,
+                    Some(*robot),
+                    "{robot} releases {resource} at {at:?}"
+                );
+            }
+            _ => {}
+        }
+    }
+    let counted = entries
+        .into_iter()
+        .map(|(robot, times)| (robot, times.len()));
+    counted.collect()
+}
