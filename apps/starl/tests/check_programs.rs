@@ -110,8 +110,8 @@ fn errors_of_a_library_are_shown_in_the_library_and_once() {
 
 #[test]
 fn a_program_that_cannot_run_yet_is_correct() {
-    let folder = folder("check_mutex");
-    let program = "program Waits\n\nmux = Mutex(\"0\", peers)\n\nstart()\n    pre not mux.held({\"a\"})\n    eff mux.acquire({\"a\"})\n";
+    let folder = folder("check_barrier");
+    let program = "program Waits\n\nall = Barrier(\"0\", peers)\n\nstart()\n    pre not all.passed\n    eff all.arrive()\n";
     file(&folder, "waits.starl", program);
     let output = starl(&folder, &["check", "waits.starl"]);
     let text = stdout(&output);

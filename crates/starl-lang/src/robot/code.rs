@@ -3,7 +3,7 @@
 use super::joint::{Joiner, Joint};
 use super::messages::Inbox;
 use super::parameter;
-use super::primitives::KINDS;
+use super::primitives::{KINDS, Needs};
 use super::shape::Declared;
 use crate::machine::{Bytecode, Import, LoadError, Program, RuntimeError, State};
 use alloc::format;
@@ -19,8 +19,8 @@ struct Inner {
     program: Program,
     joints: Vec<Joint>,
     instances: Vec<Instance>,
-    /// The name of the memory that shared variables lie in, if there are any.
-    memory: Option<String>,
+    /// What its primitives have in common.
+    needs: Needs,
     inbox: Inbox,
     /// The parameters' defaults; or what went wrong when they were worked out.
     initial: Result<State, String>,
@@ -54,7 +54,7 @@ impl Code {
         Ok(Code(Arc::new(Inner {
             initial: initial.map_err(|error| place(&program, &error)),
             joints: joiner.finish(),
-            memory: memory_name(program.bytecode(), &instances),
+            needs: needs(&instances),
             program,
             instances,
             inbox,
@@ -81,9 +81,9 @@ impl Code {
         &self.0.instances
     }
 
-    /// The name of the memory that shared variables lie in, if there are any.
-    pub(super) fn memory(&self) -> Option<&str> {
-        self.0.memory.as_deref()
+    /// What the program's primitives have in common.
+    pub(super) fn needs(&self) -> Needs {
+        self.0.needs
     }
 
     /// The messages that the program handles.
@@ -141,10 +141,9 @@ fn instances(bytecode: &Bytecode, declared: &Declared) -> Result<Vec<Instance>, 
     Ok(instances)
 }
 
-fn memory_name(bytecode: &Bytecode, instances: &[Instance]) -> Option<String> {
+fn needs(instances: &[Instance]) -> Needs {
     let kinds = instances
         .iter()
-        .filter_map(|i| KINDS.get(usize::from(i.kind)));
-    let is_needed = kinds.into_iter().any(|kind| kind.shared);
-    is_needed.then(|| format!("{}/shared", bytecode.name))
+        .filter_map(|instance| KINDS.get(usize::from(instance.kind)));
+    kinds.fold(Needs::NOTHING, |needs, kind| needs.or(kind.needs))
 }

@@ -5,13 +5,12 @@ use super::code::{Code, Instance};
 use super::joint::OnRobot;
 use super::messages::Outgoing;
 use super::primitives::{KINDS, Slot};
+use super::services::Services;
 use super::workbench::Memo;
 use crate::machine::{Host, HostCall};
 use alloc::borrow::Cow;
-use alloc::boxed::Box;
 use alloc::string::String;
-use starl_core::{Input, Payload, Port, Primitive, Robot};
-use starl_primitives::SharedMemory;
+use starl_core::{Input, Payload, Port, Robot};
 
 /// What functions of the host work with.
 pub struct Context<'a, 'r> {
@@ -21,8 +20,8 @@ pub struct Context<'a, 'r> {
     pub robot: &'a mut Robot<'r>,
     /// Values that were made before.
     pub memo: &'a mut Memo,
-    /// The memory of the program's shared variables, if it has any.
-    pub shared: &'a mut Option<Box<SharedMemory>>,
+    /// What the program's primitives have in common.
+    pub services: &'a mut Services,
     /// The primitive that the present call is about.
     pub instance: Option<&'a Instance>,
     /// The message that it is about.
@@ -47,13 +46,13 @@ impl<'a, 'r> Context<'a, 'r> {
         code: &'a Code,
         robot: &'a mut Robot<'r>,
         memo: &'a mut Memo,
-        shared: &'a mut Option<Box<SharedMemory>>,
+        services: &'a mut Services,
     ) -> Context<'a, 'r> {
         Context {
             code,
             robot,
             memo,
-            shared,
+            services,
             instance: None,
             message: None,
         }
@@ -98,9 +97,8 @@ impl RobotHost<'_, '_> {
 
     /// Whether another primitive than this instance listens at the port.
     fn is_taken(&mut self, port: Port, instance: usize) -> bool {
-        let memory = self.context.shared.as_ref().map(|memory| memory.port());
         let mut others = self.bound.iter_mut().enumerate();
-        memory == Some(port)
+        self.context.services.listen_at(port)
             || others.any(|(other, slot)| {
                 let primitive = slot.as_mut().and_then(|bound| bound.primitive());
                 other != instance && primitive.is_some_and(|primitive| primitive.port() == port)

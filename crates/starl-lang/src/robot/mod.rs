@@ -20,6 +20,7 @@ mod parameter;
 mod primitives;
 mod program;
 pub mod properties;
+mod services;
 mod shape;
 mod words;
 mod workbench;

@@ -5,6 +5,7 @@ use super::corruption;
 use super::host::{Context, RobotHost};
 use super::parameter::{self, ParameterError};
 use super::primitives::{Attended, Report, Slot};
+use super::services::Services;
 use super::workbench::Workbench;
 use crate::machine::{Limits, Machine, RuntimeError, State, Value};
 use alloc::boxed::Box;
@@ -12,9 +13,7 @@ use alloc::vec::Vec;
 use core::any::Any;
 use core::mem;
 use starl_core::random::hash_key;
-use starl_core::{Input, Message, Port, Primitive, Program, Random, Robot};
-use starl_primitives::SharedMemory;
-use starl_primitives::shared_memory::Options;
+use starl_core::{Message, Port, Primitive, Program, Random, Robot};
 
 /// A StarL program on one robot.
 ///
@@ -26,8 +25,7 @@ pub struct RobotProgram {
     code: Code,
     state: State,
     bound: Box<[Slot]>,
-    /// What shared variables lie in.
-    shared: Option<Box<SharedMemory>>,
+    services: Services,
     /// Events of primitives that wait for their handlers: the instance's number and what happened.
     reports: Vec<(u32, Report)>,
     /// See [`RobotProgram::version`].
@@ -54,7 +52,7 @@ impl RobotProgram {
             state: parameter::state(code, parameters)?,
             bound: code.instances().iter().map(|_| None).collect(),
             code: code.clone(),
-            shared: None,
+            services: Services::default(),
             reports: Vec::new(),
             version: 0,
             phase: Phase::New,
@@ -92,7 +90,7 @@ impl RobotProgram {
         let mut bench = robot.take_scratch::<Workbench>();
         let Workbench { workspace, memo } = &mut *bench;
         let mut host = RobotHost {
-            context: Context::new(code, robot, memo, &mut self.shared),
+            context: Context::new(code, robot, memo, &mut self.services),
             bound: &mut self.bound,
             failure: None,
             has_fired: false,
@@ -173,11 +171,7 @@ impl Program for RobotProgram {
         self.version = 1 + (hash_key(robot.now().0, &[self.version]) >> 1);
         self.bound.fill_with(|| None);
         self.reports.clear();
-        let memory = self.code.memory();
-        self.shared = memory.map(|name| Box::new(SharedMemory::new(name, Options::default())));
-        if let Some(memory) = &mut self.shared {
-            memory.handle(robot, &Input::Start);
-        }
+        self.services = Services::start(&self.code, robot);
         self.run(robot, Part::Start);
     }
 
@@ -207,17 +201,13 @@ impl Program for RobotProgram {
                 reports: &mut self.reports,
             });
         }
-        if let Some(memory) = &mut self.shared {
-            visit(&mut **memory);
-        }
+        self.services.primitives(visit);
     }
 
     fn corrupt(&mut self, random: &mut Random) {
         self.version += 1;
         corruption::corrupt(self.code.program(), &mut self.state, random);
-        if let Some(memory) = &mut self.shared {
-            memory.corrupt(random);
-        }
+        self.services.corrupt(random);
     }
 
     fn inspect(&self) -> Option<&dyn Any> {

@@ -83,7 +83,7 @@ fn of_the_standard_library() {
 
 #[test]
 fn with_what_is_missing_taken_out() {
-    // Every form of the language but those that need a Mutex.
+    // Every form of the language but `mux.failed` as an event, which there is none of.
     let geometry = "library geometry\nrecord Line {a: Point, b: Point}\n";
     let libraries = BTreeMap::from([("geometry".to_string(), geometry.to_string())]);
     let without: String = EVERY_FORM

@@ -27,8 +27,8 @@ fn problems(source: &str) -> Vec<(Code, String)> {
 
 #[test]
 fn primitives_that_robots_do_not_have() {
-    let source = "program Test\nmux = Mutex(\"0\")\nreg = Registration(\"1\")\ngo()\n    pre mux.held({\"a\"}) and reg.failed\n    eff mux.release({\"a\"})\n";
-    let expected = ["mux", "reg"].map(|name| (Code::UnavailablePrimitive, name.to_string()));
+    let source = "program Test\nbar = Barrier(\"0\")\nreg = Registration(\"1\")\ngo()\n    pre bar.passed and reg.failed\n    eff bar.arrive()\n";
+    let expected = ["bar", "reg"].map(|name| (Code::UnavailablePrimitive, name.to_string()));
     assert_eq!(problems(source), expected);
 }
 

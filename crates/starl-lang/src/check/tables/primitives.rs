@@ -160,7 +160,7 @@ pub const PRIMITIVES: &[Primitive] = &[
             ),
         ],
         events: &[],
-        is_available: false,
+        is_available: true,
         documentation: "Mutual exclusion on named resources (thesis, section 3.4.3).",
     },
     Primitive {

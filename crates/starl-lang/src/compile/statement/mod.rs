@@ -75,7 +75,7 @@ impl<'p> Body<'_, 'p> {
                     statement.span.start + "atomic".len() as u32,
                 );
                 let problem = Problem::new(code, self.file, word, message);
-                Err(problem.note("`atomic` needs the primitive Mutex"))
+                Err(problem.note("`atomic` needs shared variables that are never read late"))
             }
         }
     }

@@ -7,6 +7,7 @@
 
 mod attended;
 mod messaging;
+mod mutex;
 mod reach_avoid;
 mod shared;
 
@@ -54,6 +55,31 @@ pub struct Report {
     pub objects: Vec<Object>,
 }
 
+/// What primitives of a program have in common, and which of it a kind needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Needs {
+    /// The memory that shared variables lie in.
+    pub memory: bool,
+    /// The detector of failed robots.
+    pub detector: bool,
+}
+
+impl Needs {
+    /// Nothing.
+    pub const NOTHING: Needs = Needs {
+        memory: false,
+        detector: false,
+    };
+
+    /// What one of two needs.
+    pub fn or(self, other: Needs) -> Needs {
+        Needs {
+            memory: self.memory || other.memory,
+            detector: self.detector || other.detector,
+        }
+    }
+}
+
 /// A kind of primitive.
 pub trait Kind: Clone + Send + Sync + Sized + 'static {
     /// Its name.
@@ -64,8 +90,8 @@ pub trait Kind: Clone + Send + Sync + Sized + 'static {
     const MEMBERS: &'static [Member<Self>];
     /// What it reports.
     const EVENTS: &'static [Event] = &[];
-    /// Whether instances lie in the program's shared memory.
-    const SHARED: bool = false;
+    /// What it shares with the program's other primitives.
+    const NEEDS: Needs = Needs::NOTHING;
 
     /// Binds an instance.
     fn bind(
@@ -143,8 +169,8 @@ pub struct Entry {
     pub member: fn(usize) -> Option<&'static Signature>,
     /// What it reports.
     pub events: &'static [Event],
-    /// Whether instances lie in the program's shared memory.
-    pub shared: bool,
+    /// What it shares with the program's other primitives.
+    pub needs: Needs,
     /// Binds an instance.
     pub bind: Bind,
 }
@@ -162,7 +188,7 @@ impl Entry {
             constructor: P::CONSTRUCTOR,
             member: |index| P::MEMBERS.get(index).map(|member| &member.signature),
             events: P::EVENTS,
-            shared: P::SHARED,
+            needs: P::NEEDS,
             bind: |instance, context, arguments| {
                 Ok(Box::new(P::bind(instance, context, arguments)?))
             },
@@ -181,6 +207,7 @@ pub static KINDS: &[Entry] = &[
     Entry::of::<messaging::Sender<starl_primitives::Broadcast>>(),
     Entry::of::<messaging::Sender<starl_primitives::Geocast>>(),
     Entry::of::<messaging::Sender<starl_primitives::Unicast>>(),
+    Entry::of::<starl_primitives::Mutex>(),
     Entry::of::<shared::SingleWriter>(),
     Entry::of::<shared::MultiWriter>(),
 ];

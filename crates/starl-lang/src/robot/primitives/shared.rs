@@ -4,7 +4,7 @@
 //! What other robots wrote comes from the network. A value that is none of the variable's type is as
 //! one that was never written.
 
-use super::{Arguments, Context, Instance, Kind, Member, method, query};
+use super::{Arguments, Context, Instance, Kind, Member, Needs, method, query};
 use crate::machine::{Block, Body, HostCall, Layout, List, Map, Object, ObjectType, Program, Type};
 use crate::robot::arguments::Called;
 use crate::robot::shape::Shape;
@@ -42,7 +42,7 @@ fn check_consistency(arguments: &mut Arguments<'_>) -> Result<(), Cow<'static, s
 fn memory<'c, 'r>(
     context: &'c mut Context<'_, 'r>,
 ) -> Result<(&'c mut SharedMemory, &'c mut Robot<'r>, &'c str), Cow<'static, str>> {
-    match (context.shared.as_deref_mut(), context.instance) {
+    match (context.services.memory.as_deref_mut(), context.instance) {
         (Some(memory), Some(instance)) => Ok((memory, context.robot, &instance.variable)),
         _ => Err("the shared variable is not bound yet".into()),
     }
@@ -169,7 +169,10 @@ impl Kind for SingleWriter {
         Ok(SingleWriter)
     }
 
-    const SHARED: bool = true;
+    const NEEDS: Needs = Needs {
+        memory: true,
+        ..Needs::NOTHING
+    };
 
     fn primitive(&mut self) -> Option<&mut dyn Primitive> {
         None
@@ -214,7 +217,10 @@ impl Kind for MultiWriter {
         Ok(MultiWriter { initial: None })
     }
 
-    const SHARED: bool = true;
+    const NEEDS: Needs = Needs {
+        memory: true,
+        ..Needs::NOTHING
+    };
 
     fn primitive(&mut self) -> Option<&mut dyn Primitive> {
         None

@@ -1,0 +1,102 @@
+//! Mutex in programs.
+
+use super::{Arguments, Context, Instance, Kind, Member, Needs, method, query};
+use crate::machine::List;
+use crate::robot::shape::Shape;
+use alloc::borrow::Cow;
+use alloc::boxed::Box;
+use alloc::collections::BTreeSet;
+use alloc::format;
+use starl_core::{Primitive, RobotId};
+use starl_primitives::Mutex;
+use starl_primitives::mutex::{AcquireError, Options, Resources};
+
+impl Kind for Mutex {
+    const NAME: &'static str = "Mutex";
+
+    /// The name of the mutex, and who takes part: all, if none are given.
+    const CONSTRUCTOR: &'static [Shape] =
+        &[Shape::Text, Shape::Optional(&Shape::Set(&Shape::Robot))];
+
+    const MEMBERS: &'static [Member<Mutex>] = &[
+        method(
+            "acquire",
+            &[
+                Shape::Set(&Shape::Text),
+                Shape::Optional(&Shape::Set(&Shape::Robot)),
+            ],
+            None,
+            |mutex, context, call| {
+                let mut arguments = Arguments::after_instance(call);
+                let resources = texts(&mut arguments);
+                if let Some(participants) = arguments.optional(robots) {
+                    mutex.set_participants(Some(participants));
+                }
+                let cost = 10 + resources.len() as u64;
+                match mutex.acquire(context.robot, resources) {
+                    Ok(()) => Ok(cost),
+                    Err(AcquireError::HoldsOthers) => Err("this robot holds resources already; \
+                        release them first, or ask for all that are needed at once"
+                        .into()),
+                }
+            },
+        ),
+        method(
+            "release",
+            &[Shape::Set(&Shape::Text)],
+            None,
+            |mutex, context, call| {
+                let resources = texts(&mut Arguments::after_instance(call));
+                mutex.release(context.robot, &resources);
+                Ok(10 + resources.len() as u64)
+            },
+        ),
+        query(
+            "held",
+            &[Shape::Set(&Shape::Text)],
+            Shape::Bool,
+            |mutex, _, call| {
+                let resources = texts(&mut Arguments::after_instance(call));
+                call.set_bool(0, mutex.holds(&resources));
+                Ok(1 + resources.len() as u64)
+            },
+        ),
+        query("failed", &[], Shape::Bool, |mutex, _, call| {
+            call.set_bool(0, mutex.failed());
+            Ok(0)
+        }),
+    ];
+
+    const NEEDS: Needs = Needs {
+        detector: true,
+        ..Needs::NOTHING
+    };
+
+    fn bind(
+        _: &Instance,
+        _: &mut Context<'_, '_>,
+        arguments: &mut Arguments<'_>,
+    ) -> Result<Mutex, Cow<'static, str>> {
+        let name = format!("mutex/{}", arguments.text());
+        let participants = arguments.optional(robots);
+        Ok(Mutex::new(&name, participants, Options::default()))
+    }
+
+    fn primitive(&mut self) -> Option<&mut dyn Primitive> {
+        Some(self)
+    }
+}
+
+/// A set of texts.
+fn texts(arguments: &mut Arguments<'_>) -> Resources {
+    let elements = arguments.object().list().into_iter().flat_map(List::iter);
+    let texts = elements.filter_map(|block| block.objects.first());
+    texts.map(|text| Box::from(text.text())).collect()
+}
+
+/// A set of robots.
+fn robots(arguments: &mut Arguments<'_>) -> BTreeSet<RobotId> {
+    let elements = arguments.object().list().into_iter().flat_map(List::iter);
+    let robots = elements.filter_map(|block| block.scalars.first());
+    robots.map(|&robot| RobotId(robot as u32)).collect()
+}

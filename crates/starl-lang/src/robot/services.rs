@@ -1,0 +1,67 @@
+//! What the primitives of a program have in common, once for all of them: the memory that its shared
+//! variables lie in, and the detector of failed robots. A program has what its primitives need.
+
+use super::code::Code;
+use super::primitives::Needs;
+use alloc::boxed::Box;
+use alloc::format;
+use starl_core::{Input, Port, Primitive, Random, Robot};
+use starl_primitives::{FailureDetector, SharedMemory, failure_detector, shared_memory};
+
+/// The common parts of one robot's program. Before its start it has none.
+#[derive(Clone, Default)]
+pub struct Services {
+    /// The shared variables.
+    pub memory: Option<Box<SharedMemory>>,
+    /// Who is believed to have failed.
+    detector: Option<Box<FailureDetector>>,
+}
+
+impl Services {
+    /// What a program needs, started.
+    pub fn start(code: &Code, robot: &mut Robot<'_>) -> Services {
+        let Needs { memory, detector } = code.needs();
+        let program = &code.program().bytecode().name;
+        let memory = memory.then(|| {
+            let options = shared_memory::Options::default();
+            Box::new(SharedMemory::new(&format!("{program}/shared"), options))
+        });
+        let detector = detector.then(|| {
+            let options = failure_detector::Options::default();
+            Box::new(FailureDetector::new(
+                &format!("{program}/failures"),
+                options,
+            ))
+        });
+        let mut services = Services { memory, detector };
+        services.primitives(&mut |primitive| primitive.handle(robot, &Input::Start));
+        services
+    }
+
+    /// Whether one of them listens at the port.
+    pub fn listen_at(&mut self, port: Port) -> bool {
+        let mut found = false;
+        self.primitives(&mut |primitive| found |= primitive.port() == port);
+        found
+    }
+
+    /// Shows each to `visit`, always in the same order.
+    pub fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
+        if let Some(memory) = &mut self.memory {
+            visit(&mut **memory);
+        }
+        if let Some(detector) = &mut self.detector {
+            visit(&mut **detector);
+        }
+    }
+
+    /// Overwrites their states at random.
+    pub fn corrupt(&mut self, random: &mut Random) {
+        if let Some(memory) = &mut self.memory {
+            memory.corrupt(random);
+        }
+        if let Some(detector) = &mut self.detector {
+            detector.corrupt(random);
+        }
+    }
+}
