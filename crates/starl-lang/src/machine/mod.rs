@@ -9,19 +9,25 @@
 //! allows or hold more memory than its budget; equal states, inputs and answers of the host give equal
 //! states and equal fuel, on every target; a robot's program is its program and its [`State`], nothing
 //! else is kept from one activation to the next.
-
 //!
-//! What becomes of a program's text:
+//! What becomes of a program's text (the module `compile` does it):
 //! - A state variable's scalars and objects are at fixed places of the [`State`], in the order of the
 //!   declarations. Scalars are loaded, worked on and stored; objects are worked on where they are.
-//! - A parameter is a variable that nothing assigns; `defaults` gives it its default value.
+//! - A parameter is a variable that nothing assigns, after the others; `defaults` gives it its default
+//!   value. So is the variable `role`, as far as the host is concerned.
+//! - A constant that is one scalar stands in the code; another one is a function without arguments.
 //! - `pre` is a guard function: it ends by `return` with true and the bindings of `if some` and the
 //!   like, or by `return_false`. `eff` is a procedure with those bindings as its arguments.
 //! - A primitive's instance number is its place among the [`Binding`]s; the start calls the import
 //!   `Mutex.bind` (or like) with that number and the arguments. `mux.acquire(x)` calls `Mutex.acquire`
 //!   with the number and x; `mux.held` calls the query `Mutex.held` with the number.
-//! - `for x in xs` copies the collection, which is a share, and counts with `loop` through `list_get`
-//!   (also for sets) or `map_entry`.
+//! - A shared variable is an instance of `SingleWriter` or `MultiWriter`, after the program's own.
+//!   `pos[r]` calls `SingleWriter.element`, `pos` alone `SingleWriter.all`; `pos[me] = e` is
+//!   `SingleWriter.write`.
+//! - `role = r` stores the role and, if it is another one, calls the procedure `role.enter`, which calls
+//!   that of the role. The start does so too, after `init`.
+//! - `for x in xs` counts with `loop` through `list_get` (also for sets) or `map_entry`; it runs over a
+//!   copy of the collection, which is a share, if its body may change the variable.
 //! - `xs[i].f = e` reads the element, changes the register and writes it back.
 //! - `if some p = q` jumps unless the optional's Bool; `q!` is `require`.
 //! - A property's function takes robots and reads their variables by `load_other`; without
