@@ -19,6 +19,7 @@ fleets() {
     echo
     case $1 in
     race) printf -- '--robots %s\n' create=4 drone=4 create=6,drone=6 ;;
+    formation) printf -- '--robots %s\n' create=2,drone=1 create=7 ;;
     esac
 }
 

@@ -1,5 +1,5 @@
 //! Race reaches its goal and violates no property, whatever the seed: calm and over a bad network, with
-//! its own fleet and with one of twelve.
+//! its own fleet and with one of twelve, in the StarL language and in Rust.
 
 use rayon::prelude::*;
 use starl_catalog::examples;
@@ -8,13 +8,14 @@ use starl_sim::read::{Override, Request};
 
 const SEEDS: u64 = 1_000;
 const BAD_NETWORK: [&str; 2] = ["network.loss=0.2", "network.delay=100ms"];
+const PROGRAMS: [&str; 2] = ["program=race.starl", "program=race"];
 const TWELVE: Option<&str> = Some("create=6,drone=6");
 
 /// What went wrong with a race, ready to be repeated; none if nothing did.
-fn race(seed: u64, fleet: Option<&str>, sets: &[&str]) -> Option<String> {
+fn race(program: &str, seed: u64, fleet: Option<&str>, sets: &[&str]) -> Option<String> {
     let example = examples::find("race").expect("it is an example");
     let seed_set = format!("seed={seed}");
-    let sets = sets.iter().copied().chain([seed_set.as_str()]);
+    let sets = sets.iter().copied().chain([program, seed_set.as_str()]);
     let request = Request {
         overrides: sets
             .clone()
@@ -45,8 +46,9 @@ fn race(seed: u64, fleet: Option<&str>, sets: &[&str]) -> Option<String> {
 }
 
 fn all_reach_their_goal(fleet: Option<&str>, sets: &[&str]) {
-    let race = |seed| race(seed, fleet, sets);
-    let failures: Vec<String> = (0..SEEDS).into_par_iter().filter_map(race).collect();
+    let runs = PROGRAMS.len() as u64 * SEEDS;
+    let race = |run| race(PROGRAMS[(run / SEEDS) as usize], run % SEEDS, fleet, sets);
+    let failures: Vec<String> = (0..runs).into_par_iter().filter_map(race).collect();
     let first = failures
         .iter()
         .take(5)
@@ -55,7 +57,7 @@ fn all_reach_their_goal(fleet: Option<&str>, sets: &[&str]) {
         .join("\n");
     assert!(
         failures.is_empty(),
-        "{} of {SEEDS} fail:\n{first}",
+        "{} of {runs} fail:\n{first}",
         failures.len()
     );
 }

@@ -42,7 +42,10 @@ pub fn read(arguments: &RunArguments) -> Result<Selection, Failure> {
         None => None,
     };
     let key = program.as_deref().map(|program| origin.key(program));
-    let mut overrides = replacing(&arguments.target, key.as_deref(), &origin);
+    let mut overrides = match &key {
+        Some(key) => replacing(&arguments.target, key, &scenario, &origin),
+        None => Vec::new(),
+    };
     overrides.extend(changes(arguments)?);
     let request = Request {
         overrides,
@@ -96,18 +99,29 @@ fn tell(refusal: &Refusal, name: impl Fn(&Findings) -> String) -> Failure {
     Failure(sums.join("\n"))
 }
 
-/// Puts a program in the place of the scenario's own.
-fn replacing(target: &str, program: Option<&str>, origin: &Origin) -> Vec<Override> {
-    let Some(key) = program else {
-        return Vec::new();
-    };
+/// Puts a program in the place of the scenario's own. The scenario's parameters were meant for that, so
+/// they go with it.
+fn replacing(target: &str, key: &str, scenario: &Source, origin: &Origin) -> Vec<Override> {
     let mut overrides = vec![Override::named(target, "program", key)];
+    if !names(scenario, origin, key) {
+        overrides.push(Override::named(target, "parameters", "{}"));
+    }
     if origin.is_default() {
         let title = Path::new(key).file_stem().unwrap_or_default();
         let title = format!("'{}'", title.display());
         overrides.push(Override::named(target, "title", &title));
     }
     overrides
+}
+
+/// Whether some group of the scenario names this program already.
+fn names(scenario: &Source, origin: &Origin, key: &str) -> bool {
+    // What is wrong with the scenario is told when it is read for good.
+    let read = starl_sim::read::scenario(&Request::new(scenario.clone()), origin);
+    read.is_ok_and(|read| {
+        let mut groups = read.scenario.fleet.groups.iter();
+        groups.any(|group| group.program == key)
+    })
 }
 
 /// Refuses a program that no robot would run: every group of the scenario names another.
