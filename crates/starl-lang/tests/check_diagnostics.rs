@@ -2,7 +2,7 @@
 //!
 //! A case is a heading, the program in a `starl` block, and the messages in a `text` block, which is
 //! empty or missing if there are none. Libraries that it imports come before it, in blocks `starl
-//! name`. With `STARL_WRITE_EXPECTED=1` what is said now is written into the files instead.
+//! name`. With `BLESS=1` what is said now is written into the files instead.
 #![allow(clippy::disallowed_methods, reason = "the cases are files")]
 
 use std::collections::BTreeMap;
@@ -72,7 +72,7 @@ fn files() -> Vec<PathBuf> {
 
 #[test]
 fn each_case_says_what_is_written() {
-    let write = std::env::var_os("STARL_WRITE_EXPECTED").is_some();
+    let write = std::env::var_os("BLESS").is_some();
     let mut wrong = String::new();
     for path in files() {
         let text = fs::read_to_string(&path).unwrap();

@@ -1,5 +1,5 @@
 //! Each kind of bad input gets the message a person should see: the cases are the Markdown files in
-//! `bad_scenarios/`. With `STARL_WRITE_EXPECTED=1` what is said now is written into them instead.
+//! `bad_scenarios/`. With `BLESS=1` what is said now is written into them instead.
 
 #![allow(clippy::disallowed_methods)] // the test reads files
 
@@ -16,7 +16,7 @@ fn every_bad_input_gets_its_message() {
         .map(|entry| entry.unwrap().path())
         .collect();
     paths.sort();
-    let write = std::env::var_os("STARL_WRITE_EXPECTED").is_some();
+    let write = std::env::var_os("BLESS").is_some();
     let mut count = 0;
     let mut differences = String::new();
     for path in paths {

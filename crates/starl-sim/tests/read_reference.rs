@@ -1,5 +1,5 @@
 //! `docs/reference/scenario.md` lists exactly the fields that the reader knows, with their kinds and
-//! defaults. With `STARL_WRITE_EXPECTED=1` its tables are written anew instead.
+//! defaults. With `BLESS=1` its tables are written anew instead.
 
 #![allow(clippy::disallowed_methods)] // the test reads files
 
@@ -62,7 +62,7 @@ fn the_reference_lists_every_field() {
     let mut page = std::fs::read_to_string(path).unwrap();
     let mut expected = Vec::new();
     tables("", SCENARIO, &mut expected);
-    let write = std::env::var_os("STARL_WRITE_EXPECTED").is_some();
+    let write = std::env::var_os("BLESS").is_some();
     let mut markers = 0;
     for (name, table) in &expected {
         let marker = format!(

@@ -176,11 +176,21 @@ impl Checker {
             });
             return broken(span);
         }
-        if self.body.place == Where::Property
-            && let Some(member) = robot_member(name)
-            && let Some(robot) = self.robot_of_property(span)
-        {
-            return self.of_robot(robot, member, span);
+        if self.body.place == Where::Property {
+            match (robot_member(name), self.robot_of_property(span)) {
+                (Some(member), Some(robot)) => return self.of_robot(robot, member, span),
+                (Some(_), None) if name == "me" => return self.of_no_robot(name, "id", span),
+                (Some(_), None) => return self.of_no_robot(name, name, span),
+                (None, _) if OF_SENSORS.contains(&name) => {
+                    let message = format!("a property cannot ask for `{name}`");
+                    let problem = Diagnostic::new(Code::InvalidProperty, span, message);
+                    self.report(problem.note(
+                        "only a robot itself reads its sensors; keep what matters in a variable",
+                    ));
+                    return broken(span);
+                }
+                (None, _) => {}
+            }
         }
         if !self.allowed(builtin.purity(), builtin.name(), span) {
             return broken(span);
@@ -312,6 +322,9 @@ const FOREIGN: &[(&str, &str)] = &[
     ("print", "log"),
     ("println", "log"),
 ];
+
+/// What a robot's sensors measure.
+const OF_SENSORS: [&str; 3] = ["bumped", "ranges", "detected"];
 
 /// What a property may say of a robot besides its variables.
 pub(super) fn robot_member(name: &str) -> Option<RobotMember> {

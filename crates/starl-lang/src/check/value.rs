@@ -66,7 +66,7 @@ impl Checker {
                 // A parameter may differ between robots; where nothing else is said it is that of the
                 // robot that the property is about, or that a quantifier named last.
                 let Some(robot) = self.body.robot.or_else(|| self.body.quantified()) else {
-                    return self.of_no_robot(name, span);
+                    return self.of_no_robot(name, name, span);
                 };
                 let robot = self.local_value(robot, span);
                 self.of_robot(robot, RobotMember::Parameter(id), span)
@@ -130,14 +130,15 @@ impl Checker {
         if let Some(robot) = self.robot_of_property(span) {
             return self.of_robot(robot, RobotMember::Variable(id), span);
         }
-        self.of_no_robot(name, span)
+        self.of_no_robot(name, name, span)
     }
 
-    pub fn of_no_robot(&mut self, name: &str, span: Span) -> Expression {
+    /// Reports what is a robot's, called `member` where the robot is named, under a quantifier.
+    pub fn of_no_robot(&mut self, name: &str, member: &str, span: Span) -> Expression {
         let message = format!("it is not said of which robot `{name}` is");
         let problem = Diagnostic::new(Code::InvalidProperty, span, message);
         let robot = (self.body.names.last()).map_or("r", |(robot, _)| robot.as_str());
-        let meant = format!("{robot}.{name}");
+        let meant = format!("{robot}.{member}");
         self.report(problem.replace(format!("did you mean `{meant}`?"), span, meant));
         broken(span)
     }
