@@ -89,10 +89,11 @@ fn ending(report: &Report) -> String {
             format!("failed after {at}: no robot is left")
         }
         Ending::Over(Outcome::Failed) => {
-            format!(
-                "failed after {at}: {} robots cannot go on; {done}",
-                progress.failed
-            )
+            let robots = match progress.failed {
+                1 => "1 robot".to_string(),
+                many => format!("{many} robots"),
+            };
+            format!("failed after {at}: {robots} cannot go on; {done}")
         }
         Ending::Interrupted => format!("interrupted after {at}; {done}"),
     }

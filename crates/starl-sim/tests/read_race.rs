@@ -128,7 +128,7 @@ fn a_smaller_fleet_leaves_starts_unused_and_a_new_model_gets_places() {
             .fleet
             .groups
             .iter()
-            .all(|group| group.program == "race")
+            .all(|group| group.program == "race.starl")
     );
 }
 
