@@ -40,14 +40,14 @@ async function start() {
   const command = find(path);
   if (!command) return missing(path);
   const run = { command, args: ["lsp"], transport: TransportKind.stdio };
-  client = new LanguageClient("starl", "StarL", run, {
-    documentSelector: [
-      { language: "starl", scheme: "file" },
-      { language: "starl", scheme: "untitled" },
-    ],
-    initializationOptions: { libraryDocuments: true },
-  });
   try {
+    client = new LanguageClient("starl", "StarL", run, {
+      documentSelector: [
+        { language: "starl", scheme: "file" },
+        { language: "starl", scheme: "untitled" },
+      ],
+      initializationOptions: { libraryDocuments: true },
+    });
     await client.start();
   } catch (error) {
     client = undefined;

@@ -174,7 +174,10 @@ fn libraries_beside_are_suggested() {
         .iter()
         .filter_map(|item| item["label"].as_str())
         .collect();
-    assert!(labels.contains(&"geometry") && labels.contains(&"tools"), "{labels:?}");
+    assert!(
+        labels.contains(&"geometry") && labels.contains(&"tools"),
+        "{labels:?}"
+    );
     assert!(!labels.contains(&"p"), "a program is no library");
 }
 

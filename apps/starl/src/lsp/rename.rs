@@ -30,6 +30,9 @@ fn check_place(checked: &Checked, symbol: starl_lang::check::Symbol) -> Result<(
     }
 }
 
+/// The changes of a file, by the places that they change.
+type Places = BTreeMap<(u32, u32), TextEdit>;
+
 /// The changes that give what is named at a place another name, or why it keeps its own.
 pub fn rename(
     documents: &Documents,
@@ -40,8 +43,8 @@ pub fn rename(
     let text = Text::new(checked.analysis.text());
     let found = checked.analysis.renameable(text.offset(position))?;
     check_place(checked, found.symbol)?;
-    // By the names of the files and the places in them: several texts may import one library.
-    let mut changes: BTreeMap<String, (Uri, BTreeMap<(u32, u32), TextEdit>)> = BTreeMap::new();
+    // By the names of the files: several texts may import one library.
+    let mut changes: BTreeMap<String, (Uri, Places)> = BTreeMap::new();
     for (user, symbol) in users(documents, checked, found.symbol) {
         let libraries = documents.libraries(&user.uri);
         let renamed = user.analysis.rename(symbol, name, &libraries);
@@ -56,7 +59,7 @@ pub fn rename(
             let source = &user.analysis.checked.files[file.file as usize].source;
             let text = Text::new(source);
             let key = uri.as_str().to_string();
-            let (_, own) = changes.entry(key).or_insert((uri, BTreeMap::new()));
+            let (_, own) = changes.entry(key).or_insert((uri, Places::new()));
             for edit in &file.edits {
                 own.insert((edit.span.start, edit.span.end), text.edit(edit));
             }

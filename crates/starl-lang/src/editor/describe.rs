@@ -253,8 +253,13 @@ fn one_line(text: &str) -> String {
 pub(super) fn node_at(checked: &Checked, site: Site) -> Option<SyntaxNode> {
     let file = checked.files.get(site.file as usize)?;
     let root = file.parse.syntax();
-    let token = root
-        .token_at_offset(site.span.start.into())
-        .right_biased()?;
-    token.parent()
+    let range = rowan::TextRange::new(site.span.start.into(), site.span.end.into());
+    if !root.text_range().contains_range(range) {
+        return None;
+    }
+    // Unlike `token_at_offset` this looks at few of the nodes on its way.
+    match root.covering_element(range) {
+        rowan::NodeOrToken::Node(node) => Some(node),
+        rowan::NodeOrToken::Token(token) => token.parent(),
+    }
 }
