@@ -1,6 +1,8 @@
 //! What random programs once brought to light.
 #![cfg(feature = "compiler")]
 
+mod support;
+
 use starl_lang::check::{NoLibraries, check};
 use starl_lang::diagnostic::{Colour, render};
 use starl_lang::ir::{Claim, ExpressionKind, Program, RobotMember};
@@ -66,4 +68,29 @@ fn parameters(expression: &starl_lang::ir::Expression, found: &mut Vec<starl_lan
         },
         _ => {}
     }
+}
+
+/// The value of the variable `x` when the program has started.
+fn x(text: &str) -> String {
+    let (checked, bytecode) = support::hold::compiled(text).expect("robots can run it");
+    support::hold::means(&checked, &bytecode);
+    let program = support::run::load(&bytecode);
+    let mut run = support::run::Run::new(&program);
+    run.input(support::run::Input::Start).expect("no error");
+    let value = program.get(&run.state, "x").expect("a variable x");
+    value.to_string()
+}
+
+#[test]
+fn a_record_that_is_one_list_is_shown_as_a_record() {
+    let text = "program P\nrecord R {list: List[Int]}\nr: R = R([1])\nx: String\n\
+                init\n    x = String(r)\n";
+    assert_eq!(x(text), "\"(list = [1])\"");
+}
+
+#[test]
+fn a_record_that_is_one_float_is_compared_as_a_float() {
+    let text = "program P\nrecord R {part: Float}\nr: R = R(0.0)\nx: Bool\n\
+                init\n    if r == R(-0.0)\n        x = true\n";
+    assert_eq!(x(text), "true");
 }

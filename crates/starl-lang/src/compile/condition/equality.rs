@@ -8,7 +8,7 @@ use crate::compile::expression::is_located;
 use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
 use crate::compile::types::Part;
-use crate::ir::{Expression, Type};
+use crate::ir::Expression;
 use crate::machine::operand::{Out, Short, Target};
 use crate::machine::{Instruction, operand};
 
@@ -24,11 +24,10 @@ impl<'p> Body<'_, 'p> {
         when_equal: bool,
         label: Label,
     ) -> Compiled {
-        let is_integer = self.size(&left.ty) == Size::SCALAR && left.ty != Type::Float;
-        if is_integer {
+        let parts = self.parts(&left.ty)?;
+        if let [Part::Scalar(_)] = parts[..] {
             return self.branch_equal_integers([left, right], when_equal, label);
         }
-        let parts = self.parts(&left.ty)?;
         if let [Part::Object(_, kind)] = parts[..] {
             let left = self.object(left)?;
             let right = self.object(right)?;

@@ -34,7 +34,9 @@ impl<'p> Body<'_, 'p> {
     /// Puts the text of a value at the end of a text.
     pub fn append_value(&mut self, text: ObjectInOut, value: &'p Expression) -> Compiled {
         let mark = self.mark();
-        if self.size(&value.ty) == Size::OBJECT && is_located(value) {
+        let is_object =
+            self.size(&value.ty) == Size::OBJECT && !matches!(value.ty, Type::Record(_));
+        if is_object && is_located(value) {
             let from = self.object(value)?;
             self.append_object(text, from, &value.ty)?;
         } else {
