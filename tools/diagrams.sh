@@ -12,7 +12,7 @@ rm -f $folder/*.mmd $folder/*.svg
 npm install --prefix $folder --silent --no-audit --no-fund
 
 for program in examples/*/*.starl crates/starl-lang/tests/listings/*.starl; do
-    name=$(basename "$program" .starl)
+    name=$(echo "${program%.starl}" | tr / -)
     # A library, or a program without states, has nothing to draw.
     "$starl" explain "$program" --output "$folder/$name.mmd" 2>/dev/null || continue
     "$starl" explain "$program" --format dot | dot -Tsvg >"$folder/$name.svg"
