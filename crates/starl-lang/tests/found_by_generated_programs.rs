@@ -28,6 +28,11 @@ fn arithmetic_stands_where_an_optional_is_expected() {
 }
 
 #[test]
+fn a_sign_stands_where_an_optional_is_expected() {
+    checked("program P\nx: Int?\ninit\n    x = -(if x == none then 1 else 2)\n");
+}
+
+#[test]
 fn empty_collections_stand_where_an_optional_is_expected() {
     checked("program P\nx: List[Int]? = []\ny: Set[Int]? = {}\nz: Map[Int, Int]? = {:}\n");
 }

@@ -4,6 +4,7 @@ use alloc::boxed::Box;
 use alloc::format;
 
 use super::body::Where;
+use super::comparison::comparable;
 use super::fit::same;
 use super::report::{broken, made};
 use super::state::Checker;
@@ -169,7 +170,9 @@ impl Checker {
             let value = 0_i64.wrapping_sub_unsigned(value);
             return made(ExpressionKind::Int(value), Type::Int, span);
         }
-        let operand = self.value(node.operand(), expected, "what is negated");
+        // What is negated is there.
+        let expected = expected.map(comparable);
+        let operand = self.value(node.operand(), expected.as_ref(), "what is negated");
         match operand.ty {
             Type::Int | Type::Point => {
                 let ty = operand.ty.clone();
