@@ -228,7 +228,7 @@ impl Generator<'_> {
         let left = self.expression(&ty, Context::Unknown, depth);
         let right = match &ty {
             // The other side may be there for sure.
-            Type::Optional(inner) if self.choices.below(2) == 1 => {
+            Type::Optional(inner) if self.can_make(inner) && self.choices.below(2) == 1 => {
                 self.expression(inner, Context::Unknown, depth)
             }
             _ => self.expression(&ty, Context::Unknown, depth),
