@@ -309,6 +309,10 @@ fn what_cannot_be_run_is_refused() {
             "latin.starl:2: is not text in UTF-8",
         ),
         (
+            &["run", "ways.starl"],
+            "\"./ways.starl\" is a library, which no robot can run",
+        ),
+        (
             &["run", "race", "--scenario", "scenario.toml"],
             "--scenario: race is a scenario itself",
         ),

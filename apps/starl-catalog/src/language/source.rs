@@ -85,6 +85,9 @@ pub fn compile(
     if checked.has_errors() {
         return Ok((None, findings));
     }
+    if checked.program.is_library {
+        return Err(format!("{path:?} is a library, which no robot can run"));
+    }
     let mut bytecode = match to_bytecode(&checked) {
         Ok(bytecode) => bytecode,
         Err(diagnostics) => {
