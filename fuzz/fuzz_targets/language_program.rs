@@ -1,6 +1,6 @@
 //! Every program that is generated from bytes is well typed, does on the machine what it means, never
 //! goes wrong, and means the same in any layout and formatted. With `SHOW` in the environment the program
-//! is printed, to look at what was found.
+//! is printed, to look at what was found. Seeds: `fuzz/seeds/language_program`.
 
 #![no_main]
 
