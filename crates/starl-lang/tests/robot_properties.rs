@@ -204,8 +204,7 @@ fn what_is_to_come_is_open_until_it_comes_or_is_too_late() {
     assert_eq!(judge.standing_of(0, &[RobotId(1)]), Open);
     // It came for one robot, and need not stay.
     fleet.set(0, "done", Value::Bool(false));
-    assert_eq!(judge.observe(seconds(10), &fleet), []);
-    let violations = judge.observe(seconds(11), &fleet);
+    let violations = judge.observe(seconds(10), &fleet);
     assert_eq!(rows(&violations), [[1]]);
     let within = Duration::from_seconds(10);
     assert_eq!(violations[0].reason, Reason::NotInTime { within });

@@ -90,7 +90,7 @@ impl Hearing<'_> {
     fn stays_ordinary(&mut self) -> bool {
         if let Claim::Eventually { within, .. } = self.property.claim {
             self.docket.lacks = true;
-            return within.is_none_or(|within| self.court.now <= Time(within));
+            return within.is_none_or(|within| self.court.now < Time(within));
         }
         true
     }
@@ -143,20 +143,25 @@ impl Hearing<'_> {
         if self.docket.settled.contains(row) {
             return Ok(());
         }
-        let within = within.map(Duration);
-        if let Some(within) = within
-            && self.court.now > Time::ZERO + within
+        // Also where it is too late: to see for whom it does not hold.
+        let is_true = self.holds(holds, row)?;
+        if let Some(within) = within.map(Duration)
+            && self.is_late(Time::ZERO + within, is_true)
         {
-            self.holds(holds, row)?; // to see for whom it does not
             return Err(Reason::NotInTime { within });
         }
-        match self.holds(holds, row)? {
-            true => {
-                self.docket.settled.insert(row.into());
-            }
-            false => self.docket.lacks = true,
+        if is_true {
+            self.docket.settled.insert(row.into());
+        } else {
+            self.docket.lacks = true;
         }
         Ok(())
+    }
+
+    /// Whether what is or is not true now was to be true by the deadline at the latest, and was not.
+    fn is_late(&self, deadline: Time, is_true: bool) -> bool {
+        let now = self.court.now;
+        now > deadline || now == deadline && !is_true
     }
 
     fn leads_to(
@@ -171,14 +176,13 @@ impl Hearing<'_> {
             None if self.holds(cause, row)? => now,
             None => return Ok(()),
         };
-        let within = within.map(Duration);
-        if let Some(within) = within
-            && now > since + within
+        let is_true = self.holds(consequence, row)?;
+        if let Some(within) = within.map(Duration)
+            && self.is_late(since + within, is_true)
         {
-            self.holds(consequence, row)?; // to see for whom it does not
             return Err(Reason::NotFollowed { since, within });
         }
-        if self.holds(consequence, row)? {
+        if is_true {
             self.docket.waiting.remove(row);
         } else if since == now {
             self.docket.waiting.insert(row.into(), since);
