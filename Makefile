@@ -25,6 +25,7 @@ unit:
 # What programs are made of also builds where there is no operating system.
 portable:
 	cargo check -p starl-core -p starl-primitives -p starl-motion --target thumbv7em-none-eabihf
+	cargo check -p starl-lang --no-default-features --target thumbv7em-none-eabihf
 
 # The same run has the same digest natively and in WebAssembly. `make golden` writes the digests down
 # anew after a change of behaviour that is meant.
@@ -71,6 +72,7 @@ bench:
 	cargo bench --workspace
 	$(STARL) bench swarm
 	$(STARL) bench radio
+	$(STARL) bench race
 
 .PHONY: $(STARL)
 $(STARL):
