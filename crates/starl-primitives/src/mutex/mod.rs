@@ -8,7 +8,7 @@
 //! Where it differs: requests are repeated until they are permitted, so that it bears loss, duplication
 //! and reordering without another protocol below. And a robot that waits itself, and permits a request of a
 //! robot that has restarted or that it had not heard of, asks that robot's permission anew
-//! ([`packet::Wish::attempt`]): what was permitted before is forgotten there, or was never asked for.
+//! (an attempt of the same request): what was permitted before is forgotten there, or was never asked for.
 //!
 //! Properties, for participants that ask each other:
 //! - safety: no resource is held by two robots at once, whatever the network does and whichever robots
