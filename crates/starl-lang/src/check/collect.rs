@@ -336,7 +336,7 @@ impl Checker {
 
     /// Gives a name its meaning in the present file.
     fn declare(&mut self, name: &Name, entity: Entity) {
-        let reserved = self.built_in_type(&name.text).is_some()
+        let reserved = Type::built_in(&name.text).is_some()
             || matches!(name.text.as_str(), "List" | "Set" | "Map" | "role")
             || Primitive::named(&name.text).is_some();
         if reserved {

@@ -19,9 +19,7 @@ impl Checker {
             Shape::Nothing => Type::Nothing,
             Shape::Any | Shape::Message => return None,
             Shape::Letter(letter) => letters.get(letter)?.clone(),
-            Shape::Named(name) => self
-                .built_in_type(name)
-                .or_else(|| self.prelude_type(name))?,
+            Shape::Named(name) => Type::built_in(name).or_else(|| self.prelude_type(name))?,
             Shape::List(element) => Type::list(part(element)?),
             Shape::Set(element) => Type::set(part(element)?),
             Shape::Map(key, value) => Type::map(part(key)?, part(value)?),
@@ -52,23 +50,6 @@ impl Checker {
                 .shape_type(shape, letters)
                 .is_some_and(|known| known == *of),
         }
-    }
-
-    /// The type with this name that every program has.
-    pub fn built_in_type(&self, name: &str) -> Option<Type> {
-        Some(match name {
-            "Bool" => Type::Bool,
-            "Int" => Type::Int,
-            "Float" => Type::Float,
-            "String" => Type::String,
-            "Point" => Type::Point,
-            "Time" => Type::Time,
-            "Duration" => Type::Duration,
-            "RobotId" => Type::Robot,
-            "Area" => Type::Area,
-            "Obstacles" => Type::Obstacles,
-            _ => return None,
-        })
     }
 
     fn prelude_type(&self, name: &str) -> Option<Type> {

@@ -223,7 +223,7 @@ impl Checker {
     }
 
     fn type_by_name(&mut self, name: &str, span: Span) -> Type {
-        if let Some(ty) = self.built_in_type(name) {
+        if let Some(ty) = Type::built_in(name) {
             return ty;
         }
         for file in [self.file, super::prelude::FILE] {

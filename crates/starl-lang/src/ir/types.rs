@@ -50,6 +50,24 @@ pub enum Type {
 }
 
 impl Type {
+    /// The type with this name that every program has.
+    #[must_use]
+    pub fn built_in(name: &str) -> Option<Self> {
+        Some(match name {
+            "Bool" => Self::Bool,
+            "Int" => Self::Int,
+            "Float" => Self::Float,
+            "String" => Self::String,
+            "Point" => Self::Point,
+            "Time" => Self::Time,
+            "Duration" => Self::Duration,
+            "RobotId" => Self::Robot,
+            "Area" => Self::Area,
+            "Obstacles" => Self::Obstacles,
+            _ => return None,
+        })
+    }
+
     /// `List[element]`
     #[must_use]
     pub fn list(element: Self) -> Self {

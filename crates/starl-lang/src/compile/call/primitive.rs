@@ -75,19 +75,7 @@ impl<'p> Body<'_, 'p> {
     pub fn shape(&self, shape: &Shape) -> Option<Type> {
         let boxed = |part: &Shape| self.shape(part).map(Box::new);
         Some(match shape {
-            Shape::Named(name) => match *name {
-                "Bool" => Type::Bool,
-                "Int" => Type::Int,
-                "Float" => Type::Float,
-                "String" => Type::String,
-                "Point" => Type::Point,
-                "Time" => Type::Time,
-                "Duration" => Type::Duration,
-                "RobotId" => Type::Robot,
-                "Area" => Type::Area,
-                "Obstacles" => Type::Obstacles,
-                name => self.prelude_type(name)?,
-            },
+            Shape::Named(name) => Type::built_in(name).or_else(|| self.prelude_type(name))?,
             Shape::List(part) => Type::List(boxed(part)?),
             Shape::Set(part) => Type::Set(boxed(part)?),
             Shape::Map(key, value) => Type::Map(boxed(key)?, boxed(value)?),
