@@ -12,6 +12,7 @@ pub mod broadcast;
 mod channel;
 pub mod failure_detector;
 pub mod geocast;
+mod incarnation;
 pub mod mutex;
 pub mod reach_avoid;
 pub mod reliable;

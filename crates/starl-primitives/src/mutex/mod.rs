@@ -34,11 +34,11 @@ mod protocol;
 
 pub use options::Options;
 
+use crate::incarnation::Incarnation;
 use alloc::boxed::Box;
 use alloc::collections::{BTreeMap, BTreeSet};
 use packet::{Packet, RequestId, Wish};
 use starl_core::event::Name;
-use starl_core::random::hash_key;
 use starl_core::{Destination, Input, Port, Primitive, Random, Robot, RobotId, TimerKey, Value};
 
 const KIND: &str = "mutex";
@@ -56,8 +56,7 @@ pub struct Mutex {
     options: Options,
     /// Who is asked; none for all of the fleet.
     participants: Option<BTreeSet<RobotId>>,
-    /// Drawn when it is first needed.
-    incarnation: Option<u32>,
+    incarnation: Incarnation,
     /// Counts requests.
     last_number: u32,
     /// Lamport's clock (1978).
@@ -98,7 +97,7 @@ impl Mutex {
             port: Port::named(name),
             options,
             participants,
-            incarnation: None,
+            incarnation: Incarnation::default(),
             last_number: 0,
             clock: 0,
             held: Resources::new(),
@@ -146,7 +145,7 @@ impl Mutex {
             missing: self.others(robot).map(|peer| (peer, 0)).collect(),
             wish: Wish {
                 id: RequestId {
-                    incarnation: self.incarnation(robot),
+                    incarnation: self.incarnation.of(robot),
                     number: self.last_number,
                 },
                 attempt: 0,
@@ -228,14 +227,6 @@ impl Mutex {
             let name = Value::Text(Name::Owned((**resource).into()));
             robot.emit_primitive(KIND, self.port, event, [("resource", name)]);
         }
-    }
-
-    fn incarnation(&mut self, robot: &mut Robot<'_>) -> u32 {
-        // The clock is mixed in so that a robot whose random stream starts over draws another number.
-        *self.incarnation.get_or_insert_with(|| {
-            let bits = u64::from(robot.random().bits());
-            hash_key(robot.now().0, &[bits]) as u32
-        })
     }
 
     fn timer(&self) -> TimerKey {

@@ -28,12 +28,12 @@ mod sending;
 pub use notice::{Arrival, MessageId, Notice, Notices};
 pub use options::Options;
 
+use crate::incarnation::Incarnation;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use inbox::Inbox;
 use outbox::Outbox;
 use packet::{Key, Packet, Stream};
-use starl_core::random::hash_key;
 use starl_core::{Destination, Input, Payload, Port, Robot, RobotId, TimerKey, message};
 
 /// One end of the protocol, the same on every robot that carries `port`.
@@ -42,8 +42,7 @@ pub struct Reliable {
     port: Port,
     timer_kind: u16,
     options: Options,
-    /// Drawn when it is first needed.
-    incarnation: Option<u32>,
+    incarnation: Incarnation,
     /// The number of the last message to all.
     last_multicast: u32,
     /// The number of the last message to each robot.
@@ -60,7 +59,7 @@ impl Reliable {
             port,
             timer_kind,
             options,
-            incarnation: None,
+            incarnation: Incarnation::default(),
             last_multicast: 0,
             last_direct: BTreeMap::new(),
             outbox: Outbox::default(),
@@ -75,7 +74,7 @@ impl Reliable {
 
     /// Whether some receiver of the message is still being tried.
     pub fn is_outstanding(&self, message: MessageId) -> bool {
-        Some(message.incarnation) == self.incarnation && self.outbox.contains(message)
+        Some(message.incarnation) == self.incarnation.known() && self.outbox.contains(message)
     }
 
     /// The number of messages still on their way.
@@ -87,7 +86,7 @@ impl Reliable {
     pub fn next_to_all(&mut self, robot: &mut Robot<'_>) -> MessageId {
         let number = self.last_multicast.wrapping_add(1);
         MessageId {
-            incarnation: self.incarnation(robot),
+            incarnation: self.incarnation.of(robot),
             to: None,
             number,
         }
@@ -100,7 +99,7 @@ impl Reliable {
             .get(&to)
             .map_or(1, |last| last.wrapping_add(1));
         MessageId {
-            incarnation: self.incarnation(robot),
+            incarnation: self.incarnation.of(robot),
             to: Some(to),
             number,
         }
@@ -199,15 +198,6 @@ impl Reliable {
             })
         });
         arrivals.collect()
-    }
-
-    /// This run's number. The clock is mixed in so that a robot whose random stream starts over draws
-    /// another one.
-    fn incarnation(&mut self, robot: &mut Robot<'_>) -> u32 {
-        *self.incarnation.get_or_insert_with(|| {
-            let bits = u64::from(robot.random().bits());
-            hash_key(robot.now().0, &[bits]) as u32
-        })
     }
 
     fn timer(&self, ticket: u32) -> TimerKey {
