@@ -2,7 +2,7 @@
 //! afterwards.
 
 use starl_core::random::hash_key;
-use starl_core::{Random, Robot};
+use starl_core::Robot;
 
 /// Drawn when it is first needed, and kept until the robot starts again.
 #[derive(Clone, Copy, Debug, Default)]
