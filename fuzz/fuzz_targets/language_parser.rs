@@ -47,8 +47,8 @@ fuzz_target!(|text: &str| {
         }
     }
     if read.diagnostics().len() < 50 {
-        render("fuzz.starl", text, read.diagnostics(), Colour::Off);
-        json("fuzz.starl", text, read.diagnostics());
+        let _ = render("fuzz.starl", text, read.diagnostics(), Colour::Off);
+        let _ = json("fuzz.starl", text, read.diagnostics());
     }
     let formatted = format_parse(&read);
     let again = parse(&formatted);
