@@ -1,6 +1,8 @@
 //! The contract of a robot model: its body, its commands and its dynamics (thesis, section 4.3).
 
+use crate::parameters::Field;
 use crate::tracking::{Goal, Tracking};
+use alloc::vec::Vec;
 use core::fmt::Debug;
 use serde::{Deserialize, Serialize};
 use starl_core::motion::{Body, Estimate};
@@ -81,6 +83,10 @@ impl Limits {
 pub trait Model: Debug + Send + Sync {
     /// The name used in scenarios, e.g. `create`.
     fn name(&self) -> &'static str;
+
+    /// The parameters that are not at their defaults, with their values in the unit of their field, so
+    /// that the model can be built again: [`crate::models::with_parameters`].
+    fn parameters(&self) -> Vec<(Field, f64)>;
 
     /// The space it takes.
     fn body(&self) -> Body;

@@ -2,6 +2,7 @@
 //! is built, and which a scenario may set by name.
 
 use alloc::string::String;
+use alloc::vec::Vec;
 use core::fmt;
 
 /// One parameter of a model.
@@ -103,6 +104,9 @@ pub(crate) trait ParameterSet: Default {
 
     /// Whether every parameter is in its range.
     fn check_ranges(&self) -> Result<(), ParameterError>;
+
+    /// The parameters that are not at their defaults, with their values.
+    fn changed(&self) -> Vec<(Field, f64)>;
 }
 
 /// Fails unless `lesser` is at most `greater`; each is a name and a value.
@@ -165,6 +169,12 @@ macro_rules! parameters {
                     }
                 }
                 Ok(())
+            }
+
+            fn changed(&self) -> alloc::vec::Vec<($crate::parameters::Field, f64)> {
+                let values = [$( self.$field ),*];
+                let all = Self::FIELDS.iter().copied().zip(values);
+                all.filter(|(field, value)| field.default != *value).collect()
             }
         }
     };

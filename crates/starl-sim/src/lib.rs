@@ -10,6 +10,7 @@ pub mod properties;
 pub mod read;
 pub mod run;
 pub mod scenario;
+pub mod write;
 
 pub use engine::Simulation;
 pub use run::{Failure, Outcome, Run, Verdict};

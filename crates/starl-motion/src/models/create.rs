@@ -6,10 +6,11 @@
 //! 500 mm/s, wheels 258 mm apart; body of 330 mm diameter. The thesis leaves the limits out.
 
 use super::{Parameterised, unicycle};
-use crate::parameters::{ParameterError, ParameterSet, ordered, parameters};
+use crate::parameters::{Field, ParameterError, ParameterSet, ordered, parameters};
 use crate::tracking::unicycle::{Drive, Gains};
 use crate::tracking::{Goal, Tracking};
 use crate::{Disturbance, Limits, Model, State};
+use alloc::vec::Vec;
 use starl_core::math::{fabs, radians};
 use starl_core::motion::{Body, Estimate, Workspace};
 use starl_core::{Command, Duration, Pose};
@@ -120,6 +121,10 @@ impl Parameterised for Create {
 impl Model for Create {
     fn name(&self) -> &'static str {
         NAME
+    }
+
+    fn parameters(&self) -> Vec<(Field, f64)> {
+        self.parameters.changed()
     }
 
     fn body(&self) -> Body {

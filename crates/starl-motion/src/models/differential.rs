@@ -6,10 +6,11 @@
 //! apart, 30 cm/s.
 
 use super::{Parameterised, unicycle};
-use crate::parameters::{ParameterError, ParameterSet, ordered, parameters};
+use crate::parameters::{Field, ParameterError, ParameterSet, ordered, parameters};
 use crate::tracking::unicycle::{Drive, Gains};
 use crate::tracking::{Goal, Tracking};
 use crate::{Disturbance, Limits, Model, State};
+use alloc::vec::Vec;
 use starl_core::motion::{Body, Estimate, Workspace};
 use starl_core::{Command, Duration, Pose};
 
@@ -94,6 +95,10 @@ impl Parameterised for Differential {
 impl Model for Differential {
     fn name(&self) -> &'static str {
         NAME
+    }
+
+    fn parameters(&self) -> Vec<(Field, f64)> {
+        self.parameters.changed()
     }
 
     fn body(&self) -> Body {

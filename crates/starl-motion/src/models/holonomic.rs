@@ -4,9 +4,10 @@
 //! `Velocity`, `Stop`. It is not in the thesis; it isolates an algorithm from the effects of dynamics.
 
 use super::Parameterised;
-use crate::parameters::{ParameterError, ParameterSet, ordered, parameters};
+use crate::parameters::{Field, ParameterError, ParameterSet, ordered, parameters};
 use crate::tracking::{Goal, Tracking, holonomic};
 use crate::{Disturbance, Limits, Model, State};
+use alloc::vec::Vec;
 use starl_core::math::{radians, wrap_angle};
 use starl_core::motion::{Body, Estimate, Workspace};
 use starl_core::{Command, Duration, Point, Pose, Twist};
@@ -68,6 +69,10 @@ impl Parameterised for Holonomic {
 impl Model for Holonomic {
     fn name(&self) -> &'static str {
         NAME
+    }
+
+    fn parameters(&self) -> Vec<(Field, f64)> {
+        self.parameters.changed()
     }
 
     fn body(&self) -> Body {

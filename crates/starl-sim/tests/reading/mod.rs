@@ -1,6 +1,8 @@
 //! What the tests of the scenario reader share: a loader in memory, and cases written in Markdown.
 #![allow(dead_code)] // Each test file uses a part of it.
 
+pub mod fields;
+
 use starl_sim::read::{self, Loader, Override, Problems, Request, Resolved, Source};
 use std::collections::BTreeMap;
 

@@ -16,10 +16,11 @@ mod dynamics;
 pub mod mode;
 
 use super::Parameterised;
-use crate::parameters::{ParameterError, ParameterSet, ordered, parameters};
+use crate::parameters::{Field, ParameterError, ParameterSet, ordered, parameters};
 use crate::tracking::drone::Gains;
 use crate::tracking::{Goal, Tracking};
 use crate::{Disturbance, Impact, Limits, Model, State};
+use alloc::vec::Vec;
 use starl_core::math::{radians, tan};
 use starl_core::motion::{Body, Estimate, Workspace};
 use starl_core::{Command, Duration, Point, Pose, Twist};
@@ -137,6 +138,10 @@ impl Parameterised for Ardrone {
 impl Model for Ardrone {
     fn name(&self) -> &'static str {
         NAME
+    }
+
+    fn parameters(&self) -> Vec<(Field, f64)> {
+        self.parameters.changed()
     }
 
     fn body(&self) -> Body {

@@ -17,10 +17,11 @@
 mod bicycle;
 
 use super::{Parameterised, unicycle};
-use crate::parameters::{ParameterError, ParameterSet, ordered, parameters};
+use crate::parameters::{Field, ParameterError, ParameterSet, ordered, parameters};
 use crate::tracking::car::Gains;
 use crate::tracking::{Goal, Tracking};
 use crate::{Disturbance, Impact, Limits, Model, State};
+use alloc::vec::Vec;
 use bicycle::{Course, Ramp, course};
 use starl_core::math::{cos, fabs, radians, sin, sqrt};
 use starl_core::motion::{Body, Estimate, Workspace};
@@ -131,6 +132,10 @@ impl Parameterised for Car {
 impl Model for Car {
     fn name(&self) -> &'static str {
         NAME
+    }
+
+    fn parameters(&self) -> Vec<(Field, f64)> {
+        self.parameters.changed()
     }
 
     fn body(&self) -> Body {

@@ -1,0 +1,62 @@
+//! Writes a scenario as TOML: the other way round of [`crate::read`].
+//!
+//! Invariant: what is read from the text behaves as the scenario does, to the last bit of the run's
+//! digest. What a scenario was read from is not kept: the text is whole without world files and images,
+//! robots have the starts that were drawn for them, and what is at its default is left out. Only what has
+//! no effect is lost: faults after the end or of nobody, and the jitter of a constant delay.
+//!
+//! The structures are taken apart field by field, so that a knob that is not written does not compile.
+
+mod faults;
+mod fleet;
+mod network;
+mod settings;
+mod table;
+mod world;
+
+use crate::Scenario;
+use crate::scenario::Goal;
+use table::{Table, text, time};
+
+/// The scenario as the text of a file.
+///
+/// Programs are named as the scenario names them; a path of a program leads from the folder of the file.
+pub fn scenario(scenario: &Scenario) -> String {
+    let Scenario {
+        title,
+        seed,
+        duration,
+        goal,
+        world,
+        fleet,
+        physics,
+        positioning,
+        motion,
+        wind,
+        network,
+        faults,
+        properties,
+        trace,
+    } = scenario;
+    let mut root = Table::root();
+    if !title.trim().is_empty() {
+        root.set("title", text(title));
+    }
+    root.set("seed", seed.to_string());
+    root.set("duration", time(*duration));
+    if *goal == Goal::Duration {
+        root.set("goal", text("duration"));
+    }
+    let mut out = root.finish();
+    out += &world::write(world);
+    out += &fleet::write(fleet);
+    out += &settings::physics(physics);
+    out += &settings::positioning(positioning);
+    out += &settings::motion(motion);
+    out += &settings::wind(wind);
+    out += &network::write(network, fleet);
+    out += &faults::write(faults, fleet, *duration);
+    out += &settings::properties(properties);
+    out += &settings::trace(trace);
+    out
+}
