@@ -3,7 +3,7 @@
 use crate::effect::Effects;
 use crate::{Input, Port, Primitive, Program, Random, Robot, View};
 use alloc::boxed::Box;
-use core::mem;
+use core::{fmt, mem};
 
 /// The program of one robot and its random stream. Every host runs this same machine.
 #[derive(Clone)]
@@ -51,6 +51,12 @@ impl Agent {
     /// Overwrites the program's state at random: see [`Program::corrupt`].
     pub fn corrupt(&mut self, random: &mut Random) {
         self.program.corrupt(random);
+    }
+
+    /// Writes all that makes a difference to what the robot does from now on; false where its program
+    /// does not: see [`Program::write_state`].
+    pub fn write_state(&self, text: &mut dyn fmt::Write) -> bool {
+        self.program.write_state(text) && write!(text, "{:x}", self.random.preview()).is_ok()
     }
 
     /// Shows the program, e.g. to a test.

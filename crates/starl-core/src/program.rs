@@ -2,6 +2,7 @@
 
 use crate::{Message, Primitive, Random, Robot, TimerKey};
 use core::any::Any;
+use core::fmt;
 use dyn_clone::DynClone;
 use serde::{Deserialize, Serialize};
 
@@ -53,6 +54,15 @@ pub trait Program: DynClone + Send + Sync {
     /// (self-stabilisation, Dijkstra 1974).
     fn corrupt(&mut self, random: &mut Random) {
         let _ = random;
+    }
+
+    /// Writes all that makes a difference to what the program does from now on, the states of its
+    /// primitives included, for hosts that tell states apart. Two programs of one robot that write the
+    /// same must answer every input alike; a derived `Debug` does this. False where the program does
+    /// not write it, so that it has to be told apart by all that has happened to it.
+    fn write_state(&self, text: &mut dyn fmt::Write) -> bool {
+        let _ = text;
+        false
     }
 
     /// What the program shows to those who watch a run, e.g. its variables to a monitor of its

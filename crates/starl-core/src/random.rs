@@ -25,6 +25,13 @@ impl Random {
         self.0.next_u32()
     }
 
+    /// The next 128 bits, which stay to be drawn: they tell streams apart, since those that begin alike
+    /// go on alike.
+    pub fn preview(&self) -> u128 {
+        let mut copy = self.clone();
+        (0..4).fold(0, |bits, _| bits << 32 | u128::from(copy.bits()))
+    }
+
     /// Uniform in [0, 1).
     pub fn uniform(&mut self) -> f64 {
         (self.0.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)

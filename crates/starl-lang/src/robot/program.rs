@@ -11,7 +11,7 @@ use crate::machine::{Limits, Machine, RuntimeError, State, Value};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::any::Any;
-use core::mem;
+use core::{fmt, mem};
 use starl_core::random::hash_key;
 use starl_core::{Message, Port, Primitive, Program, Random, Robot};
 
@@ -208,6 +208,20 @@ impl Program for RobotProgram {
         self.version += 1;
         corruption::corrupt(self.code.program(), &mut self.state, random);
         self.services.corrupt(random);
+    }
+
+    fn write_state(&self, text: &mut dyn fmt::Write) -> bool {
+        // The code never changes, and the version is for those who watch.
+        let RobotProgram {
+            code: _,
+            state,
+            bound,
+            services,
+            reports,
+            version: _,
+            phase,
+        } = self;
+        write!(text, "{state:?}{bound:?}{services:?}{reports:?}{phase:?}").is_ok()
     }
 
     fn inspect(&self) -> Option<&dyn Any> {

@@ -9,7 +9,7 @@ use starl_core::{Input, Port, Primitive, Random, Robot};
 use starl_primitives::{FailureDetector, SharedMemory, failure_detector, shared_memory};
 
 /// The common parts of one robot's program. Before its start it has none.
-#[derive(Clone, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Services {
     /// The shared variables.
     pub memory: Option<Box<SharedMemory>>,

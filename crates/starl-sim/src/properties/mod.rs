@@ -22,6 +22,7 @@ use crate::scenario::Scenario;
 use starl_core::event::Name;
 use starl_core::motion::Body;
 use starl_core::{Obstacle, Record, RobotId, Time};
+use std::fmt;
 
 /// What a checker knows before the first record.
 #[derive(Clone, Debug)]
@@ -47,8 +48,9 @@ pub struct Violation {
     pub text: String,
 }
 
-/// Watches one primitive's properties, or one property of the world.
-pub trait Checker: dyn_clone::DynClone + Send + Sync {
+/// Watches one primitive's properties, or one property of the world. What `Debug` shows of it is all
+/// that it goes by, so that an explorer can tell when two have seen the same.
+pub trait Checker: dyn_clone::DynClone + fmt::Debug + Send + Sync {
     /// The properties it checks.
     fn properties(&self) -> &'static [&'static str];
 

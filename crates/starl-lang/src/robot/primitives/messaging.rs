@@ -10,6 +10,7 @@ use crate::robot::shape::Shape;
 use crate::robot::workbench::robots;
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
+use core::fmt;
 use serde::ser::{Serialize, SerializeTuple, Serializer};
 use starl_core::{Payload, Primitive};
 use starl_primitives::reliable::{MessageId, Options};
@@ -31,7 +32,7 @@ pub struct Sender<C> {
 const FEW: u32 = 8;
 
 /// What the three have in common.
-pub trait Channel: Primitive + Clone + Send + Sync + Sized + 'static {
+pub trait Channel: Primitive + Clone + fmt::Debug + Send + Sync + Sized + 'static {
     /// Its name.
     const NAME: &'static str;
     /// How a message is sent.

@@ -21,6 +21,7 @@ use crate::machine::{HostCall, Object};
 use alloc::borrow::Cow;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
+use core::fmt;
 use dyn_clone::DynClone;
 use starl_core::{Primitive, Robot};
 
@@ -81,7 +82,7 @@ impl Needs {
 }
 
 /// A kind of primitive.
-pub trait Kind: Clone + Send + Sync + Sized + 'static {
+pub trait Kind: Clone + fmt::Debug + Send + Sync + Sized + 'static {
     /// Its name.
     const NAME: &'static str;
     /// What it is bound with.
@@ -114,8 +115,8 @@ pub trait Kind: Clone + Send + Sync + Sized + 'static {
     }
 }
 
-/// A bound primitive of some kind.
-pub trait Bound: DynClone + Send + Sync {
+/// A bound primitive of some kind. `Debug` shows all of its state.
+pub trait Bound: DynClone + fmt::Debug + Send + Sync {
     /// See [`Kind::primitive`].
     fn primitive(&mut self) -> Option<&mut dyn Primitive>;
     /// Runs the member with this number.
