@@ -35,7 +35,7 @@ macro_rules! file {
 }
 
 /// All examples.
-pub const EXAMPLES: [Example; 2] = [
+pub const EXAMPLES: [Example; 3] = [
     Example {
         name: "race",
         summary: "ground robots and quadcopters race through way-points",
@@ -54,6 +54,13 @@ pub const EXAMPLES: [Example; 2] = [
         path: "examples/formation/formation.toml",
         text: include_str!("../../../examples/formation/formation.toml"),
         files: &[file!("formation", "formation.starl")],
+    },
+    Example {
+        name: "mutex",
+        summary: "robots hold sets of the same resources, one robot at a time",
+        path: "examples/primitives/mutex.toml",
+        text: include_str!("../../../examples/primitives/mutex.toml"),
+        files: &[file!("primitives", "mutex.starl")],
     },
 ];
 
