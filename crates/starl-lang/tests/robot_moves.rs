@@ -49,6 +49,35 @@ fn in_the_unsafe_set_it_has_failed() {
     assert_eq!(world.get(0, "trouble").to_string(), "true");
 }
 
+const FOLLOWS: &str = r#"
+program Follows
+
+motion = ReachAvoid()
+sent: Bool = false
+
+go()
+    pre not sent
+    eff motion.follow([Point(1.0, 0.0), Point(1.0, 2.0, 0.5)], obstacles()); sent = true
+"#;
+
+#[test]
+fn it_follows_a_list_of_points() {
+    let mut world = World::of(&compile(FOLLOWS), 1);
+    world.steps(1);
+    let paths = world.events_of(0).filter_map(|event| match event {
+        Event::Primitive { name, fields, .. } if name == "path" => Some(fields.clone()),
+        _ => None,
+    });
+    let path = Value::from(vec![
+        Point::ZERO,
+        Point::planar(1.0, 0.0),
+        Point::planar(1.0, 2.0),
+    ]);
+    let paths: Vec<_> = paths.collect();
+    assert_eq!(paths.len(), 1);
+    assert!(paths[0].contains(&("path".into(), path)), "{paths:?}");
+}
+
 const STOPS: &str = r#"
 program Stops
 

@@ -1,7 +1,8 @@
 //! The arguments of a call, read one after the other.
 
-use crate::machine::{HostCall, Object};
+use crate::machine::{HostCall, List, Object};
 use alloc::borrow::Cow;
+use alloc::vec::Vec;
 use starl_core::{Area, Duration, Point, RobotId};
 
 /// What a function of the host gives: the fuel it costs beyond one, or why it refuses.
@@ -76,6 +77,17 @@ impl<'a> Arguments<'a> {
     /// A Point, metres.
     pub fn point(&mut self) -> Point {
         Point::new(self.float(), self.float(), self.float())
+    }
+
+    /// A list of Points, metres.
+    pub fn points(&mut self) -> Vec<Point> {
+        let scalars = self.object().list().map_or(&[][..], List::scalars);
+        let (points, _) = scalars.as_chunks::<3>();
+        let points = points.iter().map(|point| {
+            let [x, y, z] = point.map(f64::from_bits);
+            Point::new(x, y, z)
+        });
+        points.collect()
     }
 
     /// A text, collection, area or obstacles.

@@ -17,7 +17,7 @@ impl ReachAvoid {
             if self.at_rest(robot) {
                 self.request(robot, around_robots);
             }
-        } else if self.follow(robot) {
+        } else if self.advance(robot) {
             self.track(robot);
         }
     }
@@ -112,7 +112,7 @@ impl ReachAvoid {
     }
 
     /// Moves on along the path as far as the robot has come; says whether that gave a new way-point.
-    pub(super) fn follow(&mut self, robot: &Robot<'_>) -> bool {
+    pub(super) fn advance(&mut self, robot: &Robot<'_>) -> bool {
         let Some(command) = &mut self.command else {
             return false;
         };
@@ -138,6 +138,19 @@ impl ReachAvoid {
         let position = body.reachable(robot.position());
         // At a way-point the way on is the planned one, but for a quarter of the vicinity.
         route.advance(position, 0.25 * vicinity, pass_radius, free)
+    }
+
+    /// The way over these points; none if some straight way of it is not free.
+    pub(super) fn given_route(&self, robot: &Robot<'_>, points: &[Point]) -> Option<Route> {
+        let command = self.command.as_ref()?;
+        let body = robot.body();
+        let route = Route::new(robot.position(), points.to_vec(), body)?;
+        let mut obstacles = command.unsafe_set.iter().chain(command.known.iter());
+        let is_blocked = |obstacle: &Obstacle| {
+            let mut ways = route.ahead(body.reachable(robot.position()));
+            ways.any(|(from, to)| blocks(obstacle, from, to, body, 0.0))
+        };
+        (!obstacles.any(is_blocked)).then_some(route)
     }
 
     /// Feeds the tracker the point to go to now.

@@ -100,6 +100,39 @@ impl ReachAvoid {
         if was_active {
             robot.halt();
         }
+        if self.begin(robot, target, unsafe_set) {
+            self.plan(robot, false);
+        }
+    }
+
+    /// Goes to the last of these points by way of the others, straight from each to the next, and keeps
+    /// out of the unsafe set (the sequence of points that the thesis's intersection sends to its motion
+    /// control). It neither stops at the points nor before it sets out, so a robot that is under way
+    /// drives on. Points are passed as those of a planned path are. Where one of the straight ways
+    /// is not free a path to the last point is planned, and so whenever one has to be planned again.
+    /// Without points it is given up at once.
+    pub fn follow(&mut self, robot: &mut Robot<'_>, points: &[Point], unsafe_set: Obstacles) {
+        let Some(&target) = points.last() else {
+            self.clear();
+            return self.give_up(robot, "no points");
+        };
+        let was_active = self.clear();
+        if !self.begin(robot, target, unsafe_set) {
+            return;
+        }
+        match self.given_route(robot, points) {
+            Some(route) => self.set_out(robot, route),
+            None => {
+                if was_active {
+                    robot.halt();
+                }
+                self.plan(robot, false);
+            }
+        }
+    }
+
+    /// Takes a command; says whether there is a way to be found for it.
+    fn begin(&mut self, robot: &mut Robot<'_>, target: Point, unsafe_set: Obstacles) -> bool {
         self.report(
             robot,
             "start",
@@ -110,7 +143,8 @@ impl ReachAvoid {
             ],
         );
         if !target.is_finite() {
-            return self.give_up(robot, "target is not finite");
+            self.give_up(robot, "target is not finite");
+            return false;
         }
         self.command = Some(Command {
             target: robot.body().reachable(target),
@@ -122,9 +156,7 @@ impl ReachAvoid {
             replans: 0,
             plan_failures: 0,
         });
-        if !self.check_safety(robot) {
-            self.plan(robot, false);
-        }
+        !self.check_safety(robot)
     }
 
     /// Stops and stays; all flags become false.

@@ -73,13 +73,18 @@ impl ReachAvoid {
 
     /// Takes the planner's answer.
     pub(super) fn planned(&mut self, robot: &mut Robot<'_>, path: Option<&Path>) {
+        let route = path.and_then(|path| Route::new(robot.position(), path.clone(), robot.body()));
+        match route {
+            Some(route) => self.set_out(robot, route),
+            None => self.no_path(robot),
+        }
+    }
+
+    /// Sets out on a path from here.
+    pub(super) fn set_out(&mut self, robot: &mut Robot<'_>, route: Route) {
         let (body, position) = (*robot.body(), robot.position());
-        let route = path.and_then(|path| Route::new(position, path.clone(), &body));
         let Some(command) = &mut self.command else {
             return;
-        };
-        let Some(route) = route else {
-            return self.no_path(robot);
         };
         command.plan_failures = 0;
         let mark = to_go(&route, position, &body);
@@ -91,7 +96,7 @@ impl ReachAvoid {
         };
         self.report(robot, "path", [("path", points.into())]);
         robot.set_timer(self.timer(), self.options.stuck_after);
-        self.follow(robot);
+        self.advance(robot);
         self.track(robot);
     }
 

@@ -64,6 +64,11 @@ pub const PRIMITIVES: &[Primitive] = &[
                 Effect,
                 "Goes to the target and keeps out of the unsafe set.",
             ),
+            member(
+                "follow(points: List[Point], unsafe: Obstacles)",
+                Effect,
+                "Goes to the last point by way of the others and keeps out of the unsafe set; does not stop in between, nor before it sets out.",
+            ),
             member("stop()", Effect, "Stops and stays; all flags become false."),
             member("active: Bool", Query, "Whether a command is under way."),
             member(

@@ -1,6 +1,6 @@
 //! What a program tells those who watch.
 
-use crate::machine::{HostCall, List, Value};
+use crate::machine::{HostCall, Value};
 use crate::robot::arguments::{Arguments, Called};
 use crate::robot::host::RobotHost;
 use alloc::string::{String, ToString};
@@ -90,15 +90,7 @@ pub fn draw_point(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Call
 }
 
 pub fn draw_line(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {
-    draw(host, call, |arguments| {
-        let scalars = arguments.object().list().map_or(&[][..], List::scalars);
-        let (points, _) = scalars.as_chunks::<3>();
-        let points = points.iter().map(|point| {
-            let [x, y, z] = point.map(f64::from_bits);
-            Point::new(x, y, z)
-        });
-        MarkShape::Line(points.collect())
-    })
+    draw(host, call, |arguments| MarkShape::Line(arguments.points()))
 }
 
 pub fn draw_circle(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {

@@ -4,6 +4,7 @@ use super::{Arguments, Context, Instance, Kind, Member, method, query};
 use crate::machine::Body;
 use crate::robot::shape::{PLANNERS, Shape};
 use alloc::borrow::Cow;
+use starl_core::motion::Obstacles;
 use starl_core::{Primitive, Robot};
 use starl_primitives::ReachAvoid;
 use starl_primitives::reach_avoid::Options;
@@ -31,12 +32,21 @@ impl Kind for ReachAvoid {
             |motion, context, call| {
                 let mut arguments = Arguments::after_instance(call);
                 let target = arguments.point();
-                let unsafe_set = match arguments.object().body() {
-                    Some(Body::Obstacles(obstacles)) => obstacles.clone(),
-                    _ => [].into(),
-                };
+                let unsafe_set = obstacles(&mut arguments);
                 motion.reach_avoid(context.robot, target, unsafe_set);
                 Ok(10)
+            },
+        ),
+        method(
+            "follow",
+            &[Shape::List(&Shape::Point), Shape::Obstacles],
+            None,
+            |motion, context, call| {
+                let mut arguments = Arguments::after_instance(call);
+                let points = arguments.points();
+                let unsafe_set = obstacles(&mut arguments);
+                motion.follow(context.robot, &points, unsafe_set);
+                Ok(10 + points.len() as u64)
             },
         ),
         method("stop", &[], None, |motion, context, _| {
@@ -95,6 +105,14 @@ impl Kind for ReachAvoid {
         if self.active() {
             self.stop(robot);
         }
+    }
+}
+
+/// A set of obstacles.
+fn obstacles(arguments: &mut Arguments<'_>) -> Obstacles {
+    match arguments.object().body() {
+        Some(Body::Obstacles(obstacles)) => obstacles.clone(),
+        _ => [].into(),
     }
 }
 
