@@ -10,6 +10,7 @@ extern crate alloc;
 
 pub mod broadcast;
 mod channel;
+pub mod election;
 pub mod failure_detector;
 pub mod geocast;
 mod incarnation;
@@ -21,6 +22,7 @@ pub mod unicast;
 
 pub use broadcast::Broadcast;
 pub use channel::Failure;
+pub use election::LeaderElection;
 pub use failure_detector::FailureDetector;
 pub use geocast::Geocast;
 pub use mutex::Mutex;

@@ -3,6 +3,7 @@
 
 #![allow(dead_code, unused_imports)] // each test uses a part of it
 
+pub mod elector;
 pub mod locker;
 pub mod pilot;
 pub mod sharer;
@@ -131,6 +132,8 @@ pub struct World {
     pub way_points: Vec<WayPoint>,
     /// How far robots' own clocks are ahead, nanoseconds.
     pub clocks_ahead: BTreeMap<u32, i64>,
+    /// How much faster than true time robots' own clocks run, as a share of it.
+    pub clocks_drift: BTreeMap<u32, f64>,
     /// Handed to the network.
     pub sent: usize,
     /// How long these were in all, and the longest, bytes.
@@ -164,6 +167,7 @@ impl World {
             records: Vec::new(),
             way_points: Vec::new(),
             clocks_ahead: BTreeMap::new(),
+            clocks_drift: BTreeMap::new(),
             sent: 0,
             sent_bytes: 0,
             longest_sent: 0,
@@ -237,9 +241,14 @@ impl World {
         let obstacles: Obstacles = [].into();
         let ahead = self.clocks_ahead.get(&(robot as u32)).copied();
         let ahead = ahead.unwrap_or_default();
+        let drift = self.clocks_drift.get(&(robot as u32)).copied();
+        let own_time = match drift {
+            None => self.now.0,
+            Some(drift) => (self.now.0 as f64 * (1.0 + drift)) as u64,
+        };
         let view = View {
             id: RobotId(robot as u32),
-            now: Time(self.now.0.saturating_add_signed(ahead)),
+            now: Time(own_time.saturating_add_signed(ahead)),
             estimate: Estimate {
                 pose: Pose::level(node.position, 0.0),
                 ..Estimate::default()
@@ -362,6 +371,11 @@ impl World {
                 }
             }
             Effect::SetTimer { key, after } => {
+                let drift = self.clocks_drift.get(&(robot as u32)).copied();
+                let after = match drift {
+                    None => after,
+                    Some(drift) => Duration::from_seconds_f64(after.seconds() / (1.0 + drift)),
+                };
                 self.nodes[robot].timers.insert(key, self.now + after);
                 self.queue(after, Occasion::Timer { robot, key });
             }

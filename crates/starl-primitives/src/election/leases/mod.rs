@@ -1,0 +1,232 @@
+//! Election by the votes of a majority, for an epoch, for the time of a lease.
+//!
+//! A robot that stands claims a new epoch. A vote for it is a promise for the time of a lease: to vote for no
+//! other robot, and for no earlier epoch ever. With the votes of a majority the robot leads, until a lease
+//! after it asked for them; it asks for the same votes again and again, and leads as long as it gets them.
+//! Leases are Gray and Cheriton's (1989), the votes those of Raft's terms (Ongaro and Ousterhout 2014) and
+//! of Paxos (Lamport 1998). Raft's pre-vote is not needed: a robot that stands against a leader is refused
+//! as long as the leader's lease runs, and its epoch counts for nobody who did not vote for it.
+//!
+//! Robots have no stable storage, so one that restarts has forgotten its promises. How it comes to vote again
+//! is told in `recovery.rs`.
+//!
+//! What rests on what:
+//! - one leader in each epoch: on nothing but its number, which names the leader (`epoch.rs`);
+//! - at most one leader at the same true time: on clocks that keep to the options' drift;
+//! - epochs grow from leader to leader: on that too, and on no majority forgetting at once. Where one does,
+//!   it rests on clocks that differ by less than a lease.
+//! - Suspicions, by a failure detector, play no part.
+
+mod claim;
+mod recovery;
+mod vote;
+
+use super::epoch::Epoch;
+use super::options::no_later;
+use super::packet::Packet;
+use super::rules::{Leadership, Rules, Scene};
+use claim::Standing;
+use recovery::Stage;
+use starl_core::{Duration, Random, RobotId, Time};
+
+/// See the [module](self).
+#[derive(Clone, Debug, Default)]
+pub(super) struct Leases {
+    stage: Stage,
+    /// The last vote.
+    promise: Promise,
+    /// The latest epoch heard of.
+    known: Epoch,
+    /// The latest that was shown.
+    latest: Epoch,
+    /// The latest that its robot gave up.
+    voided: Epoch,
+    /// While this robot stands or leads.
+    claim: Option<Standing>,
+    /// Counts this robot's claims.
+    number: u32,
+    shown: Option<Shown>,
+    /// It does not stand earlier.
+    stand_at: Time,
+}
+
+/// What this robot has promised.
+#[derive(Clone, Copy, Debug, Default)]
+struct Promise {
+    /// It votes for no earlier epoch.
+    epoch: Epoch,
+    /// Until then for no other robot than the one of this epoch.
+    until: Time,
+}
+
+/// Who leads, as far as this robot knows; itself or another.
+#[derive(Clone, Copy, Debug)]
+struct Shown {
+    epoch: Epoch,
+    until: Time,
+}
+
+impl Leases {
+    /// Whether this robot leads.
+    fn leads(&self, scene: &Scene<'_, '_>) -> bool {
+        let is_own = |shown: Shown| shown.epoch.leader() == scene.me() && scene.now() < shown.until;
+        self.shown.is_some_and(is_own)
+    }
+
+    fn learn(&mut self, epoch: Epoch) {
+        self.known = self.known.max(epoch);
+    }
+
+    /// Robots do not stand all at once: on average the first of them does after a quarter of the time that
+    /// an answer takes at most.
+    fn postpone(&mut self, scene: &mut Scene<'_, '_>) {
+        let spread = scene.options.timeout(0) * (scene.others.len() as u64 + 1) / 4;
+        let pause = spread.seconds() * scene.robot.random().uniform();
+        self.stand_at = scene.now() + Duration::from_seconds_f64(pause);
+    }
+
+    /// A robot says that it leads.
+    fn follow(&mut self, scene: &mut Scene<'_, '_>, epoch: Epoch, remaining: Duration) {
+        if epoch < self.latest && scene.takes_part || self.voided == epoch {
+            return;
+        }
+        let until = scene.now() + remaining.min(scene.options.term());
+        match &mut self.shown {
+            Some(shown) if shown.epoch > epoch => return,
+            Some(shown) if shown.epoch == epoch => shown.until = shown.until.max(until),
+            _ => self.shown = Some(Shown { epoch, until }),
+        }
+        self.latest = epoch;
+        self.give_up(scene);
+    }
+
+    /// Nobody leads any more, as far as this robot knows.
+    fn lose(&mut self, scene: &mut Scene<'_, '_>) {
+        self.shown = None;
+        self.postpone(scene);
+    }
+
+    /// Makes sense of what a corruption may have left.
+    fn make_plausible(&mut self, scene: &Scene<'_, '_>) {
+        let (now, options) = (scene.now(), scene.options);
+        for epoch in [
+            &mut self.promise.epoch,
+            &mut self.known,
+            &mut self.latest,
+            &mut self.voided,
+        ] {
+            if !epoch.is_plausible(now) {
+                *epoch = Epoch::default();
+            }
+        }
+        no_later(&mut self.promise.until, now + options.lease);
+        let spread = options.timeout(0) * (scene.others.len() as u64 + 1);
+        no_later(&mut self.stand_at, now + spread);
+        self.shown.take_if(|shown| !shown.epoch.is_plausible(now));
+        if let Some(shown) = &mut self.shown {
+            no_later(&mut shown.until, now + options.term());
+        }
+        let me = scene.me();
+        self.claim.take_if(|claim| {
+            no_later(&mut claim.repeat_at, now + options.timeout(u32::MAX));
+            !claim.epoch.is_plausible(now) || claim.epoch.leader() != me || !scene.stands
+        });
+        // Who leads asks for votes.
+        let leads_without = |shown: &mut Shown| shown.epoch.leader() == me && self.claim.is_none();
+        self.shown.take_if(leads_without);
+    }
+}
+
+impl Rules for Leases {
+    fn elect(&mut self, _: &mut Scene<'_, '_>) {}
+
+    fn resign(&mut self, scene: &mut Scene<'_, '_>) {
+        if self.leads(scene) {
+            self.shown = None;
+        }
+        self.give_up(scene);
+    }
+
+    fn receive(&mut self, scene: &mut Scene<'_, '_>, from: RobotId, packet: Packet) {
+        let now = scene.now();
+        let is_senders = |epoch: Epoch| epoch.leader() == from && epoch.is_plausible(now);
+        match packet {
+            Packet::Claim(claim) if is_senders(claim.epoch) => self.consider(scene, from, claim),
+            Packet::Grant { epoch, number } => self.granted(scene, from, epoch, number),
+            Packet::Refuse { epoch, promised } if promised.is_plausible(now) => {
+                self.refused(scene, epoch, promised);
+            }
+            Packet::Void(epoch) if is_senders(epoch) => self.released(scene, epoch),
+            Packet::Lease { epoch, remaining } if is_senders(epoch) => {
+                self.learn(epoch);
+                self.follow(scene, epoch, remaining);
+            }
+            Packet::Ask { attempt, up_for } => self.remember(scene, from, attempt, up_for),
+            Packet::Tell(memory) if memory.promised.is_plausible(now) => {
+                self.told(scene, from, memory);
+            }
+            _ => {}
+        }
+    }
+
+    fn suspect(&mut self, _: &mut Scene<'_, '_>, _: RobotId) {}
+
+    fn settle(&mut self, scene: &mut Scene<'_, '_>) {
+        self.make_plausible(scene);
+        self.recover(scene);
+        let now = scene.now();
+        if self.shown.is_some_and(|shown| now >= shown.until) {
+            let was_own = self
+                .shown
+                .is_some_and(|shown| shown.epoch.leader() == scene.me());
+            self.lose(scene);
+            if was_own {
+                self.give_up(scene);
+            }
+        }
+        match &self.claim {
+            Some(claim) if now >= claim.repeat_at => self.ask(scene),
+            None if self.may_stand(scene) && now >= self.may_stand_at() => self.stand(scene),
+            _ => {}
+        }
+    }
+
+    fn due(&self, scene: &Scene<'_, '_>) -> Time {
+        let shown = self.shown.map_or(Time::NEVER, |shown| shown.until);
+        let own = match &self.claim {
+            Some(claim) => claim.repeat_at,
+            None if self.may_stand(scene) => self.may_stand_at(),
+            None => Time::NEVER,
+        };
+        shown.min(own).min(self.recovery_due(scene))
+    }
+
+    fn leadership(&self, _: RobotId) -> Option<Leadership> {
+        let epoch = self.shown?.epoch;
+        Some(Leadership {
+            leader: epoch.leader(),
+            epoch: Some(epoch.0),
+        })
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        let time = |random: &mut Random| Time(Epoch::random(random).0);
+        self.stage.corrupt(random);
+        self.promise = Promise {
+            epoch: Epoch::random(random),
+            until: time(random),
+        };
+        self.known = Epoch::random(random);
+        self.latest = Epoch::random(random);
+        self.voided = Epoch::random(random);
+        self.number = random.bits();
+        self.stand_at = time(random);
+        if let Some(claim) = &mut self.claim {
+            claim.corrupt(random);
+        }
+        self.shown = random.chance(0.5).then(|| Shown {
+            epoch: Epoch::random(random),
+            until: time(random),
+        });
+    }
+}

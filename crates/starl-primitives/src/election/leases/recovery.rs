@@ -1,0 +1,223 @@
+//! How a robot that starts comes to vote, although it may have forgotten what it promised before.
+//!
+//! First it waits for the time of a lease, on its own clock, silently: whoever leads by its forgotten vote
+//! does not after that. Then it asks the others what they have promised, and takes the latest epoch for
+//! its own promise. It needs answers from so many that remember that each majority holds one of them.
+//!
+//! Invariant: an epoch in which someone has led by a vote that this robot forgot is learned, unless a majority
+//! has forgotten at once. The others' votes for that epoch were given while the robot waited, or before;
+//! that is why it asks only afterwards. (Recovery as in Viewstamped Replication Revisited, Liskov and
+//! Cowling 2012, may ask too early: see Michael, Ports, Sharma and Szekeres 2017, who cure it otherwise.)
+//!
+//! Where a majority is recovering at once, all memory may be lost, and waiting for it would be in vain. That
+//! is so when a fleet starts. Then these robots begin anew, from the latest epoch that any of them has heard of
+//! and from their clocks. Who begins anew does not count as one that remembers for those that were up then.
+
+use super::{Leases, Promise};
+use crate::election::epoch::Epoch;
+use crate::election::options::no_later;
+use crate::election::packet::{Memory, Packet};
+use crate::election::rules::Scene;
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
+use starl_core::{Duration, Random, RobotId, Time};
+
+/// How far a robot is.
+#[derive(Clone, Debug, Default)]
+pub(super) enum Stage {
+    /// It has not begun.
+    #[default]
+    Fresh,
+    /// Since this moment it waits.
+    Waiting(Time),
+    /// It asks.
+    Learning(Learning),
+    /// It remembers what it promised, since it learned it from others, or since this moment, when a majority
+    /// began anew.
+    Remembering(Option<Time>),
+}
+
+/// What others have answered.
+#[derive(Clone, Debug)]
+pub(super) struct Learning {
+    /// When the robot began.
+    begun: Time,
+    /// Answers are collected for the time of a lease. Those collected before then count no more.
+    attempt: u32,
+    until: Time,
+    /// Whether they remember.
+    answers: BTreeMap<RobotId, bool>,
+    repeat_at: Time,
+    repetitions: u32,
+}
+
+impl Leases {
+    /// Whether this robot votes and stands.
+    pub(super) fn remembers(&self) -> bool {
+        matches!(self.stage, Stage::Remembering(_))
+    }
+
+    /// Does what is due.
+    pub(super) fn recover(&mut self, scene: &mut Scene<'_, '_>) {
+        let now = scene.now();
+        let lease = scene.options.lease;
+        self.stage.make_plausible(now, scene);
+        match &mut self.stage {
+            _ if !scene.takes_part => {}
+            Stage::Fresh => self.stage = Stage::Waiting(now),
+            Stage::Waiting(begun) if now >= *begun + lease => {
+                let (begun, attempt) = (*begun, 0);
+                self.collect(scene, begun, attempt);
+            }
+            Stage::Learning(learning) if now >= learning.until => {
+                let (begun, attempt) = (learning.begun, learning.attempt.wrapping_add(1));
+                self.collect(scene, begun, attempt);
+            }
+            Stage::Learning(learning) if now >= learning.repeat_at => {
+                learning.ask(scene);
+                self.begin_if_told(scene);
+            }
+            _ => {}
+        }
+    }
+
+    /// When something is due.
+    pub(super) fn recovery_due(&self, scene: &Scene<'_, '_>) -> Time {
+        match &self.stage {
+            Stage::Fresh | Stage::Remembering(_) => Time::NEVER,
+            Stage::Waiting(begun) => *begun + scene.options.lease,
+            Stage::Learning(learning) => learning.repeat_at.min(learning.until),
+        }
+    }
+
+    fn collect(&mut self, scene: &mut Scene<'_, '_>, begun: Time, attempt: u32) {
+        let now = scene.now();
+        let mut learning = Learning {
+            begun,
+            attempt,
+            until: now + scene.options.lease.max(scene.options.timeout(0)),
+            answers: BTreeMap::new(),
+            repeat_at: now,
+            repetitions: 0,
+        };
+        learning.ask(scene);
+        self.stage = Stage::Learning(learning);
+        self.begin_if_told(scene);
+    }
+
+    /// A robot wants to know what was promised.
+    pub(super) fn remember(
+        &self,
+        scene: &mut Scene<'_, '_>,
+        from: RobotId,
+        attempt: u32,
+        up_for: Duration,
+    ) {
+        if !scene.takes_part {
+            return;
+        }
+        let drift = scene.options.drift.clamp(0.0, 0.9);
+        let up_for = up_for.seconds() * (1.0 - drift) / (1.0 + drift);
+        let remembers = match self.stage {
+            Stage::Remembering(None) => true,
+            Stage::Remembering(Some(begun)) => up_for <= scene.now().since(begun).seconds(),
+            _ => false,
+        };
+        let promised = self.known.max(self.promise.epoch);
+        let memory = Memory {
+            attempt,
+            promised,
+            remembers,
+        };
+        scene.send(from, Packet::Tell(memory));
+    }
+
+    /// A robot says what it remembers.
+    pub(super) fn told(&mut self, scene: &mut Scene<'_, '_>, from: RobotId, memory: Memory) {
+        self.learn(memory.promised);
+        if let Stage::Learning(learning) = &mut self.stage
+            && learning.attempt == memory.attempt
+        {
+            learning.answers.insert(from, memory.remembers);
+            self.begin_if_told(scene);
+        }
+    }
+
+    /// Votes from now on, if enough have answered.
+    fn begin_if_told(&mut self, scene: &mut Scene<'_, '_>) {
+        let Stage::Learning(learning) = &self.stage else {
+            return;
+        };
+        let majority = scene.majority();
+        let remembering = learning.answers.values().filter(|&&remembers| remembers);
+        let remembering = remembering.count();
+        let recovering = 1 + learning.answers.len() - remembering;
+        if remembering + majority > scene.others.len() + 1 {
+            self.stage = Stage::Remembering(None);
+        } else if recovering >= majority {
+            self.stage = Stage::Remembering(Some(scene.now()));
+        } else {
+            return;
+        }
+        self.promise = Promise {
+            epoch: self.known,
+            until: Time::ZERO,
+        };
+        self.postpone(scene);
+    }
+}
+
+impl Learning {
+    /// Asks those that have not answered.
+    fn ask(&mut self, scene: &mut Scene<'_, '_>) {
+        let now = scene.now();
+        self.repeat_at = now + scene.options.timeout(self.repetitions);
+        self.repetitions = self.repetitions.saturating_add(1);
+        let others = scene.others.iter().copied();
+        let missing = others.filter(|peer| !self.answers.contains_key(peer));
+        let missing: Vec<RobotId> = missing.collect();
+        let (attempt, up_for) = (self.attempt, now.since(self.begun));
+        scene.tell(&missing, Packet::Ask { attempt, up_for });
+    }
+}
+
+impl Stage {
+    /// Makes sense of what a corruption may have left.
+    fn make_plausible(&mut self, now: Time, scene: &Scene<'_, '_>) {
+        match self {
+            Stage::Fresh | Stage::Remembering(None) => {}
+            Stage::Waiting(begun) | Stage::Remembering(Some(begun)) => no_later(begun, now),
+            Stage::Learning(learning) => {
+                no_later(&mut learning.begun, now);
+                let longest = scene.options.lease.max(scene.options.timeout(0));
+                no_later(&mut learning.until, now + longest);
+                no_later(
+                    &mut learning.repeat_at,
+                    now + scene.options.timeout(u32::MAX),
+                );
+                let others = scene.others;
+                learning.answers.retain(|peer, _| others.contains(peer));
+            }
+        }
+    }
+
+    pub fn corrupt(&mut self, random: &mut Random) {
+        let time = |random: &mut Random| Time(Epoch::random(random).0);
+        *self = match random.below(5) {
+            0 => Stage::Fresh,
+            1 => Stage::Waiting(time(random)),
+            2 => Stage::Learning(Learning {
+                begun: time(random),
+                attempt: random.bits(),
+                until: time(random),
+                answers: (0..random.below(5))
+                    .map(|robot| (RobotId(robot), random.chance(0.5)))
+                    .collect(),
+                repeat_at: time(random),
+                repetitions: random.bits(),
+            }),
+            3 => Stage::Remembering(None),
+            _ => Stage::Remembering(Some(time(random))),
+        };
+    }
+}

@@ -1,0 +1,67 @@
+//! Voting for others.
+//!
+//! Invariant: as long as a promise binds, this robot votes for nobody else, itself included.
+
+use super::{Leases, Promise};
+use crate::election::epoch::Epoch;
+use crate::election::packet::{Claim, Packet};
+use crate::election::rules::Scene;
+use starl_core::{RobotId, Time};
+
+impl Leases {
+    /// A robot asks for a vote.
+    pub(super) fn consider(&mut self, scene: &mut Scene<'_, '_>, from: RobotId, claim: Claim) {
+        let epoch = claim.epoch;
+        if epoch == self.voided {
+            return;
+        }
+        self.learn(epoch);
+        if !claim.remaining.is_zero() {
+            self.follow(scene, epoch, claim.remaining);
+        }
+        if !scene.takes_part {
+            return;
+        }
+        if let Some(promised) = self.objection(scene, epoch) {
+            scene.send(from, Packet::Refuse { epoch, promised });
+            return;
+        }
+        if !self.remembers() {
+            return;
+        }
+        // Of two that stand at once the later epoch goes first.
+        self.give_up(scene);
+        self.promise = Promise {
+            epoch,
+            until: scene.now() + scene.options.lease,
+        };
+        let number = claim.number;
+        scene.send(from, Packet::Grant { epoch, number });
+    }
+
+    /// The epoch because of which this robot does not vote for another.
+    fn objection(&self, scene: &Scene<'_, '_>, epoch: Epoch) -> Option<Epoch> {
+        let promised = self.promise.epoch;
+        let is_bound = scene.now() < self.promise.until && promised.leader() != epoch.leader();
+        if epoch < promised || is_bound {
+            return Some(promised);
+        }
+        if epoch < self.latest {
+            return Some(self.latest);
+        }
+        let own = self.claim.as_ref().map(|claim| claim.epoch);
+        own.filter(|&own| own > epoch || self.leads(scene))
+    }
+
+    /// A robot no longer leads in this epoch, nor asks for votes for it.
+    pub(super) fn released(&mut self, scene: &mut Scene<'_, '_>, epoch: Epoch) {
+        self.learn(epoch);
+        self.voided = epoch;
+        if self.promise.epoch == epoch {
+            self.promise.until = Time::ZERO;
+        }
+        if self.shown.is_some_and(|shown| shown.epoch == epoch) {
+            self.lose(scene);
+        }
+    }
+}

@@ -1,0 +1,379 @@
+//! Election of a leader among participants (thesis, section 3.4.2).
+//!
+//! A robot that calls [`LeaderElection::elect`] stands for election from then on. Who leads is told by
+//! [`LeaderElection::leader`]: none while an election is under way. A leader that fails or resigns is
+//! replaced by itself. How a leader is found is the option [`Algorithm`]:
+//!
+//! - `Leases` (default, `leases/`): by votes of a majority of the participants, for an epoch and for the time of
+//!   a lease. Each epoch has one leader whatever the network does and whoever crashes and restarts; epochs
+//!   grow, so they serve as fencing numbers; at no time do two robots lead, if clocks keep to the drift
+//!   allowed for. Whoever is cut off from a majority shows no leader.
+//! - `Ballots` (`ballots.rs`): each draws a number, the greatest wins, as in the thesis. In each part of a
+//!   network that falls apart there is a leader.
+//! - `Bully` (`bully.rs`): the greatest robot wins, likewise.
+//!
+//! Robots that are linked come to show the same leader, within a time that the reference gives. The leader
+//! is a participant that has called `elect`. An election that takes too long counts as
+//! [failed](LeaderElection::failed), and goes on: nobody waits unaware.
+//!
+//! Self-stabilising: what is out of all bounds is put right at the next activation, and all else is
+//! overwritten by what leaders say again and again.
+
+mod ballots;
+mod bully;
+mod epoch;
+mod leases;
+mod options;
+mod packet;
+mod rules;
+
+pub use options::{Algorithm, Options};
+
+use alloc::collections::{BTreeSet, VecDeque};
+use alloc::vec::Vec;
+use ballots::Ballots;
+use bully::Bully;
+use epoch::Epoch;
+use leases::Leases;
+use packet::Packet;
+use rules::{Leadership, Rules, Scene};
+use starl_core::{Duration, Input, Port, Primitive, Random, Robot, RobotId, Time, TimerKey};
+
+const KIND: &str = "election";
+
+/// Changes that nobody asks for are kept up to this number, the latest.
+const MOST_CHANGES: usize = 16;
+
+/// Elects a leader. See the [module](self).
+#[derive(Clone, Debug)]
+pub struct LeaderElection {
+    port: Port,
+    options: Options,
+    /// None for all of the fleet.
+    participants: Option<BTreeSet<RobotId>>,
+    rules: Algorithms,
+    has_begun: bool,
+    /// Whether this robot has called for an election and not resigned.
+    called: bool,
+    /// Since when it has been without a leader.
+    leaderless: Option<Time>,
+    failed: bool,
+    shown: Option<Leadership>,
+    changes: VecDeque<Change>,
+    suspects: BTreeSet<RobotId>,
+    /// The participants but this robot, and the size of the fleet that they are from.
+    others: Vec<RobotId>,
+    fleet_size: usize,
+    takes_part: bool,
+    /// When the timer fires.
+    armed: Option<Time>,
+}
+
+/// What became of a leader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// This robot leads from now on, or again in a later epoch.
+    Elected(RobotId),
+    /// There is none any more.
+    Lost,
+}
+
+#[derive(Clone, Debug)]
+enum Algorithms {
+    Ballots(Ballots),
+    Bully(Bully),
+    Leases(Leases),
+}
+
+impl Algorithms {
+    fn rules(&self) -> &dyn Rules {
+        match self {
+            Algorithms::Ballots(rules) => rules,
+            Algorithms::Bully(rules) => rules,
+            Algorithms::Leases(rules) => rules,
+        }
+    }
+
+    fn rules_mut(&mut self) -> &mut dyn Rules {
+        match self {
+            Algorithms::Ballots(rules) => rules,
+            Algorithms::Bully(rules) => rules,
+            Algorithms::Leases(rules) => rules,
+        }
+    }
+}
+
+impl LeaderElection {
+    /// An instance; those of the same name on all robots elect together. `participants` vote and may
+    /// be elected: all of the fleet, if none are given. All robots must be given the same.
+    pub fn new(
+        name: &str,
+        participants: Option<BTreeSet<RobotId>>,
+        options: Options,
+    ) -> LeaderElection {
+        LeaderElection {
+            port: Port::named(name),
+            participants,
+            rules: match options.algorithm {
+                Algorithm::Ballots => Algorithms::Ballots(Ballots::default()),
+                Algorithm::Bully => Algorithms::Bully(Bully::default()),
+                Algorithm::Leases => Algorithms::Leases(Leases::default()),
+            },
+            options,
+            has_begun: false,
+            called: false,
+            leaderless: None,
+            failed: false,
+            shown: None,
+            changes: VecDeque::new(),
+            suspects: BTreeSet::new(),
+            others: Vec::new(),
+            fleet_size: 0,
+            takes_part: false,
+            armed: None,
+        }
+    }
+
+    /// Stands for election (the thesis's do_election), until [`LeaderElection::resign`]. With Ballots and
+    /// Bully this begins an election if none is under way; with Leases it joins in: a leader stays.
+    pub fn elect(&mut self, robot: &mut Robot<'_>) {
+        self.begin(robot);
+        self.called = true;
+        robot.emit_primitive(KIND, self.port, "elect", []);
+        if self.takes_part {
+            self.run(robot, |rules, scene| rules.elect(scene));
+        }
+        self.settle(robot);
+    }
+
+    /// No longer stands. If this robot leads, it says that it no longer does, and the others elect anew.
+    pub fn resign(&mut self, robot: &mut Robot<'_>) {
+        self.begin(robot);
+        if self.called {
+            self.called = false;
+            robot.emit_primitive(KIND, self.port, "resign", []);
+            self.run(robot, |rules, scene| rules.resign(scene));
+        }
+        self.settle(robot);
+    }
+
+    /// Who leads, as far as this robot knows; none while an election is under way.
+    pub fn leader(&self) -> Option<RobotId> {
+        Some(self.shown?.leader)
+    }
+
+    /// The epoch of that leader: greater than those of all leaders before. None without a leader, and with
+    /// algorithms that have no epochs.
+    pub fn epoch(&self) -> Option<u64> {
+        self.shown?.epoch
+    }
+
+    /// Whether this robot stands, but has had no leader for [`Options::give_up`], or is no participant. The
+    /// election goes on all the same, and the flag falls when there is a leader.
+    pub fn failed(&self) -> bool {
+        self.failed
+    }
+
+    /// Whether this robot stands for election.
+    pub fn stands(&self) -> bool {
+        self.called && self.takes_part
+    }
+
+    /// What became of leaders since the last call, the latest 16.
+    pub fn take_changes(&mut self) -> impl Iterator<Item = Change> + use<> {
+        core::mem::take(&mut self.changes).into_iter()
+    }
+
+    /// The settings.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// Overwrites the state at random, as a transient fault would.
+    pub fn corrupt(&mut self, random: &mut Random) {
+        self.rules.rules_mut().corrupt(random);
+        self.suspects.retain(|_| random.chance(0.5));
+        self.leaderless = random.chance(0.5).then(|| Time(random.bits().into()));
+    }
+
+    fn begin(&mut self, robot: &mut Robot<'_>) {
+        self.meet(robot);
+        if self.has_begun {
+            return;
+        }
+        self.has_begun = true;
+        let mut participants = self.others.clone();
+        if self.takes_part {
+            participants.push(robot.id());
+            participants.sort_unstable();
+        }
+        robot.emit_primitive(
+            KIND,
+            self.port,
+            "start",
+            [
+                ("algorithm", self.options.algorithm.name().into()),
+                ("participants", participants.into()),
+            ],
+        );
+    }
+
+    /// Finds out who the participants are.
+    fn meet(&mut self, robot: &Robot<'_>) {
+        let (me, fleet) = (robot.id(), robot.fleet());
+        if self.has_begun && fleet.len() == self.fleet_size {
+            return;
+        }
+        self.fleet_size = fleet.len();
+        let is_admitted = |robot: &RobotId| match self.options.algorithm {
+            Algorithm::Leases => Epoch::fits(*robot),
+            _ => true,
+        };
+        self.others = match &self.participants {
+            Some(participants) => participants.iter().copied().collect(),
+            None => fleet.to_vec(),
+        };
+        self.others.retain(is_admitted);
+        self.takes_part = self.others.contains(&me);
+        self.others.retain(|&peer| peer != me);
+    }
+
+    /// Has the algorithm do something.
+    fn run(
+        &mut self,
+        robot: &mut Robot<'_>,
+        what: impl FnOnce(&mut dyn Rules, &mut Scene<'_, '_>),
+    ) {
+        let mut scene = Scene {
+            robot,
+            port: self.port,
+            options: &self.options,
+            others: &self.others,
+            takes_part: self.takes_part,
+            stands: self.called && self.takes_part,
+            suspects: &self.suspects,
+        };
+        what(self.rules.rules_mut(), &mut scene);
+    }
+
+    /// Does what is due, reports what has changed, and sees to it that the next thing is not missed.
+    fn settle(&mut self, robot: &mut Robot<'_>) {
+        let mut due = Time::NEVER;
+        self.run(robot, |rules, scene| {
+            rules.settle(scene);
+            due = rules.due(scene);
+        });
+        self.report(robot);
+        let give_up = self.watch(robot);
+        self.arm(robot, due.min(give_up));
+    }
+
+    fn report(&mut self, robot: &mut Robot<'_>) {
+        let now_shown = self.rules.rules().leadership(robot.id());
+        if now_shown == self.shown {
+            return;
+        }
+        self.shown = now_shown;
+        let change = match now_shown {
+            None => {
+                robot.emit_primitive(KIND, self.port, "lost", []);
+                Change::Lost
+            }
+            Some(Leadership { leader, epoch }) => {
+                let leader_field = ("leader", leader.into());
+                match epoch {
+                    None => robot.emit_primitive(KIND, self.port, "leader", [leader_field]),
+                    Some(epoch) => {
+                        let epoch = ("epoch", (epoch as i64).into());
+                        robot.emit_primitive(KIND, self.port, "leader", [leader_field, epoch]);
+                    }
+                }
+                Change::Elected(leader)
+            }
+        };
+        if self.changes.len() == MOST_CHANGES {
+            self.changes.pop_front();
+        }
+        self.changes.push_back(change);
+    }
+
+    /// Notices that an election takes too long; gives when it will.
+    fn watch(&mut self, robot: &mut Robot<'_>) -> Time {
+        let now = robot.now();
+        let mut due = Time::NEVER;
+        let mut failed = self.called && !self.takes_part;
+        if self.called && self.takes_part && self.shown.is_none() {
+            let since = self.leaderless.get_or_insert(now);
+            *since = (*since).min(now);
+            let at = *since + self.options.give_up;
+            failed = now >= at;
+            if !failed {
+                due = at;
+            }
+        } else {
+            self.leaderless = None;
+        }
+        if failed && !self.failed {
+            robot.emit_primitive(KIND, self.port, "fail", []);
+        }
+        self.failed = failed;
+        due
+    }
+
+    fn arm(&mut self, robot: &mut Robot<'_>, due: Time) {
+        if due == Time::NEVER {
+            if self.armed.take().is_some() {
+                robot.cancel_timer(self.timer());
+            }
+        } else if self.armed != Some(due) {
+            self.armed = Some(due);
+            let after = due.since(robot.now()).max(Duration::from_millis(1));
+            robot.set_timer(self.timer(), after);
+        }
+    }
+
+    fn timer(&self) -> TimerKey {
+        TimerKey {
+            port: self.port,
+            kind: 0,
+            number: 0,
+        }
+    }
+}
+
+impl Primitive for LeaderElection {
+    fn port(&self) -> Port {
+        self.port
+    }
+
+    fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
+        match input {
+            Input::Estimate | Input::Planned { .. } => return,
+            Input::Timer(key) if *key == self.timer() => self.armed = None,
+            _ => {}
+        }
+        self.begin(robot);
+        // What has run out by now must not be taken for valid.
+        self.run(robot, |rules, scene| rules.settle(scene));
+        match input {
+            Input::Message(message) if message.port == self.port => {
+                if let Some(packet) = message.read::<Packet>()
+                    && self.others.contains(&message.from)
+                {
+                    self.run(robot, |rules, scene| {
+                        rules.receive(scene, message.from, packet);
+                    });
+                }
+            }
+            Input::Suspected(peer) if self.others.contains(peer) => {
+                self.suspects.insert(*peer);
+                self.run(robot, |rules, scene| rules.suspect(scene, *peer));
+            }
+            Input::Trusted(peer) => {
+                self.suspects.remove(peer);
+            }
+            _ => {}
+        }
+        self.settle(robot);
+    }
+}
