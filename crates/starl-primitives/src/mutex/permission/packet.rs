@@ -1,16 +1,8 @@
-//! What robots say to each other about resources.
+//! What robots say to each other about permissions.
 
-use super::Resources;
+use super::super::Resources;
+use super::super::common::RequestId;
 use serde::{Deserialize, Serialize};
-
-/// Names a request among all that its robot ever makes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct RequestId {
-    /// Drawn when the robot starts.
-    pub incarnation: u32,
-    /// Counts its requests since then.
-    pub number: u32,
-}
 
 /// A message.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

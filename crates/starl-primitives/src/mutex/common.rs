@@ -1,0 +1,118 @@
+//! What all algorithms of a mutex go by: who this robot is to the others, what it holds, and what it has to
+//! report.
+
+use super::{Options, Resources};
+use crate::incarnation::Incarnation;
+use alloc::collections::BTreeSet;
+use alloc::vec::Vec;
+use serde::{Deserialize, Serialize};
+use starl_core::event::Name;
+use starl_core::{Port, Random, Robot, RobotId, TimerKey, Value};
+
+const KIND: &str = "mutex";
+
+/// A clock this far ahead is none that robots' requests could have driven it to.
+const FURTHEST: u64 = 1 << 40;
+
+/// Names a request among all that its robot ever makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct RequestId {
+    /// Drawn when the robot starts.
+    pub incarnation: u32,
+    /// Counts its requests since then.
+    pub number: u32,
+}
+
+/// The state that does not depend on the algorithm.
+#[derive(Clone, Debug)]
+pub(super) struct Common {
+    pub port: Port,
+    pub options: Options,
+    /// Who is asked; none for all of the fleet.
+    pub participants: Option<BTreeSet<RobotId>>,
+    pub incarnation: Incarnation,
+    /// Counts requests.
+    last_number: u32,
+    /// Lamport's clock (1978).
+    clock: u64,
+    pub held: Resources,
+    pub suspects: BTreeSet<RobotId>,
+}
+
+impl Common {
+    pub fn new(port: Port, participants: Option<BTreeSet<RobotId>>, options: Options) -> Common {
+        Common {
+            port,
+            options,
+            participants,
+            incarnation: Incarnation::default(),
+            last_number: 0,
+            clock: 0,
+            held: Resources::new(),
+            suspects: BTreeSet::new(),
+        }
+    }
+
+    /// The name of the next request.
+    pub fn next_id(&mut self, robot: &mut Robot<'_>) -> RequestId {
+        self.last_number = self.last_number.wrapping_add(1);
+        RequestId {
+            incarnation: self.incarnation.of(robot),
+            number: self.last_number,
+        }
+    }
+
+    /// The time of the next request on Lamport's clock.
+    pub fn tick(&mut self) -> u64 {
+        self.clock = self.clock.saturating_add(1);
+        self.clock
+    }
+
+    /// Takes note of another's clock; false if it is none.
+    pub fn hear(&mut self, clock: u64) -> bool {
+        if clock > self.clock.saturating_add(FURTHEST) {
+            return false;
+        }
+        self.clock = self.clock.max(clock);
+        true
+    }
+
+    /// All that take part, in the order of their numbers.
+    pub fn everyone(&self, robot: &Robot<'_>) -> Vec<RobotId> {
+        match &self.participants {
+            Some(participants) => participants.iter().copied().collect(),
+            None => robot.fleet().to_vec(),
+        }
+    }
+
+    /// All others that take part.
+    pub fn others(&self, robot: &Robot<'_>) -> Vec<RobotId> {
+        let me = robot.id();
+        let mut others = self.everyone(robot);
+        others.retain(|&peer| peer != me);
+        others
+    }
+
+    pub fn timer(&self, kind: u16) -> TimerKey {
+        TimerKey {
+            port: self.port,
+            kind,
+            number: 0,
+        }
+    }
+
+    pub fn report(&self, robot: &mut Robot<'_>, event: &'static str, resources: &Resources) {
+        for resource in resources {
+            let name = Value::Text(Name::Owned((**resource).into()));
+            robot.emit_primitive(KIND, self.port, event, [("resource", name)]);
+        }
+    }
+
+    /// Overwrites the state at random; `some` are what it comes to hold.
+    pub fn corrupt(&mut self, random: &mut Random, some: Resources) {
+        self.held = some;
+        self.suspects.retain(|_| random.chance(0.5));
+        self.clock = u64::from(random.bits());
+        self.last_number = random.bits();
+    }
+}
