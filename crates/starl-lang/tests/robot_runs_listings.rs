@@ -4,6 +4,7 @@
 mod robot_support;
 
 use robot_support::{World, compile};
+use starl_lang::machine::Value;
 
 #[test]
 fn race_is_run_to_its_end() {
@@ -31,4 +32,32 @@ fn a_formation_forms_by_shared_positions() {
         assert_eq!(world.nodes[robot].failed, None);
         assert_ne!(world.nodes[robot].position, *before, "robot {robot} stays");
     }
+}
+
+/// Figure 5.2: the vehicles of figure 5.3 agree on who is there, and cross without two in one zone.
+#[test]
+fn an_intersection_is_crossed_by_those_that_have_registered() {
+    let code = compile(include_str!("listings/intersection.starl"));
+    let mut world = World::of(&code, 4);
+    // The zones of arrival C0, D0, B0 and A0; the destination of all is D1, to the right, ahead or left.
+    for (robot, (x, y)) in [(-1.5, -0.5), (0.5, -1.5), (1.5, 0.5), (-0.5, 1.5)]
+        .into_iter()
+        .enumerate()
+    {
+        world.nodes[robot].position = starl_core::Point::planar(x, y);
+    }
+    let is_at = |world: &World, robot: usize, location: &str| {
+        world.get(robot, "loc") == Value::Variant(location.into())
+    };
+    let (mut steps, mut listed) = (0, [false; 4]);
+    while (0..4).any(|robot| !is_at(&world, robot, "s1")) {
+        world.step();
+        steps += 1;
+        assert!(steps < 600, "they do not come through");
+        for (robot, listed) in listed.iter_mut().enumerate() {
+            assert_eq!(world.nodes[robot].failed, None);
+            *listed |= is_at(&world, robot, "mov_wait");
+        }
+    }
+    assert_eq!(listed, [true; 4]);
 }

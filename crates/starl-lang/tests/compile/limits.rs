@@ -27,8 +27,8 @@ fn problems(source: &str) -> Vec<(Code, String)> {
 
 #[test]
 fn primitives_that_robots_do_not_have() {
-    let source = "program Test\nbar = Barrier(\"0\")\nreg = Registration(\"1\")\ngo()\n    pre bar.passed and reg.failed\n    eff bar.arrive()\n";
-    let expected = ["bar", "reg"].map(|name| (Code::UnavailablePrimitive, name.to_string()));
+    let source = "program Test\nbar = Barrier(\"0\")\nlead = LeaderElection(\"1\")\ngo()\n    pre bar.passed and lead.failed\n    eff bar.arrive()\n";
+    let expected = ["bar", "lead"].map(|name| (Code::UnavailablePrimitive, name.to_string()));
     assert_eq!(problems(source), expected);
 }
 

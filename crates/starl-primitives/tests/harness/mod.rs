@@ -6,6 +6,7 @@
 pub mod elector;
 pub mod locker;
 pub mod pilot;
+pub mod registrar;
 pub mod sharer;
 mod talker;
 pub mod watcher;
@@ -305,6 +306,24 @@ impl World {
             _ => None,
         };
         self.records.iter().filter_map(matching).collect()
+    }
+
+    /// [`World::events`] with their places among the records instead of their times.
+    pub fn indexed_events(&self, wanted: &str) -> Vec<(usize, RobotId, BTreeMap<String, Value>)> {
+        let matching = |(index, (_, robot, event)): (usize, &(Time, RobotId, Event))| match event {
+            Event::Program { name, fields } | Event::Primitive { name, fields, .. }
+                if name == wanted =>
+            {
+                let named = |(name, value): &(Name, Value)| (name.to_string(), value.clone());
+                Some((index, *robot, fields.iter().map(named).collect()))
+            }
+            _ => None,
+        };
+        self.records
+            .iter()
+            .enumerate()
+            .filter_map(matching)
+            .collect()
     }
 
     /// What [`Talker`]s received: sender, receiver and value, in the order of time.

@@ -171,7 +171,11 @@ pub const PRIMITIVES: &[Primitive] = &[
     Primitive {
         constructor: "Registration(id: String)",
         members: &[
-            member("register()", Effect, "Joins (the thesis's do_register)."),
+            member(
+                "register(area?: Area)",
+                Effect,
+                "Joins those in the area, or the whole fleet (the thesis's do_register).",
+            ),
             member(
                 "unregister()",
                 Effect,
@@ -185,16 +189,16 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "agreed_at: Time?",
                 Query,
-                "When they agreed (the thesis's ts).",
+                "When that list was computed, the same for all in it (the thesis's ts).",
             ),
             member(
                 "failed: Bool",
                 Query,
-                "Whether no agreement could be reached.",
+                "Whether there has been no agreement for long; it is still tried.",
             ),
         ],
         events: &[],
-        is_available: false,
+        is_available: true,
         documentation: "Agreement on who takes part (thesis, section 3.4.1).",
     },
     Primitive {

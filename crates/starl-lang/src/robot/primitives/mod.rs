@@ -9,6 +9,7 @@ mod attended;
 mod messaging;
 mod mutex;
 mod reach_avoid;
+mod registration;
 mod shared;
 
 pub use attended::Attended;
@@ -209,6 +210,7 @@ pub static KINDS: &[Entry] = &[
     Entry::of::<messaging::Sender<starl_primitives::Geocast>>(),
     Entry::of::<messaging::Sender<starl_primitives::Unicast>>(),
     Entry::of::<starl_primitives::Mutex>(),
+    Entry::of::<starl_primitives::Registration>(),
     Entry::of::<shared::SingleWriter>(),
     Entry::of::<shared::MultiWriter>(),
 ];

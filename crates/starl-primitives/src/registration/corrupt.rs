@@ -1,0 +1,75 @@
+//! Overwriting the state at random, as a transient fault would.
+
+use super::roster::{Peer, Shunned};
+use super::{Registration, Stage};
+use alloc::collections::BTreeSet;
+use starl_core::{Random, RobotId, Time};
+
+impl Registration {
+    /// Overwrites the state at random, within its types: for a program's
+    /// [`starl_core::Program::corrupt`]. Whether the robot takes part stays, as that is what its program
+    /// last asked for.
+    pub fn corrupt(&mut self, random: &mut Random) {
+        if let Some(own) = &mut self.own {
+            own.ticket = random.bits();
+            own.announcements = random.bits() >> random.below(32);
+            own.gathers_until = time(random);
+        }
+        let known: BTreeSet<RobotId> = self.peers.keys().copied().collect();
+        let mut some = || -> BTreeSet<RobotId> {
+            known
+                .iter()
+                .copied()
+                .filter(|_| random.chance(0.5))
+                .collect()
+        };
+        let (unknown, garbled, suspects, members) = (some(), some(), some(), some());
+        self.peers.retain(|peer, _| !unknown.contains(peer));
+        for (peer, known) in &mut self.peers {
+            if garbled.contains(peer) {
+                *known = Peer {
+                    ticket: random.bits(),
+                    led_by: random.chance(0.5).then(|| RobotId(random.below(8))),
+                };
+            }
+        }
+        for peer in garbled {
+            self.ended.insert(peer, random.bits());
+        }
+        self.suspects = suspects;
+        self.shunned.retain(|_, _| random.chance(0.5));
+        for shunned in self.shunned.values_mut() {
+            *shunned = Shunned {
+                until: time(random),
+                times: random.bits(),
+            };
+        }
+        match &mut self.stage {
+            Stage::Open => {}
+            Stage::Proposed { missing, .. } => *missing = members,
+            Stage::Accepted { repetitions, .. } => *repetitions = random.bits(),
+            Stage::Agreed {
+                view,
+                members: shown,
+                ..
+            } => {
+                view.roll.retain(|_, _| random.chance(0.5));
+                if random.chance(0.5) {
+                    view.id.time = time(random);
+                }
+                *shown = members;
+            }
+        }
+        self.promised.time = time(random);
+        self.latest = time(random);
+        self.due = random.chance(0.5).then(|| time(random));
+        self.announces_at = time(random);
+        self.failed = random.chance(0.5);
+    }
+}
+
+/// A moment of any order of magnitude.
+fn time(random: &mut Random) -> Time {
+    let bits = u64::from(random.bits()) << 32 | u64::from(random.bits());
+    Time(bits >> random.below(64))
+}

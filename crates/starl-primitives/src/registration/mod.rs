@@ -1,0 +1,332 @@
+//! Registration: robots of a neighbourhood agree on who takes part (thesis, section 3.4.1).
+//!
+//! A robot registers and leaves when it likes. Those that take part come to show the same list and the
+//! time at which it was computed, (rList, ts); while a list is being made they show none. The list is made
+//! anew when somebody comes, leaves, crashes or restarts.
+//!
+//! It is the agreement on views of group membership (Birman and Joseph 1987; Ricciardi and Birman 1991;
+//! Chockler, Keidar and Vitenberg 2001). One of the participants, the coordinator, proposes a list to all
+//! in it; each accepts unless it has accepted a later one, and from then on shows no earlier list; when all
+//! have accepted, the list is shown. Lists have unique names in one order, by their times. Should a
+//! coordinator fall silent the next one takes over; two at once do no harm, as of their lists the later
+//! one prevails (as with the ballots of Lamport's Paxos, 1998).
+//!
+//! What holds, whatever the network does and whichever robots crash and restart, as long as state is not
+//! corrupted:
+//! - agreement: lists with the same time and coordinator are equal. The times of any two lists that have a
+//!   robot in common are at least [`Options::settle`] apart (the thesis's d), so lists whose times are
+//!   nearer to each other are equal or have nobody in common;
+//! - exclusion: two robots that list each other, both still in the life in which they are listed, show the
+//!   same list or one of them shows none;
+//! - soundness: a robot is in a list only if it was registered when it accepted that list, which is after
+//!   the coordinator computed it and before anyone shows it;
+//! - order: the times of the lists that a robot shows rise, through all its registrations of one life.
+//!
+//! What holds where datagrams are not always lost, for robots that are up and reach each other: a robot
+//! that registers comes to show a list with itself, and all of one neighbourhood the same one
+//! ([`Options::agreement_bound`]). Robots that are kept apart by a partition agree apart, and together
+//! again when it is healed. Nobody waits unaware: without a list for [`Options::patience`],
+//! [`Registration::failed`] says so, while the robot goes on trying.
+//!
+//! Neighbourhoods. Who registers makes itself known as by a geocast: what it says goes to all with its
+//! area, and each receiver decides by its own position. Of two participants it is enough that one is in the
+//! other's area at one announcement; they belong together until one leaves, wherever they go. Who belongs
+//! with a robot belongs with all that it belongs with, since all are to agree.
+//!
+//! Messages for n robots that register together: 2n + 1, of which n + 2 are datagrams to all; each that
+//! comes later to n - 1 others, n + 2; when one of n leaves, n + 1, when one crashes, n. While nothing
+//! changes one of them announces the list in each [`Options::longest_interval`].
+
+mod agreement;
+mod announcing;
+mod corrupt;
+mod options;
+mod packet;
+mod roster;
+
+pub use options::Options;
+pub use packet::ViewId;
+
+use crate::incarnation::Incarnation;
+use alloc::collections::{BTreeMap, BTreeSet};
+use packet::{NO_VIEW, View};
+use roster::{Peer, Shunned};
+use starl_core::random::hash_key;
+use starl_core::{Area, Duration, Input, Port, Primitive, Robot, RobotId, Time, TimerKey};
+
+const KIND: &str = "registration";
+
+/// Times beyond this, 146 years, are no times of ours.
+const LATEST: Time = Time(u64::MAX >> 2);
+
+/// Agreement on who takes part. See the [module](self).
+#[derive(Clone, Debug)]
+pub struct Registration {
+    port: Port,
+    options: Options,
+    incarnation: Incarnation,
+    /// Counts this life's registrations.
+    registrations: u32,
+    /// The robot's own registration.
+    own: Option<Own>,
+    /// Its last registration, as long as others may not know that it is over.
+    leaving: Option<Leaving>,
+    /// Other participants that it knows of.
+    peers: BTreeMap<RobotId, Peer>,
+    /// The last ticket of each robot that is over for certain.
+    ended: BTreeMap<RobotId, u32>,
+    /// Those that did not answer.
+    shunned: BTreeMap<RobotId, Shunned>,
+    suspects: BTreeSet<RobotId>,
+    stage: Stage,
+    /// The latest list that it has proposed or accepted: it shows no earlier one.
+    promised: ViewId,
+    /// The latest time of a list that it has heard of.
+    latest: Time,
+    /// When something is to be done for the agreement.
+    due: Option<Time>,
+    /// When it announces itself next.
+    announces_at: Time,
+    failed: bool,
+}
+
+/// A registration of this robot.
+#[derive(Clone, Debug)]
+struct Own {
+    ticket: u32,
+    area: Option<Area>,
+    /// Until then it listens for others.
+    gathers_until: Time,
+    /// Announcements since the last change from a list to none or back.
+    announcements: u32,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Leaving {
+    ticket: u32,
+    repetitions: u32,
+}
+
+/// How far the agreement is. Invariant: a list here is the one that was promised.
+#[derive(Clone, Debug)]
+enum Stage {
+    /// There is no list.
+    Open,
+    /// It has proposed a list, and these have not accepted it.
+    Proposed {
+        view: View,
+        missing: BTreeSet<RobotId>,
+        repetitions: u32,
+    },
+    /// It has accepted a list and waits to hear that all have.
+    Accepted { view: View, repetitions: u32 },
+    /// It shows a list.
+    Agreed {
+        view: View,
+        members: BTreeSet<RobotId>,
+        /// Whether another robot has announced the same since this one last did.
+        heard: bool,
+    },
+}
+
+/// What timers are for.
+#[derive(Clone, Copy, Debug)]
+enum Alarm {
+    Agreement,
+    Announcement,
+    Patience,
+}
+
+impl Registration {
+    /// An instance (the thesis's Register); those of the same name on all robots agree with each other.
+    pub fn new(name: &str, options: Options) -> Registration {
+        Registration {
+            port: Port::named(name),
+            options,
+            incarnation: Incarnation::default(),
+            registrations: 0,
+            own: None,
+            leaving: None,
+            peers: BTreeMap::new(),
+            ended: BTreeMap::new(),
+            shunned: BTreeMap::new(),
+            suspects: BTreeSet::new(),
+            stage: Stage::Open,
+            promised: NO_VIEW,
+            latest: Time::ZERO,
+            due: None,
+            announces_at: Time::ZERO,
+            failed: false,
+        }
+    }
+
+    /// Takes part (the thesis's do_register), together with those in this area; with the whole fleet, if
+    /// there is none. Who has registered already stays so, with this area from now on. An area that is not
+    /// valid holds nobody.
+    pub fn register(&mut self, robot: &mut Robot<'_>, area: Option<Area>) {
+        if let Some(own) = &mut self.own {
+            if own.area != area {
+                own.area = area;
+                own.announcements = 0;
+                self.announce(robot);
+            }
+            return;
+        }
+        match &area {
+            None => robot.emit_primitive(KIND, self.port, "register", []),
+            Some(area) => {
+                let area = ("area", area.clone().into());
+                robot.emit_primitive(KIND, self.port, "register", [area]);
+            }
+        }
+        self.leaving = None;
+        self.stage = Stage::Open;
+        self.own = Some(Own {
+            ticket: self.draw_ticket(robot),
+            area,
+            gathers_until: robot.now() + self.options.gather,
+            announcements: 0,
+        });
+        self.set(robot, Alarm::Patience, self.options.patience);
+        self.announce(robot);
+        self.rest(robot);
+        self.look_within(robot, self.options.gather);
+    }
+
+    /// Takes part no longer (the thesis's undo_register): the others agree anew.
+    pub fn unregister(&mut self, robot: &mut Robot<'_>) {
+        let Some(own) = self.own.take() else { return };
+        robot.emit_primitive(KIND, self.port, "unregister", []);
+        self.stage = Stage::Open;
+        self.peers.clear();
+        self.shunned.clear();
+        self.failed = false;
+        for alarm in [Alarm::Announcement, Alarm::Patience] {
+            robot.cancel_timer(self.timer(alarm));
+        }
+        self.rest(robot);
+        self.leaving = Some(Leaving {
+            ticket: own.ticket,
+            repetitions: 0,
+        });
+        self.say_farewell(robot);
+    }
+
+    /// The participants, this robot among them (the thesis's rList); none while they are not agreed on, and
+    /// while this robot is not registered.
+    pub fn members(&self) -> Option<&BTreeSet<RobotId>> {
+        match (&self.own, &self.stage) {
+            (Some(_), Stage::Agreed { members, .. }) => Some(members),
+            _ => None,
+        }
+    }
+
+    /// When the list was computed (the thesis's ts), by the clock of the robot that did, or later; the same
+    /// for all that show it, and later than that of each earlier list.
+    pub fn agreed_at(&self) -> Option<Time> {
+        self.view_id().map(|id| id.time)
+    }
+
+    /// The name of the list: of two the greater is the later one.
+    pub fn view_id(&self) -> Option<ViewId> {
+        match (&self.own, &self.stage) {
+            (Some(_), Stage::Agreed { view, .. }) => Some(view.id),
+            _ => None,
+        }
+    }
+
+    /// Whether this robot takes part.
+    pub fn is_registered(&self) -> bool {
+        self.own.is_some()
+    }
+
+    /// Whether this robot is registered and has had no list for [`Options::patience`]. It goes on trying.
+    pub fn failed(&self) -> bool {
+        self.failed
+    }
+
+    /// The settings.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// A ticket that this robot never had.
+    fn draw_ticket(&mut self, robot: &mut Robot<'_>) -> u32 {
+        self.registrations = self.registrations.wrapping_add(1);
+        let incarnation = u64::from(self.incarnation.of(robot));
+        hash_key(incarnation, &[u64::from(self.registrations)]) as u32
+    }
+
+    fn timer(&self, alarm: Alarm) -> TimerKey {
+        TimerKey {
+            port: self.port,
+            kind: alarm as u16,
+            number: 0,
+        }
+    }
+
+    fn set(&self, robot: &mut Robot<'_>, alarm: Alarm, after: Duration) {
+        robot.set_timer(self.timer(alarm), after);
+    }
+
+    /// There has been no list for long.
+    fn fail(&mut self, robot: &mut Robot<'_>) {
+        if self.own.is_some() && self.members().is_none() && !self.failed {
+            self.failed = true;
+            robot.emit_primitive(KIND, self.port, "fail", []);
+        }
+    }
+
+    /// Sees to it that the agreement is looked after no later than this.
+    fn look_within(&mut self, robot: &mut Robot<'_>, after: Duration) {
+        let at = robot.now() + after;
+        if self.due.is_none_or(|due| due > at) {
+            self.due = Some(at);
+            self.set(robot, Alarm::Agreement, after);
+        }
+    }
+
+    /// Nothing is to be done for the agreement.
+    fn rest(&mut self, robot: &mut Robot<'_>) {
+        if self.due.take().is_some() {
+            robot.cancel_timer(self.timer(Alarm::Agreement));
+        }
+    }
+
+    /// Something is to be done for the agreement now.
+    fn act(&mut self, robot: &mut Robot<'_>) {
+        self.due = None;
+        match &self.stage {
+            _ if self.own.is_none() => self.say_farewell(robot),
+            Stage::Open | Stage::Agreed { .. } => self.look(robot),
+            Stage::Proposed { .. } => self.propose_again(robot),
+            Stage::Accepted { .. } => self.accept_again(robot),
+        }
+    }
+}
+
+impl Primitive for Registration {
+    fn port(&self) -> Port {
+        self.port
+    }
+
+    fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
+        match input {
+            Input::Message(message) if message.port == self.port => self.receive(robot, message),
+            Input::Timer(key) if *key == self.timer(Alarm::Agreement) => self.act(robot),
+            Input::Timer(key) if *key == self.timer(Alarm::Announcement) => {
+                self.announce_again(robot);
+            }
+            Input::Timer(key) if *key == self.timer(Alarm::Patience) => self.fail(robot),
+            Input::Activate => self.set_right(robot),
+            Input::Suspected(peer) => {
+                self.suspects.insert(*peer);
+                self.drop_peer(robot, *peer);
+            }
+            Input::Trusted(peer) => {
+                self.suspects.remove(peer);
+            }
+            _ => {}
+        }
+    }
+}

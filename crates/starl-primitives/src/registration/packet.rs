@@ -1,0 +1,81 @@
+//! What robots say to each other about who takes part.
+
+use alloc::collections::BTreeMap;
+use serde::{Deserialize, Serialize};
+use starl_core::{Area, Point, RobotId, Time};
+
+/// Names a list among all that are ever made: the later one is the greater.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct ViewId {
+    /// When it was computed, by the clock of the robot that did; later than every list that one of its
+    /// members knew of.
+    pub time: Time,
+    /// Who computed it.
+    pub coordinator: RobotId,
+    /// The coordinator's incarnation.
+    pub incarnation: u32,
+}
+
+/// Before all others.
+pub(super) const NO_VIEW: ViewId = ViewId {
+    time: Time::ZERO,
+    coordinator: RobotId(0),
+    incarnation: 0,
+};
+
+/// Robots with their tickets. A ticket names one registration of a robot: it draws another one each time
+/// that it registers.
+pub(super) type Roll = BTreeMap<RobotId, u32>;
+
+/// A list of participants (the view of group membership protocols).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct View {
+    pub id: ViewId,
+    pub roll: Roll,
+}
+
+/// A message.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) enum Packet {
+    /// To all: the sender takes part.
+    Announce(Announcement),
+    /// The sender asks all of this list to agree on it.
+    Propose(View),
+    /// To the coordinator: the sender agrees and shows no earlier list.
+    Accept {
+        id: ViewId,
+        /// Others that it knows to take part.
+        also: Roll,
+    },
+    /// The sender shows a later list, or has agreed on one.
+    Refuse {
+        id: ViewId,
+        promised: ViewId,
+        /// Others that it knows to take part.
+        also: Roll,
+    },
+    /// All have agreed.
+    Commit(ViewId),
+    /// The sender's registration with this ticket is over.
+    Leave { ticket: u32 },
+    /// The receiver's registration with this ticket counts as over.
+    Over { ticket: u32 },
+}
+
+/// What a participant makes known.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Announcement {
+    pub ticket: u32,
+    /// Its neighbourhood; none for the whole fleet.
+    pub area: Option<Area>,
+    /// Where it is, metres.
+    pub here: Point,
+    /// It shows no list that is earlier than this.
+    pub promised: ViewId,
+    /// What it shows.
+    pub view: Option<View>,
+    /// How often it has announced itself since it last showed a list.
+    pub count: u32,
+    /// Whose list it waits for.
+    pub waits_for: Option<(RobotId, u32)>,
+}
