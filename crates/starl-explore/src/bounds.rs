@@ -1,0 +1,115 @@
+//! How much may go wrong in the behaviours that are explored, and what time is in them.
+
+use serde::{Deserialize, Serialize};
+use starl_core::Duration;
+
+/// What bounds the behaviours that are explored. Within them all are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Bounds {
+    /// Datagrams that get lost, at most; default 0. To safety a datagram that gets lost is one that
+    /// never arrives, which is covered without losses; robots that wait for ever show only with them.
+    pub losses: u8,
+    /// Datagrams that arrive once more than they were sent, at most; default 0.
+    pub duplicates: u8,
+    /// Crashes, at most, of all robots together; each robot that is down may start again at any time, or
+    /// never. Default 0.
+    pub crashes: u8,
+    /// False or true suspicions by failure detectors, and ends of suspicions, at most; default 0.
+    pub suspicions: u8,
+    /// Timers that fire, at most, of all robots together; default 1. With [`Clocks::Ticking`] timers
+    /// are bounded by the time instead.
+    pub timers: u8,
+    /// What clocks show.
+    pub clocks: Clocks,
+    /// States further than this many steps from the start are not explored; default none. A search
+    /// that comes upon this bound is not complete.
+    pub depth: Option<u32>,
+    /// The search stops when there are this many states, and is not complete then; default 10
+    /// million.
+    pub most_states: u32,
+}
+
+/// What time is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Clocks {
+    /// All clocks show zero, always, and a timer may fire at any time once it is armed.
+    #[default]
+    Still,
+    /// Clocks advance in ticks. A timer fires at the first tick at which it is due, before the clock goes
+    /// on.
+    Ticking {
+        /// How long a tick is.
+        tick: Duration,
+        /// How many there are.
+        ticks: u16,
+        /// By how many ticks a robot's clock may be ahead of another's; at 0 all advance together.
+        skew: u16,
+    },
+}
+
+impl Default for Bounds {
+    fn default() -> Bounds {
+        Bounds {
+            losses: 0,
+            duplicates: 0,
+            crashes: 0,
+            suspicions: 0,
+            timers: 1,
+            clocks: Clocks::Still,
+            depth: None,
+            most_states: 10_000_000,
+        }
+    }
+}
+
+/// What is left of bounds on a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Left {
+    pub losses: u8,
+    pub duplicates: u8,
+    pub crashes: u8,
+    pub suspicions: u8,
+    pub timers: u8,
+}
+
+impl Left {
+    /// How many words it takes.
+    pub const WORDS: usize = 2;
+
+    pub fn of(bounds: &Bounds) -> Left {
+        Left {
+            losses: bounds.losses,
+            duplicates: bounds.duplicates,
+            crashes: bounds.crashes,
+            suspicions: bounds.suspicions,
+            timers: match bounds.clocks {
+                Clocks::Still => bounds.timers,
+                Clocks::Ticking { .. } => u8::MAX,
+            },
+        }
+    }
+
+    pub fn words(self) -> [u32; Left::WORDS] {
+        let Left {
+            losses,
+            duplicates,
+            crashes,
+            suspicions,
+            timers,
+        } = self;
+        let first = u32::from_le_bytes([losses, duplicates, crashes, suspicions]);
+        [first, u32::from(timers)]
+    }
+
+    pub fn read(words: &[u32]) -> Left {
+        let word = |index: usize| words.get(index).copied().unwrap_or_default();
+        let [losses, duplicates, crashes, suspicions] = word(0).to_le_bytes();
+        Left {
+            losses,
+            duplicates,
+            crashes,
+            suspicions,
+            timers: word(1) as u8,
+        }
+    }
+}

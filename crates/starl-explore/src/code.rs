@@ -1,0 +1,109 @@
+//! Steps in one word each, since a search keeps one for every state.
+
+use crate::robots::Robots;
+use crate::step::Step;
+use starl_core::RobotId;
+
+/// A step in one word: what happens in the upper four bits, to what in the others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Code(pub u32);
+
+/// What happens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub(crate) enum Kind {
+    Activate,
+    Timer,
+    Deliver,
+    Duplicate,
+    Lose,
+    Crash,
+    Restart,
+    RestartDeaf,
+    Suspect,
+    Trust,
+    Tick,
+    TickAll,
+}
+
+const KINDS: [Kind; 12] = [
+    Kind::Activate,
+    Kind::Timer,
+    Kind::Deliver,
+    Kind::Duplicate,
+    Kind::Lose,
+    Kind::Crash,
+    Kind::Restart,
+    Kind::RestartDeaf,
+    Kind::Suspect,
+    Kind::Trust,
+    Kind::Tick,
+    Kind::TickAll,
+];
+
+const SHIFT: u32 = 28;
+
+/// More kinds of datagrams than this have no numbers.
+pub(crate) const MOST_DATAGRAMS: usize = 1 << SHIFT;
+
+/// More robots than this have no numbers here.
+pub(crate) const MOST_ROBOTS: usize = 1 << 8;
+
+impl Code {
+    /// Something that happens to the datagram with this number.
+    pub fn datagram(kind: Kind, number: u32) -> Code {
+        Code((kind as u32) << SHIFT | number)
+    }
+
+    /// Something that happens to a robot; which of its timers or peers is given where that matters.
+    pub fn robot(kind: Kind, robot: RobotId, which: u32) -> Code {
+        Code((kind as u32) << SHIFT | which << 8 | robot.0)
+    }
+
+    pub fn kind(self) -> Kind {
+        KINDS[(self.0 >> SHIFT) as usize % KINDS.len()]
+    }
+
+    /// The datagram's number.
+    pub fn number(self) -> u32 {
+        self.0 & ((1 << SHIFT) - 1)
+    }
+
+    /// Which timer or peer.
+    pub fn which(self) -> u32 {
+        self.number() >> 8
+    }
+
+    /// The step in words. `local` is the state of its robot before it.
+    pub fn step(self, local: u32, robots: &Robots) -> Step {
+        let robot = RobotId(self.0 & 0xff);
+        let peer = RobotId(self.which());
+        let datagram = || robots.datagram(self.number()).clone();
+        match self.kind() {
+            Kind::Activate => Step::Activate(robot),
+            Kind::Timer => {
+                let mut armed = robots.state(local).timers.keys();
+                let key = armed.nth(self.which() as usize);
+                Step::Timer(robot, *key.unwrap_or_else(|| unreachable!("it fired")))
+            }
+            Kind::Deliver => Step::Deliver(datagram()),
+            Kind::Duplicate => Step::Duplicate(datagram()),
+            Kind::Lose => Step::Lose(datagram()),
+            Kind::Crash => Step::Crash(robot),
+            Kind::Restart => Step::Restart(robot),
+            Kind::RestartDeaf => Step::RestartDeaf(robot),
+            Kind::Suspect => Step::Suspect(robot, peer),
+            Kind::Trust => Step::Trust(robot, peer),
+            Kind::Tick => Step::Tick(robot),
+            Kind::TickAll => Step::TickAll,
+        }
+    }
+
+    /// The robot to which it happens; none where it happens to a datagram or to all.
+    pub fn of_robot(self) -> Option<RobotId> {
+        match self.kind() {
+            Kind::Deliver | Kind::Duplicate | Kind::Lose | Kind::TickAll => None,
+            _ => Some(RobotId(self.0 & 0xff)),
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Explores every behaviour of a small fleet within bounds: all orders in which datagrams can arrive,
+//! losses, duplicates, crashes and restarts, timers and activations at any time they could come.
+//!
+//! It is a host of the same [`starl_core::Agent`] as the simulator, with the same checkers of properties.
+//! A simulation is one behaviour out of many; an exploration is all of them, for fleets so small that it
+//! comes to an end. Robots stand still. What time is here, and what a search that found nothing says, is
+//! told in `docs/explanation/exploration.md`.
+//!
+//! [`Search`] finds the states, and the shortest way to a violation; [`Walk`] goes that way step by step,
+//! without any of the search's shortcuts.
+
+mod bounds;
+mod code;
+mod doubt;
+mod expand;
+mod model;
+mod robot;
+mod robots;
+mod scene;
+mod search;
+mod step;
+mod table;
+mod texts;
+mod walk;
+mod watch;
+
+pub use bounds::{Bounds, Clocks};
+pub use expand::STUCK;
+pub use model::{Member, Model};
+pub use scene::{Invariant, Scene};
+pub use search::{Counterexample, End, Report, Search, TooManyRobots};
+pub use step::{Datagram, Step};
+pub use walk::{Impossible, Moment, Walk};
+
+use starl_core::{Event, RobotId, Time};
+use starl_sim::properties::{Checker, Violation};
+
+/// What is explored, how far, and what is to hold.
+#[derive(Clone)]
+pub struct Setup {
+    /// The fleet.
+    pub model: Model,
+    /// How much may go wrong.
+    pub bounds: Bounds,
+    /// What is to hold of behaviours.
+    pub checkers: Vec<Box<dyn Checker>>,
+    /// What is to hold of states.
+    pub invariants: Vec<Box<dyn Invariant>>,
+}
+
+/// The property that is violated where a program says that it cannot go on, or a run-time error stops it.
+pub const FAILED: &str = "explore.failed";
+
+/// A program that cannot go on, among events.
+fn failure(events: &[(RobotId, Event)], at: Time) -> Option<Violation> {
+    events.iter().find_map(|(robot, event)| match event {
+        Event::Failed(reason) => Some(Violation {
+            property: FAILED.into(),
+            at,
+            robots: vec![*robot],
+            text: format!("the program of robot {robot} failed: {reason}"),
+        }),
+        _ => None,
+    })
+}
+
+/// Robots that wait for what will never happen.
+fn stuck(waiting: Vec<RobotId>, at: Time) -> Option<Violation> {
+    let names: Vec<String> = waiting.iter().map(RobotId::to_string).collect();
+    (!waiting.is_empty()).then(|| Violation {
+        property: STUCK.into(),
+        at,
+        text: format!(
+            "nothing can happen any more, and these robots have not finished: {}",
+            names.join(", ")
+        ),
+        robots: waiting,
+    })
+}

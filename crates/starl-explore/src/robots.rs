@@ -1,0 +1,207 @@
+//! The states of single robots, by number, and what each input makes of them.
+//!
+//! A fleet has far fewer states of single robots than it has states, so programs run once for each
+//! state of a robot and input, and never again.
+
+use crate::code::{Code, Kind, MOST_DATAGRAMS};
+use crate::doubt::Doubt;
+use crate::robot::{Happening, Local, Surroundings};
+use crate::step::Datagram;
+use crate::table::Table;
+use crate::texts::Texts;
+use crate::watch;
+use starl_core::{Event, RobotId};
+use std::ops::Range;
+
+/// Events of one turn, with their robot.
+pub(crate) type Batch = Vec<(RobotId, Event)>;
+
+/// No events.
+pub(crate) const NOTHING: u32 = 0;
+
+/// All states of robots that were seen.
+#[derive(Clone)]
+pub(crate) struct Robots {
+    pub surroundings: Surroundings,
+    states: Vec<Local>,
+    texts: Texts,
+    datagrams: Vec<Datagram>,
+    datagram_rows: Table,
+    batches: Vec<Batch>,
+    batch_texts: Texts,
+    /// Rows of state and code.
+    turns: Table,
+    outcomes: Vec<Outcome>,
+    /// Numbers of datagrams that were sent, turn by turn.
+    sent: Vec<u32>,
+    pub motions: u64,
+    pub doubt: Option<Box<Doubt>>,
+}
+
+/// What comes of a turn.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Outcome {
+    /// The robot's state after it.
+    pub local: u32,
+    /// What it has to tell checkers.
+    pub batch: u32,
+    /// Where the numbers of what it sent are.
+    sent: Range<usize>,
+}
+
+impl Outcome {
+    /// Whether nothing came of a turn of a robot in this state.
+    pub fn is_idle(&self, local: u32) -> bool {
+        self.local == local && self.batch == NOTHING && self.sent.is_empty()
+    }
+}
+
+impl Robots {
+    pub fn new(surroundings: Surroundings) -> Robots {
+        let mut robots = Robots {
+            surroundings,
+            states: Vec::new(),
+            texts: Texts::default(),
+            datagrams: Vec::new(),
+            datagram_rows: Table::default(),
+            batches: Vec::new(),
+            batch_texts: Texts::default(),
+            turns: Table::default(),
+            outcomes: Vec::new(),
+            sent: Vec::new(),
+            motions: 0,
+            doubt: None,
+        };
+        let nothing = robots.batch(Vec::new());
+        debug_assert_eq!(nothing, NOTHING);
+        robots
+    }
+
+    /// How many states there are.
+    pub fn len(&self) -> usize {
+        self.states.len()
+    }
+
+    /// Whether there are more kinds of datagrams than have numbers.
+    pub fn is_full(&self) -> bool {
+        self.datagrams.len() >= MOST_DATAGRAMS
+    }
+
+    pub fn state(&self, local: u32) -> &Local {
+        &self.states[local as usize]
+    }
+
+    pub fn datagram(&self, number: u32) -> &Datagram {
+        &self.datagrams[number as usize]
+    }
+
+    pub fn events(&self, batch: u32) -> &Batch {
+        &self.batches[batch as usize]
+    }
+
+    /// The numbers of what was sent in a turn.
+    pub fn sent(&self, outcome: &Outcome) -> &[u32] {
+        &self.sent[outcome.sent.clone()]
+    }
+
+    /// Starts a robot.
+    pub fn start(&mut self, robot: RobotId) -> Outcome {
+        let turn = Local::start(robot, &self.surroundings);
+        self.enter(turn)
+    }
+
+    /// What becomes of a robot in this state.
+    pub fn turn(&mut self, local: u32, code: Code) -> Outcome {
+        let (number, is_new) = self.turns.insert(&[local, code.0]);
+        if is_new {
+            let happening = self.happening(local, code);
+            let turn = self.states[local as usize].turn(&happening, &self.surroundings);
+            let outcome = self.enter(turn);
+            self.outcomes.push(outcome.clone());
+            if self.doubt.is_some() {
+                self.compare_twins(local, code);
+            }
+        }
+        self.outcomes[number as usize].clone()
+    }
+
+    pub(crate) fn happening(&self, local: u32, code: Code) -> Happening {
+        let peer = RobotId(code.which());
+        match code.kind() {
+            Kind::Timer => {
+                let mut armed = self.states[local as usize].timers.keys();
+                match armed.nth(code.which() as usize) {
+                    Some(key) => Happening::Timer(*key),
+                    None => unreachable!("only timers that are armed fire"),
+                }
+            }
+            Kind::Deliver | Kind::Duplicate | Kind::Lose => {
+                Happening::Message(self.datagram(code.number()).message())
+            }
+            Kind::Crash => Happening::Crash,
+            Kind::Restart | Kind::RestartDeaf => Happening::Restart,
+            Kind::Suspect => Happening::Suspect(peer),
+            Kind::Trust => Happening::Trust(peer),
+            Kind::Tick | Kind::TickAll => Happening::Tick,
+            Kind::Activate => Happening::Activate,
+        }
+    }
+
+    /// Gives all that has come of a turn its numbers.
+    pub(crate) fn enter(&mut self, turn: crate::robot::Turn) -> Outcome {
+        self.motions += turn.motions;
+        let robot = turn.local.robot;
+        let begin = self.sent.len();
+        for datagram in turn.sent {
+            let number = self.number_of(datagram);
+            self.sent.push(number);
+        }
+        let events = turn.events.into_iter().filter(watch::is_shown);
+        let batch = self.batch(events.map(|event| (robot, event)).collect());
+        Outcome {
+            local: self.number(turn.local),
+            batch,
+            sent: begin..self.sent.len(),
+        }
+    }
+
+    fn number(&mut self, local: Local) -> u32 {
+        let mut text = String::new();
+        local.write(&mut text);
+        let (number, is_new) = self.texts.insert(&text);
+        if is_new {
+            self.states.push(local);
+        } else if let Some(doubt) = &mut self.doubt {
+            doubt.meet(number, local);
+        }
+        number
+    }
+
+    fn number_of(&mut self, datagram: Datagram) -> u32 {
+        let bytes = datagram.payload.chunks(4).map(|chunk| {
+            let mut word = [0; 4];
+            word[..chunk.len()].copy_from_slice(chunk);
+            u32::from_le_bytes(word)
+        });
+        let head = [
+            datagram.from.0,
+            datagram.to.0,
+            datagram.port.0,
+            datagram.payload.len() as u32,
+        ];
+        let row: Vec<u32> = head.into_iter().chain(bytes).collect();
+        let (number, is_new) = self.datagram_rows.insert(&row);
+        if is_new {
+            self.datagrams.push(datagram);
+        }
+        number
+    }
+
+    fn batch(&mut self, batch: Batch) -> u32 {
+        let (number, is_new) = self.batch_texts.insert(&format!("{batch:?}"));
+        if is_new {
+            self.batches.push(batch);
+        }
+        number
+    }
+}

@@ -1,0 +1,114 @@
+//! What can happen next in an exploration, as plain data that can be kept in a file.
+
+use serde::{Deserialize, Serialize};
+use starl_core::{Message, Payload, Port, RobotId, TimerKey};
+use std::fmt;
+
+/// A datagram on its way.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct Datagram {
+    /// The sender.
+    pub from: RobotId,
+    /// The receiver.
+    pub to: RobotId,
+    /// The endpoint there.
+    pub port: Port,
+    /// The content.
+    pub payload: Vec<u8>,
+}
+
+/// One step.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Step {
+    /// A control period has passed on a robot.
+    Activate(RobotId),
+    /// A timer fires.
+    Timer(RobotId, TimerKey),
+    /// A datagram arrives.
+    Deliver(Datagram),
+    /// A datagram arrives, and will arrive once more.
+    Duplicate(Datagram),
+    /// A datagram gets lost.
+    Lose(Datagram),
+    /// A robot crashes: all that its program knows is gone.
+    Crash(RobotId),
+    /// A robot that was down starts again.
+    Restart(RobotId),
+    /// The same, and all datagrams that were on their way to it have got lost while it was down.
+    RestartDeaf(RobotId),
+    /// A robot's failure detector suspects another robot.
+    Suspect(RobotId, RobotId),
+    /// A robot's failure detector trusts another robot again.
+    Trust(RobotId, RobotId),
+    /// The clock of one robot advances by a tick.
+    Tick(RobotId),
+    /// All clocks advance by a tick.
+    TickAll,
+}
+
+impl Datagram {
+    /// As the receiver gets it.
+    pub fn message(&self) -> Message {
+        Message {
+            from: self.from,
+            port: self.port,
+            payload: Payload::from_slice(&self.payload),
+        }
+    }
+}
+
+impl Step {
+    /// The robot to which it happens; none where it happens to all.
+    pub fn robot(&self) -> Option<RobotId> {
+        match self {
+            Step::Activate(robot)
+            | Step::Timer(robot, _)
+            | Step::Crash(robot)
+            | Step::Restart(robot)
+            | Step::RestartDeaf(robot)
+            | Step::Suspect(robot, _)
+            | Step::Trust(robot, _)
+            | Step::Tick(robot) => Some(*robot),
+            Step::Deliver(datagram) | Step::Duplicate(datagram) | Step::Lose(datagram) => {
+                Some(datagram.to)
+            }
+            Step::TickAll => None,
+        }
+    }
+}
+
+impl fmt::Display for Step {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Step::Activate(robot) => write!(f, "robot {robot} is activated"),
+            Step::Timer(robot, key) => {
+                let TimerKey { kind, number, .. } = key;
+                write!(
+                    f,
+                    "a timer of robot {robot} fires (kind {kind}, number {number})"
+                )
+            }
+            Step::Deliver(Datagram { from, to, .. }) => {
+                write!(f, "a datagram from robot {from} reaches robot {to}")
+            }
+            Step::Duplicate(Datagram { from, to, .. }) => write!(
+                f,
+                "a datagram from robot {from} reaches robot {to}, and a copy stays on its way"
+            ),
+            Step::Lose(Datagram { from, to, .. }) => {
+                write!(f, "a datagram from robot {from} to robot {to} gets lost")
+            }
+            Step::Crash(robot) => write!(f, "robot {robot} crashes"),
+            Step::Restart(robot) => write!(f, "robot {robot} starts again"),
+            Step::RestartDeaf(robot) => write!(
+                f,
+                "robot {robot} starts again; what was on its way to it has got lost"
+            ),
+            Step::Suspect(robot, peer) => write!(f, "robot {robot} suspects robot {peer}"),
+            Step::Trust(robot, peer) => write!(f, "robot {robot} trusts robot {peer} again"),
+            Step::Tick(robot) => write!(f, "the clock of robot {robot} ticks"),
+            Step::TickAll => write!(f, "all clocks tick"),
+        }
+    }
+}

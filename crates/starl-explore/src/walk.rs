@@ -1,0 +1,322 @@
+//! Goes one way through the states, step by step, and tells all that happens on it.
+//!
+//! It holds the robots themselves and not their numbers, and knows nothing of the search: a way that
+//! leads to a violation here is one that robots can go.
+
+use crate::Setup;
+use crate::bounds::{Bounds, Clocks, Left};
+use crate::expand::ready;
+use crate::robot::{Happening, Local, Surroundings, Turn};
+use crate::scene::{Invariant, Scene};
+use crate::step::{Datagram, Step};
+use crate::watch::{self, Checkers};
+use starl_core::event::DropReason;
+use starl_core::{Destination, Event, Payload, Record, RobotId, Time};
+use starl_sim::properties::Violation;
+use std::fmt;
+
+/// A fleet on its way.
+#[derive(Clone)]
+pub struct Walk {
+    surroundings: Surroundings,
+    bounds: Bounds,
+    left: Left,
+    locals: Vec<Local>,
+    /// What is on its way, with the sender's number for it.
+    flight: Vec<(Datagram, u32)>,
+    /// Counts each robot's datagrams.
+    sent: Vec<u32>,
+    checkers: Checkers,
+    invariants: Vec<Box<dyn Invariant>>,
+    steps: u64,
+}
+
+/// What happens in a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moment {
+    /// The events, in order, as a trace has them. The time is the number of the step, as seconds: 0 for
+    /// the start.
+    pub records: Vec<Record>,
+    /// What does not hold after it.
+    pub violations: Vec<Violation>,
+}
+
+/// A step that cannot be taken.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Impossible(pub String);
+
+impl Walk {
+    /// All robots start.
+    pub fn start(setup: Setup) -> (Walk, Moment) {
+        let Setup {
+            model,
+            bounds,
+            checkers,
+            invariants,
+        } = setup;
+        let surroundings = Surroundings::new(model, bounds.clocks);
+        let turns: Vec<Turn> = surroundings
+            .fleet
+            .iter()
+            .map(|&robot| Local::start(robot, &surroundings))
+            .collect();
+        let mut walk = Walk {
+            locals: turns.iter().map(|turn| turn.local.clone()).collect(),
+            flight: Vec::new(),
+            sent: vec![0; turns.len()],
+            left: Left::of(&bounds),
+            surroundings,
+            bounds,
+            checkers,
+            invariants,
+            steps: 0,
+        };
+        let moment = walk.settle(Vec::new(), turns);
+        (walk, moment)
+    }
+
+    /// Takes a step.
+    ///
+    /// # Errors
+    /// Where it is not possible in this state.
+    pub fn step(&mut self, step: &Step) -> Result<Moment, Impossible> {
+        self.steps += 1;
+        let mut records = Vec::new();
+        let turns =
+            match step {
+                Step::Activate(robot) => vec![self.turn(*robot, Happening::Activate)?],
+                Step::Timer(robot, key) => {
+                    let local = self.running(*robot)?;
+                    let silent = &self.surroundings.model.silent;
+                    let mut armed = local.timers.keys();
+                    let place = armed.position(|armed| armed == key);
+                    let ready = ready(local, self.bounds.clocks, |port| silent.contains(&port));
+                    if !place.is_some_and(|place| ready.contains(&(place as u32))) {
+                        return Err(Impossible("the timer cannot fire".into()));
+                    }
+                    if self.bounds.clocks == Clocks::Still {
+                        spend(&mut self.left.timers, "timers")?;
+                    }
+                    vec![self.turn(*robot, Happening::Timer(*key))?]
+                }
+                Step::Deliver(datagram) => vec![self.deliver(datagram, true, &mut records)?],
+                Step::Duplicate(datagram) => {
+                    spend(&mut self.left.duplicates, "duplicates")?;
+                    vec![self.deliver(datagram, false, &mut records)?]
+                }
+                Step::Lose(datagram) => {
+                    spend(&mut self.left.losses, "losses")?;
+                    let place = self.find(datagram)?;
+                    let (datagram, sequence) = self.flight.remove(place);
+                    records.push(self.lost(&datagram, sequence, DropReason::Loss));
+                    Vec::new()
+                }
+                Step::Crash(robot) => {
+                    spend(&mut self.left.crashes, "crashes")?;
+                    vec![self.turn(*robot, Happening::Crash)?]
+                }
+                Step::Restart(robot) => vec![self.restart(*robot)?],
+                Step::RestartDeaf(robot) => {
+                    let (missed, kept) = std::mem::take(&mut self.flight)
+                        .into_iter()
+                        .partition(|(datagram, _)| datagram.to == *robot);
+                    self.flight = kept;
+                    let missed: Vec<(Datagram, u32)> = missed;
+                    let missed = missed.iter();
+                    records.extend(missed.map(|(datagram, sequence)| {
+                        self.lost(datagram, *sequence, DropReason::Down)
+                    }));
+                    vec![self.restart(*robot)?]
+                }
+                Step::Suspect(robot, peer) => {
+                    spend(&mut self.left.suspicions, "suspicions")?;
+                    vec![self.turn(*robot, Happening::Suspect(*peer))?]
+                }
+                Step::Trust(robot, peer) => {
+                    spend(&mut self.left.suspicions, "suspicions")?;
+                    vec![self.turn(*robot, Happening::Trust(*peer))?]
+                }
+                Step::Tick(robot) => vec![self.tick(*robot)?],
+                Step::TickAll => {
+                    let fleet = self.surroundings.fleet.clone();
+                    let turns = fleet.into_iter().map(|robot| self.tick(robot));
+                    turns.collect::<Result<_, _>>()?
+                }
+            };
+        Ok(self.settle(records, turns))
+    }
+
+    /// The state of the fleet.
+    pub fn scene(&self) -> Scene<'_> {
+        Scene {
+            locals: self.locals.iter().collect(),
+            surroundings: &self.surroundings,
+        }
+    }
+
+    /// What is on its way.
+    pub fn flight(&self) -> impl Iterator<Item = &Datagram> {
+        self.flight.iter().map(|(datagram, _)| datagram)
+    }
+
+    /// Robots that wait for ever, if nothing can happen any more in this state. Whether something can is
+    /// for the search to say.
+    pub fn stuck(&self) -> Option<Violation> {
+        let waiting = self
+            .locals
+            .iter()
+            .filter(|local| local.runs() && !local.finished);
+        crate::stuck(waiting.map(|local| local.robot).collect(), Time::ZERO)
+    }
+
+    /// Where records of this step are in time.
+    fn at(&self) -> Time {
+        Time(self.steps.saturating_mul(1_000_000_000))
+    }
+
+    fn local(&self, robot: RobotId) -> Result<&Local, Impossible> {
+        let local = self.locals.get(robot.index());
+        local.ok_or_else(|| Impossible(format!("there is no robot {robot}")))
+    }
+
+    fn running(&self, robot: RobotId) -> Result<&Local, Impossible> {
+        let local = self.local(robot)?;
+        match local.agent {
+            Some(_) => Ok(local),
+            None => Err(Impossible(format!("robot {robot} is down"))),
+        }
+    }
+
+    fn turn(&self, robot: RobotId, happening: Happening) -> Result<Turn, Impossible> {
+        let local = self.running(robot)?;
+        Ok(local.turn(&happening, &self.surroundings))
+    }
+
+    fn restart(&self, robot: RobotId) -> Result<Turn, Impossible> {
+        let local = self.local(robot)?;
+        match local.agent {
+            None => Ok(local.turn(&Happening::Restart, &self.surroundings)),
+            Some(_) => Err(Impossible(format!("robot {robot} is not down"))),
+        }
+    }
+
+    fn tick(&self, robot: RobotId) -> Result<Turn, Impossible> {
+        let local = self.local(robot)?;
+        let Clocks::Ticking { ticks, .. } = self.bounds.clocks else {
+            return Err(Impossible("clocks stand still".into()));
+        };
+        if local.is_due(&self.surroundings.model.silent) || local.clock >= u64::from(ticks) {
+            return Err(Impossible(format!(
+                "the clock of robot {robot} cannot tick"
+            )));
+        }
+        Ok(local.turn(&Happening::Tick, &self.surroundings))
+    }
+
+    fn find(&self, wanted: &Datagram) -> Result<usize, Impossible> {
+        let mut flight = self.flight.iter();
+        let place = flight.position(|(datagram, _)| datagram == wanted);
+        place.ok_or_else(|| Impossible("no such datagram is on its way".into()))
+    }
+
+    fn deliver(
+        &mut self,
+        datagram: &Datagram,
+        is_last: bool,
+        records: &mut Vec<Record>,
+    ) -> Result<Turn, Impossible> {
+        let place = self.find(datagram)?;
+        let turn = self.turn(datagram.to, Happening::Message(datagram.message()))?;
+        let (from, sequence) = (datagram.from, self.flight[place].1);
+        if is_last {
+            self.flight.remove(place);
+        }
+        records.push(Record {
+            at: self.at(),
+            robot: Some(datagram.to),
+            event: Event::Delivered { from, sequence },
+        });
+        Ok(turn)
+    }
+
+    fn lost(&self, datagram: &Datagram, sequence: u32, reason: DropReason) -> Record {
+        Record {
+            at: self.at(),
+            robot: Some(datagram.to),
+            event: Event::Dropped {
+                from: datagram.from,
+                to: Some(datagram.to),
+                sequence,
+                reason,
+            },
+        }
+    }
+
+    /// Takes in what has come of turns.
+    fn settle(&mut self, mut records: Vec<Record>, turns: Vec<Turn>) -> Moment {
+        let mut violations = Vec::new();
+        let at = self.at();
+        for turn in turns {
+            let robot = turn.local.robot;
+            self.locals[robot.index()] = turn.local;
+            let ticks = self.locals.iter().map(|local| local.clock).max();
+            let now = self.surroundings.time(ticks.unwrap_or_default());
+            let record = |event: Event| Record {
+                at,
+                robot: Some(robot),
+                event,
+            };
+            for datagram in turn.sent {
+                let sequence = self.sent[robot.index()];
+                self.sent[robot.index()] += 1;
+                records.push(record(Event::Sent {
+                    sequence,
+                    destination: Destination::Robot(datagram.to),
+                    port: datagram.port,
+                    payload: Payload::from_slice(&datagram.payload),
+                }));
+                self.flight.push((datagram, sequence));
+            }
+            records.extend(turn.events.iter().cloned().map(record));
+            let events = turn.events.into_iter().filter(watch::is_shown);
+            let events: Vec<(RobotId, Event)> = events.map(|event| (robot, event)).collect();
+            if !events.is_empty() {
+                let (checkers, found) = watch::observe(&self.checkers, &events, now);
+                self.checkers = checkers;
+                violations.extend(found);
+                violations.extend(crate::failure(&events, now));
+            }
+        }
+        let scene = Scene {
+            locals: self.locals.iter().collect(),
+            surroundings: &self.surroundings,
+        };
+        for invariant in &self.invariants {
+            invariant.judge(&scene, &mut violations);
+        }
+        Moment {
+            records,
+            violations,
+        }
+    }
+}
+
+fn spend(budget: &mut u8, what: &str) -> Result<(), Impossible> {
+    match budget.checked_sub(1) {
+        Some(left) => {
+            *budget = left;
+            Ok(())
+        }
+        None => Err(Impossible(format!(
+            "there are no {what} left within the bounds"
+        ))),
+    }
+}
+
+impl fmt::Display for Impossible {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Impossible {}

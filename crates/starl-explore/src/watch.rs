@@ -1,0 +1,122 @@
+//! The checkers of properties, as one more state machine: it takes in events, and what it remembers is
+//! a part of the state that is explored.
+//!
+//! Two paths that lead robots and network to the same state are one only if the checkers have seen the
+//! same too, as far as it matters to them: all that `Debug` shows of them. So a verdict that depends on
+//! the past, such as that somebody else still holds a lock, is right on every path.
+//!
+//! Checkers are not shown datagrams. They need them only to excuse what came too late, and nothing is
+//! too late here: an exploration has no bounds of time.
+
+use crate::table::Table;
+use crate::texts::Texts;
+use starl_core::{Duration, Event, Record, RobotId, Time};
+use starl_sim::properties::{Checker, Violation};
+
+/// A state of all checkers.
+pub(crate) type Checkers = Vec<Box<dyn Checker>>;
+
+/// What some checkers hold back until they have seen all of a step comes to light after this time.
+const A_WHILE: Duration = Duration::from_seconds(1);
+
+/// What becomes of checkers that are shown events at a time; all violations are returned.
+pub(crate) fn observe(
+    checkers: &Checkers,
+    events: &[(RobotId, Event)],
+    at: Time,
+) -> (Checkers, Vec<Violation>) {
+    let mut after = checkers.clone();
+    let mut violations = Vec::new();
+    for checker in &mut after {
+        for (robot, event) in events {
+            let record = Record {
+                at,
+                robot: Some(*robot),
+                event: event.clone(),
+            };
+            checker.observe(&record, &mut violations);
+        }
+        let mut later = checker.clone();
+        later.advance(at + A_WHILE, &mut violations);
+    }
+    (after, violations)
+}
+
+/// Whether checkers are shown it.
+pub(crate) fn is_shown(event: &Event) -> bool {
+    matches!(
+        event,
+        Event::Action(_)
+            | Event::Program { .. }
+            | Event::Primitive { .. }
+            | Event::Fault(_)
+            | Event::Finished
+            | Event::Failed(_)
+    )
+}
+
+/// All states of the checkers that were seen, by number, and what events make of them.
+#[derive(Clone)]
+pub(crate) struct Watches {
+    states: Vec<Checkers>,
+    texts: Texts,
+    /// Rows of state, batch and time.
+    known: Table,
+    outcomes: Vec<Outcome>,
+}
+
+/// What comes of showing a batch of events.
+#[derive(Clone)]
+pub(crate) struct Outcome {
+    /// The state after it.
+    pub watch: u32,
+    /// The first violation.
+    pub violation: Option<Box<Violation>>,
+}
+
+impl Watches {
+    /// Checkers that have seen nothing have the number 0.
+    pub fn new(checkers: Checkers) -> Watches {
+        let mut watches = Watches {
+            states: Vec::new(),
+            texts: Texts::default(),
+            known: Table::default(),
+            outcomes: Vec::new(),
+        };
+        watches.number(checkers);
+        watches
+    }
+
+    /// How many states were seen.
+    pub fn len(&self) -> usize {
+        self.states.len()
+    }
+
+    fn number(&mut self, checkers: Checkers) -> u32 {
+        let (number, is_new) = self.texts.insert(&format!("{checkers:?}"));
+        if is_new {
+            self.states.push(checkers);
+        }
+        number
+    }
+
+    /// What becomes of a state when it is shown the events with this number, at a time that is given in
+    /// ticks as well.
+    pub fn show(
+        &mut self,
+        watch: u32,
+        (batch, events): (u32, &[(RobotId, Event)]),
+        (tick, at): (u64, Time),
+    ) -> &Outcome {
+        let (number, is_new) = self.known.insert(&[watch, batch, tick as u32]);
+        if is_new {
+            let (after, violations) = observe(&self.states[watch as usize], events, at);
+            let watch = self.number(after);
+            self.outcomes.push(Outcome {
+                watch,
+                violation: violations.into_iter().next().map(Box::new),
+            });
+        }
+        &self.outcomes[number as usize]
+    }
+}
