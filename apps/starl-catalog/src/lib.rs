@@ -6,6 +6,7 @@
 //! in the StarL language is brought by the loader that brings the others.
 
 pub mod examples;
+mod explore;
 pub mod language;
 mod parameters;
 pub mod programs;

@@ -18,7 +18,7 @@ use std::fmt;
 #[derive(Clone, Debug)]
 pub struct Application {
     resolved: Resolved,
-    programs: Programs,
+    pub(crate) programs: Programs,
     warnings: Vec<Findings>,
 }
 
@@ -108,7 +108,7 @@ impl Application {
         Simulation::new(self.scenario().clone(), &|group| self.program(group))
     }
 
-    fn program(&self, group: &Group) -> Result<Box<dyn Program>, String> {
+    pub(crate) fn program(&self, group: &Group) -> Result<Box<dyn Program>, String> {
         self.make(group).map_err(|complaint| complaint.message)
     }
 

@@ -30,6 +30,8 @@ pub enum Command {
     Run(RunArguments),
     /// Run again what a trace recorded, and compare record by record
     Replay(ReplayArguments),
+    /// Explore every behaviour of a small fleet within bounds, or go again a way that was found
+    Explore(ExploreArguments),
     /// Check programs and libraries of the language
     Check(CheckArguments),
     /// Lay programs and libraries out in the one canonical way
@@ -94,6 +96,73 @@ pub struct ReplayArguments {
     /// Threads to step robots on [default: as for `starl run`]
     #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
     pub threads: Option<u32>,
+}
+
+/// Arguments of `starl explore`.
+#[derive(Args, Debug)]
+pub struct ExploreArguments {
+    /// An example's name, a scenario file, or a program, as for `starl run`
+    pub target: Option<String>,
+    /// What to explore a program in, as for `starl run`
+    #[arg(long, value_name = "SCENARIO")]
+    pub scenario: Option<String>,
+    /// The first N of the scenario's robots [default: 3, or all if there are fewer]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub robots: Option<u16>,
+    /// Decides what robots draw at random, the same on all ways [default: the scenario's]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub seed: Option<String>,
+    /// Set a field of the scenario, e.g. parameters.entries=1; may be repeated
+    #[arg(long, value_name = "FIELD=VALUE")]
+    pub set: Vec<String>,
+    /// Datagrams that get lost, at most
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub loss: u8,
+    /// Datagrams that arrive once more, at most
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub duplicates: u8,
+    /// Crashes, at most; who is down may start again at any time
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub crashes: u8,
+    /// Suspicions by failure detectors, true or false, and ends of suspicions, at most
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub suspicions: u8,
+    /// Timers that fire, at most; without --tick they may at any time
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub timers: u8,
+    /// Have failure detectors send heartbeats, which makes for many states
+    #[arg(long)]
+    pub heartbeats: bool,
+    /// Have clocks tick: a tick is this long [default: all clocks show zero]
+    #[arg(long, value_name = "TIME")]
+    pub tick: Option<String>,
+    /// With --tick: how long clocks tick
+    #[arg(long, value_name = "TIME", default_value = "10s")]
+    pub time: String,
+    /// With --tick: by how many ticks a clock may be ahead of another
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub skew: u16,
+    /// Go no further than this many steps from the start; exit status 3 if there is more
+    #[arg(long, value_name = "N")]
+    pub depth: Option<u32>,
+    /// Stop at this many states, some 100 bytes each, with exit status 3
+    #[arg(long, value_name = "N", default_value_t = 10_000_000)]
+    pub most_states: u32,
+    /// Compare robots that are taken for the same with each other in every input
+    #[arg(long)]
+    pub doubt: bool,
+    /// Where to keep the way to a violation [default: TARGET-counterexample.json]
+    #[arg(long, value_name = "PATH")]
+    pub save: Option<PathBuf>,
+    /// Go the way that this file keeps, step by step, and explore nothing
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["target", "save"])]
+    pub replay: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+    /// Print nothing but errors and a violation with the way to it
+    #[arg(long)]
+    pub quiet: bool,
 }
 
 /// Arguments of `starl check`.

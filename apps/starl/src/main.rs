@@ -2,13 +2,14 @@
 //!
 //! Exit status: 0 the goal was reached and no property violated (or, for other commands, all is as it
 //! should be); 1 it was not; 2 bad input or an output that cannot be written, with one message on the
-//! error stream.
+//! error stream. `starl explore` has a status of its own besides: see `explore/`.
 
 mod args;
 mod bench;
 mod check;
 mod console;
 mod explain;
+mod explore;
 mod failure;
 mod fmt;
 mod json;
@@ -37,6 +38,7 @@ fn main() -> ExitCode {
     // Bad arguments end the process here, with exit status 2.
     let arguments = Arguments::parse();
     let result = match &arguments.command {
+        Command::Explore(arguments) => return exit(explore::run(arguments)),
         Command::Run(arguments) => run::run(arguments),
         Command::Replay(arguments) => replay::replay(arguments),
         Command::Check(arguments) => check::run(arguments),
@@ -46,12 +48,13 @@ fn main() -> ExitCode {
         Command::List(arguments) => list::list(arguments),
         Command::Bench(arguments) => bench::bench(arguments),
     };
-    match result {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(1),
-        Err(failure) => {
-            console::error(&failure.0);
-            ExitCode::from(2)
-        }
-    }
+    exit(result.map(|is_well| ExitCode::from(u8::from(!is_well))))
+}
+
+/// The status, or one message on what went wrong.
+fn exit(result: Result<ExitCode, failure::Failure>) -> ExitCode {
+    result.unwrap_or_else(|failure| {
+        console::error(&failure.0);
+        ExitCode::from(2)
+    })
 }

@@ -9,6 +9,7 @@ use crate::target::Selection;
 use crate::{console, json, summary, target, threads};
 use starl_catalog::Application;
 use starl_sim::Run;
+use starl_sim::engine::StartError;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -55,11 +56,15 @@ pub fn run(arguments: &RunArguments) -> Result<bool, Failure> {
 
 /// A run of what was read, at its start.
 pub fn start(application: &Application) -> Result<Run, Failure> {
-    application.run().map_err(|error| {
-        let field = format!("robots.{}.program", error.group);
-        let resolved = application.resolved();
-        resolved.problem(&field, &error.message, None).into()
-    })
+    let run = application.run();
+    run.map_err(|error| start_error(application, &error))
+}
+
+/// Names the place of a program that cannot be started.
+pub fn start_error(application: &Application, error: &StartError) -> Failure {
+    let field = format!("robots.{}.program", error.group);
+    let resolved = application.resolved();
+    resolved.problem(&field, &error.message, None).into()
 }
 
 /// Lets the run go on to its end, or until someone stops it.
@@ -79,7 +84,7 @@ fn drive(
 }
 
 /// Set when someone presses Ctrl-C or asks the process to end; the second time ends it at once.
-fn stop_on_interrupt() -> Arc<AtomicBool> {
+pub fn stop_on_interrupt() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = stop.clone();
     // Without a handler Ctrl-C still ends the process, only less kindly.

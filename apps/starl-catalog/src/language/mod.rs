@@ -3,6 +3,7 @@
 //! A program is known by its path relative to the scenario that names it. It is compiled once, however
 //! many robots run it.
 
+mod invariant;
 mod monitor;
 mod source;
 mod values;
@@ -10,15 +11,17 @@ mod values;
 pub use source::Findings;
 
 use crate::parameters::Complaint;
+use invariant::ProgramInvariant;
 use monitor::ProgramMonitor;
 use source::Compiled;
-use starl_core::RobotId;
-use starl_lang::robot::RobotProgram;
+use starl_core::{Port, RobotId};
+use starl_explore::Invariant;
+use starl_lang::robot::{Code, RobotProgram};
 use starl_sim::Scenario;
 use starl_sim::properties::Monitor;
 use starl_sim::read::{Loader, Resolved};
 use starl_sim::scenario::{Fleet, Group};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What a program's file ends with; any other name is that of a program of the catalog.
 pub const SUFFIX: &str = ".starl";
@@ -76,19 +79,42 @@ impl Programs {
 
     /// The monitors of what the programs say of themselves.
     pub fn monitors(&self, scenario: &Scenario) -> Vec<Box<dyn Monitor>> {
-        let monitor = |(path, compiled): (&String, &Compiled)| {
+        let named = self.named(&scenario.fleet);
+        let monitors =
+            named.filter_map(|(name, code, robots)| ProgramMonitor::new(name, code, robots));
+        monitors
+            .map(|monitor| Box::new(monitor) as Box<dyn Monitor>)
+            .collect()
+    }
+
+    /// What the programs say of every state of the first `count` robots.
+    pub fn invariants(&self, scenario: &Scenario, count: usize) -> Vec<Box<dyn Invariant>> {
+        let named = self.named(&scenario.fleet);
+        let invariants = named.filter_map(|(name, code, mut robots)| {
+            robots.retain(|robot| robot.index() < count);
+            ProgramInvariant::new(name, code, robots)
+        });
+        invariants
+            .map(|invariant| Box::new(invariant) as Box<dyn Invariant>)
+            .collect()
+    }
+
+    /// Where the programs' failure detectors listen.
+    pub fn detectors(&self) -> BTreeSet<Port> {
+        let codes = self.0.values().map(|compiled| &compiled.code);
+        codes.filter_map(Code::detector).collect()
+    }
+
+    /// Each program with the name that its properties begin with, and the robots that run it.
+    fn named(&self, fleet: &Fleet) -> impl Iterator<Item = (&str, &Code, Vec<RobotId>)> {
+        self.0.iter().map(|(path, compiled)| {
             let same = self.0.values().filter(|other| other.name == compiled.name);
             let qualifier = match same.count() {
                 1 => &compiled.name,
                 _ => path,
             };
-            let robots = members(&scenario.fleet, path);
-            ProgramMonitor::new(qualifier, &compiled.code, robots)
-        };
-        let monitors = self.0.iter().filter_map(monitor);
-        monitors
-            .map(|monitor| Box::new(monitor) as Box<dyn Monitor>)
-            .collect()
+            (qualifier.as_str(), &compiled.code, members(fleet, path))
+        })
     }
 }
 

@@ -5,6 +5,7 @@ use super::code::Code;
 use super::primitives::Needs;
 use alloc::boxed::Box;
 use alloc::format;
+use alloc::string::String;
 use starl_core::{Input, Port, Primitive, Random, Robot};
 use starl_primitives::{FailureDetector, SharedMemory, failure_detector, shared_memory};
 
@@ -28,10 +29,7 @@ impl Services {
         });
         let detector = detector.then(|| {
             let options = failure_detector::Options::default();
-            Box::new(FailureDetector::new(
-                &format!("{program}/failures"),
-                options,
-            ))
+            Box::new(FailureDetector::new(&detector_name(program), options))
         });
         let mut services = Services { memory, detector };
         services.primitives(&mut |primitive| primitive.handle(robot, &Input::Start));
@@ -63,5 +61,19 @@ impl Services {
         if let Some(detector) = &mut self.detector {
             detector.corrupt(random);
         }
+    }
+}
+
+/// What the detector of a program is called.
+fn detector_name(program: &str) -> String {
+    format!("{program}/failures")
+}
+
+impl Code {
+    /// Where the program's failure detector listens, if it has one.
+    pub fn detector(&self) -> Option<Port> {
+        let program = &self.program().bytecode().name;
+        let has_one = self.needs().detector;
+        has_one.then(|| Port::named(&detector_name(program)))
     }
 }

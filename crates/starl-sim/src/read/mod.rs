@@ -43,8 +43,10 @@ use inputs::Recorder;
 use path::Path;
 use report::{Origin, Report};
 use section::Section;
+use starl_core::Duration;
 use std::collections::BTreeMap;
 use tree::{Node, Table, Value};
+use unit::{Dimension, Quantity};
 
 /// A scenario that was read.
 #[derive(Clone, Debug)]
@@ -54,6 +56,13 @@ pub struct Resolved {
     /// All that it was read from.
     pub inputs: Inputs,
     places: BTreeMap<String, Place>,
+}
+
+/// A span of time, as scenarios have it: `250ms`; none if the text is none.
+pub fn duration(text: &str) -> Option<Duration> {
+    let (dimension, seconds) = Quantity::split(text)?.in_si()?;
+    let is_span = dimension == Dimension::Time && seconds >= 0.0 && seconds.is_finite();
+    is_span.then(|| Duration::from_seconds_f64(seconds))
 }
 
 /// Reads a scenario.

@@ -1,0 +1,106 @@
+//! What a scenario is to an explorer: its robots, who stand still at their starts, with its programs and
+//! properties. Its motion, network and faults are left out: what may go wrong there is a matter of the
+//! exploration's bounds.
+
+use crate::Application;
+use starl_core::Duration;
+use starl_core::motion::Obstacles;
+use starl_explore::{Bounds, Member, Model, Setup};
+use starl_sim::engine::StartError;
+use starl_sim::properties::{self, Setting};
+use starl_sim::scenario::{self, Goal, Properties, Scenario};
+
+/// A bound that never runs out: nothing is too late in an exploration.
+const FOREVER: Duration = Duration::from_seconds(100 * 365 * 24 * 3600);
+
+impl Application {
+    /// An exploration of the first `robots` of the fleet. `heartbeats` has failure detectors send
+    /// them, which makes for many states; without them verdicts come only as the bounds say.
+    ///
+    /// # Errors
+    /// As for [`Application::run`].
+    pub fn exploration(
+        &self,
+        robots: usize,
+        bounds: Bounds,
+        heartbeats: bool,
+    ) -> Result<Setup, StartError> {
+        let scenario = self.scenario();
+        let mut members = Vec::new();
+        for (index, group) in scenario.fleet.groups.iter().enumerate() {
+            let program = self.program(group).map_err(|message| StartError {
+                group: index,
+                message,
+            })?;
+            members.extend(group.starts.iter().map(|&pose| Member {
+                program: program.clone(),
+                pose,
+                body: group.model.body(),
+            }));
+        }
+        members.truncate(robots);
+        let setting = Setting {
+            bodies: members.iter().map(|member| member.body).collect(),
+            ..Setting::of(scenario)
+        };
+        let invariants = match scenario.properties.program {
+            true => self.programs.invariants(scenario, members.len()),
+            false => Vec::new(),
+        };
+        Ok(Setup {
+            model: Model {
+                members,
+                way_points: scenario.world.way_points.clone(),
+                obstacles: known(scenario),
+                seed: scenario.seed,
+                silent: match heartbeats {
+                    true => Default::default(),
+                    false => self.programs.detectors(),
+                },
+                all_finish: scenario.goal == Goal::AllFinished,
+            },
+            bounds,
+            checkers: properties::checkers(&timeless(scenario), &setting),
+            invariants,
+        })
+    }
+}
+
+/// The scenario with checkers that never find anything too late.
+fn timeless(scenario: &Scenario) -> Scenario {
+    let mut scenario = scenario.clone();
+    let Properties {
+        no_collision: _,
+        reach_avoid: _,
+        progress_bound,
+        broadcast: _,
+        broadcast_bound,
+        geocast: _,
+        geocast_bound,
+        shared_memory: _,
+        shared_memory_bound,
+        program: _,
+    } = &mut scenario.properties;
+    for bound in [
+        progress_bound,
+        broadcast_bound,
+        geocast_bound,
+        shared_memory_bound,
+    ] {
+        *bound = FOREVER;
+    }
+    scenario
+}
+
+/// The obstacles that robots know from the start.
+fn known(scenario: &Scenario) -> Obstacles {
+    let listed = scenario.world.obstacles.iter();
+    let listed = listed.filter(|entry| !entry.hidden);
+    let walls = scenario
+        .world
+        .bounds
+        .iter()
+        .flat_map(scenario::Bounds::walls);
+    let listed = listed.map(|entry| entry.obstacle.clone());
+    listed.chain(walls).collect()
+}

@@ -1,0 +1,239 @@
+//! What came of an exploration, for people and as JSON. The keys are described in
+//! `docs/reference/command.md`.
+
+use super::record::Recording;
+use crate::console::{counted, grouped, rounded};
+use serde::Serialize;
+use starl_core::Duration;
+use starl_explore::{Bounds, Clocks, End, Report};
+use std::fmt::Write;
+
+/// What there is to tell.
+#[derive(Debug, Serialize)]
+pub struct Account {
+    target: String,
+    outcome: &'static str,
+    robots: usize,
+    bounds: BoundsInWords,
+    states: u32,
+    transitions: u64,
+    depth: u32,
+    terminal_states: u64,
+    robot_states: usize,
+    checker_states: usize,
+    memory_bytes: usize,
+    compared_turns: u64,
+    /// How often programs asked to move.
+    ignored_motions: u64,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+    violation: Option<Violation>,
+    /// The way to the violation, line by line.
+    pub steps: Vec<String>,
+    /// Where it is kept.
+    pub saved: Option<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct BoundsInWords {
+    losses: u8,
+    duplicates: u8,
+    crashes: u8,
+    suspicions: u8,
+    /// None where time bounds them.
+    timers: Option<u8>,
+    heartbeats: bool,
+    tick_seconds: Option<f64>,
+    time_seconds: Option<f64>,
+    skew_ticks: Option<u16>,
+    depth: Option<u32>,
+    most_states: u32,
+}
+
+#[derive(Debug, Serialize)]
+struct Violation {
+    property: String,
+    text: String,
+    steps: usize,
+}
+
+impl Account {
+    /// Of a search that has ended, or was stopped.
+    pub fn new(target: &str, recording: &Recording, report: &Report, end: Option<&End>) -> Account {
+        let violation = match end {
+            Some(End::Violated(found)) => Some(Violation {
+                property: found.violation.property.to_string(),
+                text: found.violation.text.clone(),
+                steps: found.steps.len(),
+            }),
+            _ => None,
+        };
+        Account {
+            target: target.to_string(),
+            outcome: match end {
+                Some(End::Complete) => "complete",
+                Some(End::Violated(_)) => "violated",
+                Some(End::Depth) => "depth_bound",
+                Some(End::Full) => "state_bound",
+                Some(End::Contradiction(_)) => "contradiction",
+                None => "interrupted",
+            },
+            robots: recording.robots,
+            bounds: BoundsInWords::of(&recording.bounds, recording.heartbeats),
+            states: report.states,
+            transitions: report.transitions,
+            depth: report.depth,
+            terminal_states: report.terminal,
+            robot_states: report.robot_states,
+            checker_states: report.checker_states,
+            memory_bytes: report.bytes,
+            compared_turns: report.compared,
+            ignored_motions: report.motions,
+            seconds: 0.0,
+            violation,
+            steps: Vec::new(),
+            saved: None,
+        }
+    }
+
+    /// All of it, for a person.
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        let mut line = |label: &str, content: String| {
+            // Writing to a text cannot fail.
+            let _ = writeln!(text, "{label:<13}{content}");
+        };
+        line(
+            "explored",
+            format!("{}, {}", self.target, counted(self.robots, "robot")),
+        );
+        line("bounds", self.bounds.text());
+        line("states", grouped(self.states.into()));
+        line("transitions", grouped(self.transitions));
+        line("depth", counted(self.depth as usize, "step"));
+        line(
+            "ends",
+            counted(self.terminal_states as usize, "state") + " from which nothing leads on",
+        );
+        let per_second = f64::from(self.states) / self.seconds.max(1e-6);
+        line(
+            "time",
+            format!(
+                "{} s, {} states a second, {} MiB",
+                rounded(self.seconds),
+                rounded(per_second),
+                self.memory_bytes >> 20
+            ),
+        );
+        if self.compared_turns > 0 {
+            line(
+                "merging",
+                format!(
+                    "{} turns of robots that were taken for the same agree",
+                    grouped(self.compared_turns)
+                ),
+            );
+        }
+        if self.ignored_motions > 0 {
+            line(
+                "motion",
+                "robots stand still; programs asked them to move".into(),
+            );
+        }
+        line("outcome", self.verdict());
+        text + &self.violation_text()
+    }
+
+    /// The violation and the way there, if there is one.
+    pub fn violation_text(&self) -> String {
+        let Some(violation) = &self.violation else {
+            return String::new();
+        };
+        let mut text = format!("\n{}: {}\n\n", violation.property, violation.text);
+        for line in &self.steps {
+            text.push_str(line);
+            text.push('\n');
+        }
+        if let Some(saved) = &self.saved {
+            let _ = write!(
+                text,
+                "\nkept in {saved}; go it again with: starl explore --replay {saved}\n"
+            );
+        }
+        text
+    }
+
+    fn verdict(&self) -> String {
+        match (self.outcome, &self.violation) {
+            ("complete", _) => "complete: no behaviour within the bounds violates anything".into(),
+            (_, Some(violation)) => format!(
+                "violated: {} after {}; no shorter way leads there",
+                violation.property,
+                counted(violation.steps, "step")
+            ),
+            ("depth_bound", _) => format!(
+                "NOT complete: nothing is violated up to --depth {}, and there are states beyond",
+                self.depth
+            ),
+            ("state_bound", _) => format!(
+                "NOT complete: there are more states than --most-states {}; allow more, or fewer faults, \
+                 timers or robots",
+                self.bounds.most_states
+            ),
+            _ => "NOT complete: interrupted".into(),
+        }
+    }
+}
+
+impl BoundsInWords {
+    fn of(bounds: &Bounds, heartbeats: bool) -> BoundsInWords {
+        let (tick, time, skew) = match bounds.clocks {
+            Clocks::Still => (None, None, None),
+            Clocks::Ticking { tick, ticks, skew } => {
+                (Some(tick), Some(tick * u64::from(ticks)), Some(skew))
+            }
+        };
+        BoundsInWords {
+            losses: bounds.losses,
+            duplicates: bounds.duplicates,
+            crashes: bounds.crashes,
+            suspicions: bounds.suspicions,
+            timers: tick.is_none().then_some(bounds.timers),
+            heartbeats,
+            tick_seconds: tick.map(Duration::seconds),
+            time_seconds: time.map(Duration::seconds),
+            skew_ticks: skew,
+            depth: bounds.depth,
+            most_states: bounds.most_states,
+        }
+    }
+
+    fn text(&self) -> String {
+        let mut parts: Vec<String> = [
+            (self.losses, "loss", "losses"),
+            (self.duplicates, "duplicate", "duplicates"),
+            (self.crashes, "crash", "crashes"),
+            (self.suspicions, "suspicion", "suspicions"),
+        ]
+        .into_iter()
+        .filter(|part| part.0 > 0)
+        .map(|(count, one, many)| match count {
+            1 => format!("1 {one}"),
+            count => format!("{count} {many}"),
+        })
+        .collect();
+        match (self.timers, self.tick_seconds, self.time_seconds) {
+            (Some(timers), ..) => parts.push(counted(usize::from(timers), "timer") + " that fire"),
+            (_, Some(tick), Some(time)) => parts.push(format!(
+                "{time} s in ticks of {tick} s, clocks at most {} ticks apart",
+                self.skew_ticks.unwrap_or_default()
+            )),
+            _ => {}
+        }
+        if !self.heartbeats {
+            parts.push("no heartbeats".into());
+        }
+        parts.extend(self.depth.map(|depth| format!("{depth} steps")));
+        format!("at most {}", parts.join(", "))
+    }
+}

@@ -1,0 +1,43 @@
+//! The bounds that the command line gives.
+
+use crate::args::ExploreArguments;
+use crate::failure::Failure;
+use starl_core::Duration;
+use starl_explore::{Bounds, Clocks};
+use starl_sim::read;
+
+/// Reads them.
+pub fn read(arguments: &ExploreArguments) -> Result<Bounds, Failure> {
+    let duration = |option: &str, text: &str| {
+        read::duration(text)
+            .filter(|span| !span.is_zero())
+            .ok_or_else(|| Failure(format!("{option}: give a time above zero, such as 500ms")))
+    };
+    let clocks = match &arguments.tick {
+        None => Clocks::Still,
+        Some(tick) => {
+            let tick = duration("--tick", tick)?;
+            let time = duration("--time", &arguments.time)?;
+            Clocks::Ticking {
+                tick,
+                ticks: ticks(time, tick)?,
+                skew: arguments.skew,
+            }
+        }
+    };
+    Ok(Bounds {
+        losses: arguments.loss,
+        duplicates: arguments.duplicates,
+        crashes: arguments.crashes,
+        suspicions: arguments.suspicions,
+        timers: arguments.timers,
+        clocks,
+        depth: arguments.depth,
+        most_states: arguments.most_states,
+    })
+}
+
+fn ticks(time: Duration, tick: Duration) -> Result<u16, Failure> {
+    u16::try_from(time.0.div_ceil(tick.0))
+        .map_err(|_| Failure("--time: is more than 65535 ticks; make ticks longer".into()))
+}

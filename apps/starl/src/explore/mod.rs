@@ -1,0 +1,145 @@
+//! `starl explore`: every behaviour of a small fleet within bounds, and the way to a violation.
+//!
+//! Exit status: 0 all was explored and nothing is violated; 1 something is; 2 bad input; 3 a bound on the
+//! number of states or steps was hit first, or someone stopped it, so that nothing is proved.
+
+mod account;
+mod bounds;
+mod events;
+mod progress;
+mod record;
+mod replay;
+
+use crate::args::{ExploreArguments, RunArguments};
+use crate::failure::Failure;
+use crate::output::Output;
+use crate::run::stop_on_interrupt;
+use crate::{console, json, target};
+use account::Account;
+use progress::Progress;
+use record::Recording;
+use starl_catalog::Application;
+use starl_explore::{End, Search, Setup};
+use std::fs::File;
+use std::process::ExitCode;
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+/// Fleets are this large unless the command says otherwise.
+const ROBOTS: usize = 3;
+
+/// States that are expanded between two looks at the clock and at the keyboard.
+const STRIDE: u32 = 2_000;
+
+/// Explores what the arguments say, or goes a way that was found before.
+pub fn run(arguments: &ExploreArguments) -> Result<ExitCode, Failure> {
+    match (&arguments.replay, &arguments.target) {
+        (Some(path), _) => replay::replay(path),
+        (None, Some(target)) => explore(target, arguments),
+        (None, None) => Err(Failure(
+            "name what to explore: an example, a scenario file or a program; or --replay FILE"
+                .into(),
+        )),
+    }
+}
+
+fn explore(target: &str, arguments: &ExploreArguments) -> Result<ExitCode, Failure> {
+    let application = target::read(&as_run(target, arguments))?.application;
+    let recording = Recording {
+        robots: robots(arguments, &application)?,
+        bounds: bounds::read(arguments)?,
+        heartbeats: arguments.heartbeats,
+    };
+    let setup = recording.setup(&application)?;
+    let output = match &arguments.save {
+        Some(path) => Some(Output::create(path)?),
+        None => None,
+    };
+    let stop = stop_on_interrupt();
+    let progress = Progress::new(!arguments.quiet && !arguments.json);
+    let begun = Instant::now();
+    let mut search = start(setup.clone())?;
+    search.set_doubting(arguments.doubt);
+    while search.advance(STRIDE).is_none() && !stop.load(Ordering::Relaxed) {
+        progress.advance(&search.report());
+    }
+    progress.clear();
+    let end = search.advance(0).cloned();
+    let mut account = Account::new(target, &recording, &search.report(), end.as_ref());
+    account.seconds = begun.elapsed().as_secs_f64();
+    if let Some(End::Violated(found)) = &end {
+        account.saved = Some(save(target, output, &application, &recording, found)?);
+        account.steps = replay::show(setup, &found.steps, &found.violation)?.lines;
+    }
+    if let Some(End::Contradiction(text)) = &end {
+        return Err(Failure(format!("{target}: {text}")));
+    }
+    match (arguments.json, arguments.quiet) {
+        (true, _) => json::print(&account)?,
+        (false, true) => console::print(&account.violation_text())?,
+        (false, false) => console::print(&account.text())?,
+    }
+    Ok(ExitCode::from(match end {
+        Some(End::Complete) => 0,
+        Some(End::Violated(_)) => 1,
+        _ => 3,
+    }))
+}
+
+/// A search at its start.
+fn start(setup: Setup) -> Result<Search, Failure> {
+    Search::new(setup)
+        .map_err(|_| Failure("--robots: an exploration has room for 256 robots at most".into()))
+}
+
+/// How many robots there are.
+fn robots(arguments: &ExploreArguments, application: &Application) -> Result<usize, Failure> {
+    let fleet = application.scenario().fleet.len();
+    match arguments.robots {
+        Some(robots) if robots as usize > fleet => Err(Failure(format!(
+            "--robots: the scenario has {fleet} robots; set more with --set robots.0.count={robots}"
+        ))),
+        Some(robots) => Ok(robots as usize),
+        None => Ok(fleet.min(ROBOTS)),
+    }
+}
+
+/// The same target with the same changes, as `starl run` takes it.
+fn as_run(target: &str, arguments: &ExploreArguments) -> RunArguments {
+    RunArguments {
+        target: target.to_string(),
+        scenario: arguments.scenario.clone(),
+        robots: None,
+        seed: arguments.seed.clone(),
+        duration: None,
+        set: arguments.set.clone(),
+        faults: None,
+        threads: None,
+        trace: None,
+        plot: None,
+        json: arguments.json,
+        quiet: arguments.quiet,
+    }
+}
+
+/// Keeps the way to a violation in a file; gives its name.
+fn save(
+    target: &str,
+    output: Option<(Output, File)>,
+    application: &Application,
+    recording: &Recording,
+    found: &starl_explore::Counterexample,
+) -> Result<String, Failure> {
+    let (output, file) = match output {
+        Some(output) => output,
+        None => {
+            let name = std::path::Path::new(target).file_stem().unwrap_or_default();
+            let name = format!("{}-counterexample.json", name.display());
+            Output::create(std::path::Path::new(&name))?
+        }
+    };
+    let name = output.path().display().to_string();
+    let content = record::write(&application.resolved().inputs, recording, found);
+    output.write(file, content.as_bytes())?;
+    Ok(name)
+}

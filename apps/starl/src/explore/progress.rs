@@ -1,0 +1,42 @@
+//! How far a search is: on a terminal only, on the error stream.
+
+use crate::console::grouped;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use starl_explore::Report;
+
+/// Shows the number of states. Nobody knows how many there will be.
+pub struct Progress(ProgressBar);
+
+impl Progress {
+    /// Where the error stream is no terminal it shows nothing.
+    pub fn new(shown: bool) -> Progress {
+        let spinner = match shown {
+            true => ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr_with_hz(10)),
+            false => ProgressBar::hidden(),
+        };
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed} passed") {
+            spinner.set_style(style);
+        }
+        Progress(spinner)
+    }
+
+    /// The search has come this far.
+    pub fn advance(&self, report: &Report) {
+        if !self.0.is_hidden() {
+            let open = report.states - report.expanded;
+            self.0.set_message(format!(
+                "{} states, {} of them not yet expanded, {} steps deep, {} MiB",
+                grouped(report.states.into()),
+                grouped(open.into()),
+                report.depth,
+                report.bytes >> 20,
+            ));
+            self.0.tick();
+        }
+    }
+
+    /// Takes it away.
+    pub fn clear(&self) {
+        self.0.finish_and_clear();
+    }
+}

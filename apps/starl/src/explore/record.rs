@@ -1,0 +1,85 @@
+//! The file that keeps the way to a violation, with all that is needed to go it again: JSON, so that a
+//! person can read it.
+
+use crate::failure::Failure;
+use crate::run::start_error;
+use crate::target;
+use serde::{Deserialize, Serialize};
+use starl_catalog::Application;
+use starl_explore::{Bounds, Counterexample, Setup, Step};
+use starl_sim::read::Inputs;
+use std::path::Path;
+
+/// What was explored of a scenario.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct Recording {
+    /// The first so many of its robots.
+    pub robots: usize,
+    /// Within these bounds.
+    pub bounds: Bounds,
+    /// Whether failure detectors sent heartbeats.
+    pub heartbeats: bool,
+}
+
+/// The layout of the file; another number is another layout.
+const LAYOUT: u32 = 1;
+
+/// What the file holds.
+#[derive(Serialize, Deserialize)]
+pub struct Kept {
+    counterexample_layout: u32,
+    starl_version: String,
+    /// What is violated, and how.
+    pub property: String,
+    pub text: String,
+    #[serde(flatten)]
+    pub recording: Recording,
+    /// The steps that lead there.
+    pub steps: Vec<Step>,
+    /// The scenario and its files.
+    inputs: Inputs,
+}
+
+impl Recording {
+    /// What to explore.
+    pub fn setup(&self, application: &Application) -> Result<Setup, Failure> {
+        application
+            .exploration(self.robots, self.bounds, self.heartbeats)
+            .map_err(|error| start_error(application, &error))
+    }
+}
+
+/// The content of the file.
+pub fn write(inputs: &Inputs, recording: &Recording, found: &Counterexample) -> String {
+    let kept = Kept {
+        counterexample_layout: LAYOUT,
+        starl_version: env!("CARGO_PKG_VERSION").to_string(),
+        property: found.violation.property.to_string(),
+        text: found.violation.text.clone(),
+        recording: *recording,
+        steps: found.steps.clone(),
+        inputs: inputs.clone(),
+    };
+    let text = serde_json::to_string_pretty(&kept)
+        .unwrap_or_else(|error| unreachable!("it is plain data: {error}"));
+    text + "\n"
+}
+
+/// Reads the file.
+pub fn read(path: &Path) -> Result<(Kept, Setup), Failure> {
+    let kept: Kept = serde_json::from_str(&target::text(path)?)
+        .map_err(|error| Failure::file(path, format!("is no counterexample: {error}")))?;
+    if kept.counterexample_layout != LAYOUT {
+        return Err(Failure::file(
+            path,
+            format!(
+                "is of layout {}, and this command reads layout {LAYOUT}: use StarL {}",
+                kept.counterexample_layout, kept.starl_version
+            ),
+        ));
+    }
+    let application = starl_catalog::read(&kept.inputs.request, &kept.inputs)
+        .map_err(|refusal| Failure::file(path, format!("its inputs are refused: {refusal}")))?;
+    let setup = kept.recording.setup(&application)?;
+    Ok((kept, setup))
+}
