@@ -35,7 +35,7 @@ macro_rules! file {
 }
 
 /// All examples.
-pub const EXAMPLES: [Example; 3] = [
+pub const EXAMPLES: &[Example] = &[
     Example {
         name: "race",
         summary: "ground robots and quadcopters race through way-points",

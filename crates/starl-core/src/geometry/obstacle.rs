@@ -5,7 +5,7 @@
 //! What can be asked about a path or a ray is in `obstacle_path.rs`.
 
 use super::segment::{greater, lesser, nearest_on_segment, outside_both, rectangle_distance};
-use super::{Bounds, ConvexPolygon, HeightSpan, Point};
+use super::{Area, Bounds, ConvexPolygon, HeightSpan, Point};
 use serde::{Deserialize, Serialize};
 
 /// A thing robots must not touch, boundary included.
@@ -45,6 +45,17 @@ pub enum Shape {
     },
 }
 
+impl From<Area> for Obstacle {
+    /// What takes all of the area, from the floor to the sky unless it is a box.
+    fn from(area: Area) -> Obstacle {
+        match area {
+            Area::Polygon(base) => Obstacle::polygon(base),
+            Area::Circle { center, radius } => Obstacle::circle(center, radius),
+            Area::Box { low, high } => Obstacle::cuboid(low, high),
+        }
+    }
+}
+
 impl Obstacle {
     /// A polygon or wall from the floor to the sky.
     pub const fn polygon(base: ConvexPolygon) -> Obstacle {
@@ -69,6 +80,15 @@ impl Obstacle {
         let Bounds { low, high } = Bounds::of_segment(low, high);
         Obstacle {
             shape: Shape::Cuboid { low, high },
+        }
+    }
+
+    /// The ground that it takes; of a box its heights too.
+    pub fn area(&self) -> Area {
+        match &self.shape {
+            Shape::Polygon { base, .. } => Area::Polygon(base.clone()),
+            &Shape::Circle { center, radius, .. } => Area::Circle { center, radius },
+            &Shape::Cuboid { low, high } => Area::Box { low, high },
         }
     }
 

@@ -1,8 +1,9 @@
 //! The arguments of a call, read one after the other.
 
-use crate::machine::{HostCall, List, Object};
+use crate::machine::{Body, HostCall, List, Object};
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
+use starl_core::motion::Obstacles;
 use starl_core::{Area, Duration, Point, RobotId};
 
 /// What a function of the host gives: the fuel it costs beyond one, or why it refuses.
@@ -105,6 +106,14 @@ impl<'a> Arguments<'a> {
     /// An area; a variable that nothing was ever put in may hold none.
     pub fn area(&mut self) -> Result<&'a Area, Cow<'static, str>> {
         self.object().area().ok_or("there is no area".into())
+    }
+
+    /// Obstacles; a variable that nothing was ever put in holds none.
+    pub fn obstacles(&mut self) -> Obstacles {
+        match self.object().body() {
+            Some(Body::Obstacles(obstacles)) => obstacles.clone(),
+            _ => [].into(),
+        }
     }
 
     /// A value or none.

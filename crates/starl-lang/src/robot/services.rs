@@ -15,7 +15,7 @@ pub struct Services {
     /// The shared variables.
     pub memory: Option<Box<SharedMemory>>,
     /// Who is believed to have failed.
-    detector: Option<Box<FailureDetector>>,
+    pub detector: Option<Box<FailureDetector>>,
 }
 
 impl Services {

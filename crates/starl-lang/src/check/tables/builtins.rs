@@ -58,7 +58,10 @@ builtins! {
     // Input.
     WayPoints = "way_points() -> List[Point]" Query "The way-points of the scenario, in their order."
     WayPoint = "way_point(name: String) -> Point?" Query "The way-point with this name."
+    WayPointGroup = "way_point_group(group: Int) -> List[Point]" Query "The way-points of one group of the scenario, in their order."
     Obstacles = "obstacles() -> Obstacles" Query "The obstacles that the robot knows."
+    AreasOf = "areas_of(obstacles: Obstacles) -> List[Area]" Query "The ground that each obstacle takes."
+    WithArea = "with_area(obstacles: Obstacles, area: Area) -> Obstacles" Query "The obstacles and one more, as high as the sky."
 
     // Numbers.
     Pi = "pi: Float" Pure "The ratio of a circle's circumference to its diameter."

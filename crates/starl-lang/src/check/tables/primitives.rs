@@ -141,6 +141,26 @@ pub const PRIMITIVES: &[Primitive] = &[
         documentation: "Messages to single robots (thesis, section 3.3.1).",
     },
     Primitive {
+        constructor: "FailureDetector()",
+        members: &[member(
+            "suspects: Set[RobotId]",
+            Query,
+            "The robots that are believed to have failed; it may be wrong.",
+        )],
+        events: &[
+            Event {
+                text: "suspected(robot: RobotId)",
+                documentation: "A robot is believed to have failed.",
+            },
+            Event {
+                text: "trusted(robot: RobotId)",
+                documentation: "It is heard again.",
+            },
+        ],
+        is_available: true,
+        documentation: "Notices which robots have failed, by their heartbeats.",
+    },
+    Primitive {
         constructor: "Mutex(id: String, participants?: Set[RobotId])",
         members: &[
             member(

@@ -4,7 +4,7 @@
 mod sensing;
 mod telling;
 
-pub use sensing::{name_of, way_point};
+pub use sensing::{name_of, way_point, way_point_group};
 
 use super::arguments::{Arguments, Called};
 use super::host::RobotHost;
@@ -121,10 +121,31 @@ pub static BUILTINS: &[Builtin] = &[
             Ok(way_point(way_points, call))
         },
     ),
+    query(
+        "way_point_group",
+        &[Shape::Int],
+        Shape::List(&Shape::Point),
+        |host, call| {
+            let way_points = host.context.robot.way_points();
+            Ok(way_point_group(way_points, call))
+        },
+    ),
     query("obstacles", &[], Shape::Obstacles, |host, call| {
         call.set_object(0, host.context.robot.obstacles().into());
         Ok(0)
     }),
+    query(
+        "areas_of",
+        &[Shape::Obstacles],
+        Shape::List(&Shape::Area),
+        sensing::areas_of,
+    ),
+    query(
+        "with_area",
+        &[Shape::Obstacles, Shape::Area],
+        Shape::Obstacles,
+        sensing::with_area,
+    ),
     effect(
         "random",
         &[Shape::Float, Shape::Float],

@@ -6,8 +6,9 @@ use crate::robot::host::RobotHost;
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
+use starl_core::motion::Obstacles;
 use starl_core::sensor::Detected;
-use starl_core::{RobotId, WayPoint};
+use starl_core::{Obstacle, RobotId, WayPoint};
 
 /// A robot's number as a name.
 pub fn name_of(robot: RobotId) -> Object {
@@ -71,4 +72,32 @@ pub fn way_point(way_points: &[WayPoint], call: &mut HostCall<'_>) -> u64 {
         call.set_point(1, found.position);
     }
     way_points.len() as u64 / 8
+}
+
+/// The places of the way-points of the group that the call names; gives what the search costs.
+pub fn way_point_group(way_points: &[WayPoint], call: &mut HostCall<'_>) -> u64 {
+    let group = Arguments::of(call).int();
+    let those = way_points
+        .iter()
+        .filter(|way_point| i64::from(way_point.group) == group);
+    let places: Vec<_> = those.map(|way_point| way_point.position).collect();
+    call.set_object(0, List::of_points(&places).into());
+    (way_points.len() + places.len()) as u64 / 8
+}
+
+pub fn areas_of(_: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {
+    let obstacles = Arguments::of(call).obstacles();
+    let areas = obstacles.iter().map(|obstacle| obstacle.area().into());
+    call.set_object(0, List::of_objects(areas.collect()).into());
+    Ok(2 * obstacles.len() as u64)
+}
+
+pub fn with_area(_: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {
+    let mut arguments = Arguments::of(call);
+    let obstacles = arguments.obstacles();
+    let one_more = Obstacle::from(arguments.area()?.clone());
+    let all: Obstacles = obstacles.iter().cloned().chain([one_more]).collect();
+    let cost = 2 * all.len() as u64;
+    call.set_object(0, all.into());
+    Ok(cost)
 }

@@ -11,6 +11,7 @@ mod mutex;
 mod reach_avoid;
 mod registration;
 mod shared;
+mod watch;
 
 pub use attended::Attended;
 
@@ -211,6 +212,7 @@ pub static KINDS: &[Entry] = &[
     Entry::of::<messaging::Sender<starl_primitives::Unicast>>(),
     Entry::of::<starl_primitives::Mutex>(),
     Entry::of::<starl_primitives::Registration>(),
+    Entry::of::<watch::Watch>(),
     Entry::of::<shared::SingleWriter>(),
     Entry::of::<shared::MultiWriter>(),
 ];

@@ -1,10 +1,8 @@
 //! ReachAvoid in programs.
 
 use super::{Arguments, Context, Instance, Kind, Member, method, query};
-use crate::machine::Body;
 use crate::robot::shape::{PLANNERS, Shape};
 use alloc::borrow::Cow;
-use starl_core::motion::Obstacles;
 use starl_core::{Primitive, Robot};
 use starl_primitives::ReachAvoid;
 use starl_primitives::reach_avoid::Options;
@@ -32,7 +30,7 @@ impl Kind for ReachAvoid {
             |motion, context, call| {
                 let mut arguments = Arguments::after_instance(call);
                 let target = arguments.point();
-                let unsafe_set = obstacles(&mut arguments);
+                let unsafe_set = arguments.obstacles();
                 motion.reach_avoid(context.robot, target, unsafe_set);
                 Ok(10)
             },
@@ -44,7 +42,7 @@ impl Kind for ReachAvoid {
             |motion, context, call| {
                 let mut arguments = Arguments::after_instance(call);
                 let points = arguments.points();
-                let unsafe_set = obstacles(&mut arguments);
+                let unsafe_set = arguments.obstacles();
                 motion.follow(context.robot, &points, unsafe_set);
                 Ok(10 + points.len() as u64)
             },
@@ -105,14 +103,6 @@ impl Kind for ReachAvoid {
         if self.active() {
             self.stop(robot);
         }
-    }
-}
-
-/// A set of obstacles.
-fn obstacles(arguments: &mut Arguments<'_>) -> Obstacles {
-    match arguments.object().body() {
-        Some(Body::Obstacles(obstacles)) => obstacles.clone(),
-        _ => [].into(),
     }
 }
 

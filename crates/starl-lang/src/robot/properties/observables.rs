@@ -4,7 +4,7 @@
 use super::Fleet;
 use crate::machine::{Host, HostCall, Object, State};
 use crate::robot::arguments::{Arguments, Called};
-use crate::robot::builtins::{name_of, way_point};
+use crate::robot::builtins::{name_of, way_point, way_point_group};
 use crate::robot::code::Code;
 use crate::robot::shape::{Shape, Signature};
 use crate::robot::workbench::{Memo, robots};
@@ -122,6 +122,15 @@ pub static OBSERVABLES: &[Observable] = &[
         |court, call| {
             let way_points = court.fleet.way_points().ok_or(NOT_KNOWN)?;
             Ok(way_point(way_points, call))
+        },
+    ),
+    observable(
+        "way_point_group",
+        &[Shape::Int],
+        Shape::List(&Shape::Point),
+        |court, call| {
+            let way_points = court.fleet.way_points().ok_or(NOT_KNOWN)?;
+            Ok(way_point_group(way_points, call))
         },
     ),
     observable("obstacles", &[], Shape::Obstacles, |court, call| {

@@ -1,0 +1,92 @@
+//! The failure detector in programs: whom it suspects, and when it changes its mind.
+//!
+//! There is one detector for all primitives of a program; any number of these look at it.
+
+use super::{Arguments, Context, Event, Instance, Kind, Member, Needs, Report, query};
+use crate::robot::shape::Shape;
+use crate::robot::workbench::robots;
+use alloc::borrow::Cow;
+use alloc::vec::Vec;
+use starl_core::{Input, Port, Primitive, Robot};
+
+/// A program's view of its failure detector.
+#[derive(Clone, Debug)]
+pub struct Watch {
+    port: Port,
+    /// What has not been handed over yet.
+    reports: Vec<Report>,
+}
+
+impl Kind for Watch {
+    const NAME: &'static str = "FailureDetector";
+
+    const CONSTRUCTOR: &'static [Shape] = &[];
+
+    const MEMBERS: &'static [Member<Watch>] = &[query(
+        "suspects",
+        &[],
+        Shape::Set(&Shape::Robot),
+        |_, context, call| {
+            let detector = context.services.detector.as_deref();
+            let suspected = detector
+                .into_iter()
+                .flat_map(|detector| detector.suspected());
+            call.set_object(0, robots(suspected));
+            Ok(2)
+        },
+    )];
+
+    const EVENTS: &'static [Event] = &[
+        Event {
+            name: "suspected",
+            parameters: &[Shape::Robot],
+        },
+        Event {
+            name: "trusted",
+            parameters: &[Shape::Robot],
+        },
+    ];
+
+    const NEEDS: Needs = Needs {
+        detector: true,
+        ..Needs::NOTHING
+    };
+
+    fn bind(
+        instance: &Instance,
+        _: &mut Context<'_, '_>,
+        _: &mut Arguments<'_>,
+    ) -> Result<Watch, Cow<'static, str>> {
+        Ok(Watch {
+            port: Port::named(&instance.name),
+            reports: Vec::new(),
+        })
+    }
+
+    fn primitive(&mut self) -> Option<&mut dyn Primitive> {
+        Some(self)
+    }
+
+    fn take_reports(&mut self, take: &mut dyn FnMut(Report)) {
+        self.reports.drain(..).for_each(take);
+    }
+}
+
+impl Primitive for Watch {
+    fn port(&self) -> Port {
+        self.port
+    }
+
+    fn handle(&mut self, _: &mut Robot<'_>, input: &Input) {
+        let (event, robot) = match input {
+            Input::Suspected(robot) => (0, robot),
+            Input::Trusted(robot) => (1, robot),
+            _ => return,
+        };
+        self.reports.push(Report {
+            event,
+            scalars: [u64::from(robot.0)].into(),
+            objects: Vec::new(),
+        });
+    }
+}
