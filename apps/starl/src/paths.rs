@@ -2,8 +2,10 @@
 
 use crate::plot::{PlotData, RobotPath};
 use crate::report::{Ending, Report};
+use starl_core::event::Mark;
 use starl_core::{Event, Point, Record};
 use starl_sim::{Outcome, Scenario};
+use std::collections::BTreeMap;
 
 /// The robots' paths so far.
 pub struct Paths(PlotData);
@@ -23,6 +25,7 @@ impl Paths {
                     radius: body.radius,
                     flies: body.flies(),
                     path: vec![start.position],
+                    marks: BTreeMap::new(),
                 });
             }
         }
@@ -45,13 +48,16 @@ impl Paths {
     /// Takes in what happened next.
     pub fn observe(&mut self, record: &Record) {
         let Some(robot) = record.robot else { return };
-        let Some(RobotPath { path, .. }) = self.0.robots.get_mut(robot.index()) else {
+        let Some(RobotPath { path, marks, .. }) = self.0.robots.get_mut(robot.index()) else {
             return;
         };
         let last = path.last().copied().unwrap_or(Point::ZERO);
         match &record.event {
             Event::Moved(pose) if pose.position != last => path.push(pose.position),
             Event::Collided { .. } => self.0.collisions.push(last),
+            Event::Draw(Mark { label, shape }) => {
+                marks.insert(label.to_string(), shape.clone());
+            }
             _ => {}
         }
     }

@@ -8,6 +8,7 @@
 mod drawing;
 mod frame;
 mod legend;
+mod marks;
 mod palette;
 #[cfg(feature = "png")]
 mod raster;
@@ -16,7 +17,9 @@ mod scene;
 mod tests;
 mod vector;
 
+use starl_core::event::MarkShape;
 use starl_core::{Obstacle, Point, WayPoint};
+use std::collections::BTreeMap;
 
 /// What a picture shows. Coordinates that are not finite are left out.
 #[derive(Clone, Debug, Default)]
@@ -50,6 +53,8 @@ pub struct RobotPath {
     pub flies: bool,
     /// Its true positions in the order of time, metres.
     pub path: Vec<Point>,
+    /// What its program has drawn and not taken away, by label.
+    pub marks: BTreeMap<String, MarkShape>,
 }
 
 /// The picture as SVG.

@@ -1,9 +1,9 @@
-//! What a picture shows, from the back to the front: floor, obstacles, paths, bodies, way-points,
-//! collisions, heading, legend.
+//! What a picture shows, from the back to the front: floor, obstacles, paths, marks, bodies, collisions,
+//! way-points, heading, legend.
 
 use super::drawing::{Anchor, Drawing, Fill, Shape as Drawn, Spot, Stroke};
 use super::frame::Frame;
-use super::legend;
+use super::{legend, marks};
 use super::palette::{self, BLACK, INK, OBSTACLE, OBSTACLE_EDGE, WAY_POINT, WHITE};
 use super::{PlotData, RobotPath};
 use starl_core::{Obstacle, Point, Shape};
@@ -74,6 +74,9 @@ pub fn draw(data: &PlotData) -> Drawing {
     }
     for (index, robot) in data.robots.iter().enumerate() {
         draw_path(&mut drawing, &frame, robot, looks.stroke(index, robot));
+    }
+    for (index, robot) in data.robots.iter().enumerate() {
+        marks::draw(&mut drawing, &frame, robot, looks.stroke(index, robot));
     }
     for (index, robot) in data.robots.iter().enumerate() {
         draw_bodies(&mut drawing, &frame, robot, looks.stroke(index, robot));
