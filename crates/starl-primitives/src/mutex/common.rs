@@ -20,7 +20,7 @@ pub(super) struct RequestId {
     /// Drawn when the robot starts.
     pub incarnation: u32,
     /// Counts its requests since then.
-    pub number: u32,
+    pub number: u64,
 }
 
 /// The state that does not depend on the algorithm.
@@ -32,7 +32,7 @@ pub(super) struct Common {
     pub participants: Option<BTreeSet<RobotId>>,
     pub incarnation: Incarnation,
     /// Counts requests.
-    last_number: u32,
+    last_number: u64,
     /// Lamport's clock (1978).
     clock: u64,
     pub held: Resources,
@@ -55,16 +55,26 @@ impl Common {
 
     /// The name of the next request.
     pub fn next_id(&mut self, robot: &mut Robot<'_>) -> RequestId {
-        self.last_number = self.last_number.wrapping_add(1);
+        self.last_number = self.last_number.saturating_add(1);
         RequestId {
             incarnation: self.incarnation.of(robot),
             number: self.last_number,
         }
     }
 
+    /// The next request is numbered after this one.
+    pub fn count_on_from(&mut self, number: u64) {
+        self.last_number = number;
+    }
+
     /// The time of the next request on Lamport's clock.
     pub fn tick(&mut self) -> u64 {
         self.clock = self.clock.saturating_add(1);
+        self.clock
+    }
+
+    /// The time on Lamport's clock.
+    pub fn clock(&self) -> u64 {
         self.clock
     }
 
@@ -108,11 +118,23 @@ impl Common {
         }
     }
 
+    /// Reports that what is held was granted with this number.
+    pub fn report_numbered(&self, robot: &mut Robot<'_>, number: u64) {
+        for resource in &self.held {
+            let fields = [
+                ("resource", Value::Text(Name::Owned((**resource).into()))),
+                ("fencing", Value::Int(number as i64)),
+                ("drift", Value::Float(self.options.drift)),
+            ];
+            robot.emit_primitive(KIND, self.port, "enter", fields);
+        }
+    }
+
     /// Overwrites the state at random; `some` are what it comes to hold.
     pub fn corrupt(&mut self, random: &mut Random, some: Resources) {
         self.held = some;
         self.suspects.retain(|_| random.chance(0.5));
         self.clock = u64::from(random.bits());
-        self.last_number = random.bits();
+        self.last_number = u64::from(random.bits());
     }
 }

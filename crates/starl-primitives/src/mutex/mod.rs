@@ -1,9 +1,11 @@
 //! Mutual exclusion on sets of named resources (thesis, section 3.4.3).
 //!
 //! A robot asks for several resources at once, gets all of them at once, and gives them back one by one
-//! or together. How robots agree on who has what is an [`Algorithm`]; what they promise is the same:
+//! or together. How robots agree on who has what is an [`Algorithm`]: permission by all others, grants by a
+//! quorum of them, or leases of a majority. What they promise is the same:
 //! - safety: no resource is held by two robots at once, whatever the network does and whichever robots
-//!   crash and restart;
+//!   crash and restart; with leases, as long as clocks keep the bound of [`Options::drift`], and where they
+//!   do not [`Mutex::fencing`] tells who holds it;
 //! - progress: if every holder gives back what it holds, every request is granted, in the order of
 //!   Lamport's clock where requests overlap: nobody starves, and overlapping sets do not deadlock;
 //! - non-interference: a request that overlaps with nobody's is granted after one exchange of messages, two
@@ -11,22 +13,24 @@
 //! - nobody waits unaware: where a request waits for a robot that is suspected by the program's
 //!   [`crate::FailureDetector`], [`Mutex::failed`] says so, until the robot is trusted again.
 //!
-//! What a robot held when it crashed stays locked until it is up again, when it holds nothing.
+//! What a robot held when it crashed stays locked until it is up again, when it holds nothing; with leases
+//! until its lease ends.
 //!
-//! Messages for a request among n robots: 2(n - 1), the n - 1 requests being one datagram to all; and one
-//! more for each repetition.
-//!
-//! Not self-stabilising: after a corruption of state two robots may believe that they hold a resource,
-//! until they give it back. From then on all holds again.
+//! After a corruption of its state a robot may believe that it holds what another holds, until it gives it
+//! back. From then on all holds again.
 
+mod arbitration;
 mod common;
+mod lease;
 mod options;
 mod permission;
+mod quorum;
 
 pub use options::{Algorithm, Options};
 
 use alloc::boxed::Box;
 use alloc::collections::BTreeSet;
+use arbitration::Arbitration;
 use common::Common;
 use permission::Permission;
 use starl_core::{Input, Port, Primitive, Random, Robot, RobotId};
@@ -45,6 +49,7 @@ pub struct Mutex {
 #[derive(Clone, Debug)]
 enum Protocol {
     Permission(Permission),
+    Arbitration(Box<Arbitration>),
 }
 
 /// Calls the same method of whatever algorithm it is.
@@ -52,6 +57,7 @@ macro_rules! each {
     ($protocol:expr, $state:ident => $call:expr) => {
         match $protocol {
             Protocol::Permission($state) => $call,
+            Protocol::Arbitration($state) => $call,
         }
     };
 }
@@ -73,6 +79,7 @@ impl Mutex {
             common: Common::new(Port::named(name), participants, options),
             protocol: match options.algorithm {
                 Algorithm::Permission => Protocol::Permission(Permission::default()),
+                Algorithm::Quorum | Algorithm::Lease => Protocol::Arbitration(Box::default()),
             },
         }
     }
@@ -143,6 +150,16 @@ impl Mutex {
         !self.common.held.is_empty()
     }
 
+    /// The number of what is held, with [`Algorithm::Lease`]: greater than that of everybody who held one of
+    /// the resources before, and no other robot's. What a robot does with the resources should carry it,
+    /// so that whoever it is done to can refuse lower numbers than it has seen.
+    pub fn fencing(&self) -> Option<u64> {
+        match &self.protocol {
+            Protocol::Permission(_) => None,
+            Protocol::Arbitration(state) => state.fencing(&self.common),
+        }
+    }
+
     /// Whether a request is under way.
     pub fn is_waiting(&self) -> bool {
         self.wanted().is_some()
@@ -186,6 +203,9 @@ impl Primitive for Mutex {
 
     fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
         let common = &mut self.common;
+        if let Protocol::Arbitration(state) = &mut self.protocol {
+            state.look(common, robot);
+        }
         match input {
             // Who is not of the fleet asks for nothing.
             Input::Message(message)
@@ -194,10 +214,13 @@ impl Primitive for Mutex {
                 each!(&mut self.protocol, state => state.receive(common, robot, message));
             }
             Input::Timer(key) if key.port == common.port => {
-                each!(&mut self.protocol, state => state.time_out(common, robot));
+                each!(&mut self.protocol, state => state.time_out(common, robot, *key));
             }
             Input::Suspected(peer) => {
                 common.suspects.insert(*peer);
+                if let Protocol::Arbitration(state) = &mut self.protocol {
+                    state.avoid_suspects(common, robot);
+                }
             }
             Input::Trusted(peer) => {
                 common.suspects.remove(peer);

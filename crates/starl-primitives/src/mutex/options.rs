@@ -8,6 +8,11 @@ pub enum Algorithm {
     /// All others permit each request (Ricart and Agrawala 1981): the fewest rounds.
     #[default]
     Permission,
+    /// Some two square roots of the participants grant it (Maekawa 1985): the fewest messages.
+    Quorum,
+    /// A majority grants it for a while, with a number that tells later grants from earlier ones
+    /// (Gray and Cheriton 1989): whoever holds something may fail.
+    Lease,
 }
 
 /// Settings of [`super::Mutex`]. Times run on the robot's own clock.
@@ -20,6 +25,13 @@ pub struct Options {
     pub first_timeout: Duration,
     /// The time between repetitions doubles up to this. Default 2 s.
     pub longest_timeout: Duration,
+    /// For how long a majority grants something: [`Algorithm::Lease`] only, and the same on all robots.
+    /// What a robot held that fails is free after this time. It is renewed five times in it, so let it be
+    /// many times the network's delay. Default 2 s.
+    pub lease: Duration,
+    /// No robot's clock runs faster or slower than true time by more than this share: for
+    /// [`Algorithm::Lease`]. Default 0.01.
+    pub drift: f64,
 }
 
 impl Default for Options {
@@ -28,6 +40,8 @@ impl Default for Options {
             algorithm: Algorithm::default(),
             first_timeout: Duration::from_millis(250),
             longest_timeout: Duration::from_seconds(2),
+            lease: Duration::from_seconds(2),
+            drift: 0.01,
         }
     }
 }

@@ -6,7 +6,7 @@ use starl_core::event::Name;
 use starl_core::{
     Duration, Event, Port, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value,
 };
-use starl_primitives::mutex::{Options, Resources};
+use starl_primitives::mutex::{Algorithm, Options, Resources};
 use starl_primitives::{FailureDetector, Mutex, failure_detector};
 use std::any::Any;
 use std::collections::{BTreeMap, BTreeSet};
@@ -26,12 +26,19 @@ pub struct Locker {
     next_request: Time,
 }
 
+/// All ways to agree on who has what.
+pub const ALGORITHMS: [Algorithm; 3] = [Algorithm::Permission, Algorithm::Quorum, Algorithm::Lease];
+
 impl Locker {
     /// Robots that ask by themselves, at random, if they are busy.
-    pub fn boxed(is_busy: bool) -> impl Fn() -> Box<dyn Program> {
+    pub fn boxed(algorithm: Algorithm, is_busy: bool) -> impl Fn() -> Box<dyn Program> {
         move || {
+            let options = Options {
+                algorithm,
+                ..Options::default()
+            };
             Box::new(Locker {
-                mutex: Mutex::new("lock", None, Options::default()),
+                mutex: Mutex::new("lock", None, options),
                 detector: FailureDetector::new("watch", failure_detector::Options::default()),
                 is_busy,
                 next_release: None,
@@ -98,6 +105,7 @@ impl Program for Locker {
                 self.next_request = now + pause(robot.random());
             }
         } else if !self.mutex.is_waiting() && now >= self.next_request {
+            self.next_release = None;
             let wanted = numbered(1 + robot.random().below(15));
             self.mutex.acquire(robot, wanted).expect("it holds nothing");
         }
@@ -137,10 +145,12 @@ pub fn mutex(world: &World, robot: usize) -> &Mutex {
     &locker.expect("it is a locker").mutex
 }
 
-/// Judges a run by its events: at no time two robots hold the same resource. Crashes are given, since
-/// they leave no event. Gives how many requests each robot was granted.
+/// Judges a run by its events: at no time two robots hold the same resource, and the numbers of those who
+/// hold it grow if they have any. Crashes are given, since they leave no event. Gives how many requests each
+/// robot was granted.
 pub fn entries(world: &World, crashes: &[(Time, u32)]) -> BTreeMap<u32, usize> {
     let mut holders: BTreeMap<String, u32> = BTreeMap::new();
+    let mut numbers: BTreeMap<String, i64> = BTreeMap::new();
     let mut entries: BTreeMap<u32, BTreeSet<Time>> = BTreeMap::new();
     let mut crashes = crashes.iter().copied().peekable();
     for (at, RobotId(robot), event) in &world.records {
@@ -166,9 +176,16 @@ pub fn entries(world: &World, crashes: &[(Time, u32)]) -> BTreeMap<u32, usize> {
             "enter" => {
                 let before = holders.insert(resource.to_string(), *robot);
                 assert_eq!(before, None, "{robot} enters {resource} at {at:?}");
+                if let Some((Name::Borrowed("fencing"), Value::Int(number))) = fields.get(1) {
+                    let before = numbers.insert(resource.to_string(), *number);
+                    assert!(
+                        before < Some(*number),
+                        "{robot} enters {resource} with {number} after {before:?}"
+                    );
+                }
                 entries.entry(*robot).or_default().insert(*at);
             }
-            "release" => {
+            "release" | "expire" => {
                 let before = holders.remove(&**resource);
                 assert_eq!(
                     before,

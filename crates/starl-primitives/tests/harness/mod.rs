@@ -137,6 +137,8 @@ pub struct World {
     pub clocks_drift: BTreeMap<u32, f64>,
     /// Handed to the network.
     pub sent: usize,
+    /// To how many robots these went, in all.
+    pub addressed: usize,
     /// How long these were in all, and the longest, bytes.
     pub sent_bytes: usize,
     pub longest_sent: usize,
@@ -170,6 +172,7 @@ impl World {
             clocks_ahead: BTreeMap::new(),
             clocks_drift: BTreeMap::new(),
             sent: 0,
+            addressed: 0,
             sent_bytes: 0,
             longest_sent: 0,
             payloads: Vec::new(),
@@ -436,6 +439,7 @@ impl World {
     }
 
     fn carry(&mut self, to: usize, message: Message) {
+        self.addressed += 1;
         let copies = 1 + u32::from(self.random.chance(self.wire.duplication));
         for _ in 0..copies {
             let lost = self.random.chance(self.wire.loss)

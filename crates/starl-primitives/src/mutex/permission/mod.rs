@@ -18,7 +18,7 @@ use super::common::Common;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use packet::{Packet, Wish};
-use starl_core::{Destination, Message, Random, Robot, RobotId};
+use starl_core::{Destination, Message, Random, Robot, RobotId, TimerKey};
 
 const REPEAT: u16 = 0;
 
@@ -105,7 +105,7 @@ impl Permission {
     }
 
     /// A robot is trusted again: it is asked at once.
-    pub fn trusted(&mut self, common: &Common, robot: &mut Robot<'_>, peer: RobotId) {
+    pub fn trusted(&mut self, common: &mut Common, robot: &mut Robot<'_>, peer: RobotId) {
         if let Some(waiting) = &self.waiting
             && waiting.missing.contains_key(&peer)
         {
@@ -115,7 +115,10 @@ impl Permission {
     }
 
     /// Sends the request once more.
-    pub fn time_out(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
+    pub fn time_out(&mut self, common: &mut Common, robot: &mut Robot<'_>, key: TimerKey) {
+        if key != common.timer(REPEAT) {
+            return;
+        }
         let others = common.others(robot);
         if let Some(waiting) = &mut self.waiting
             && waiting.missing.is_empty()

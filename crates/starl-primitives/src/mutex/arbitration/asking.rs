@@ -1,0 +1,168 @@
+//! A robot asks, repeats, enters, renews what it holds and gives it back.
+
+use super::super::Resources;
+use super::super::common::Common;
+use super::super::quorum::quorum;
+use super::packet::Packet;
+use super::request::{Enough, Request};
+use super::{Arbitration, Post, REPEAT, is_lease};
+use alloc::collections::BTreeSet;
+use starl_core::Robot;
+
+/// How many renewals fit into a lease, so that some may be lost.
+const RENEWALS: u64 = 5;
+/// How many repetitions of a request at least, so that what was granted late is known to be recent.
+const REPETITIONS: u64 = 3;
+
+impl Arbitration {
+    /// A request that waits for robots that are suspected tries a quorum without them.
+    pub fn avoid_suspects(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
+        if is_lease(common) {
+            return;
+        }
+        let waiting = self.request.as_ref().filter(|request| !request.is_entered);
+        if let Some(request) = waiting
+            && request
+                .arbiters()
+                .any(|peer| common.suspects.contains(&peer))
+            && quorum(&self.everyone, robot.id(), &common.suspects).is_some()
+        {
+            let (clock, resources) = (request.clock, request.resources.clone());
+            self.give_back(common, robot);
+            self.make_request(common, robot, clock, resources);
+        }
+    }
+
+    /// The participants have changed: what was granted by the old ones does not count among the new ones.
+    pub(super) fn change_list(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
+        let Some(request) = self.request.take() else {
+            return;
+        };
+        let (clock, resources) = (request.clock, request.resources.clone());
+        if !request.is_entered {
+            return self.make_request(common, robot, clock, resources);
+        }
+        // All arbiters learn of what is held, and are told when it is given back.
+        self.request = Some(request.of_others(&self.everyone, self.list));
+    }
+
+    pub(super) fn make_request(
+        &mut self,
+        common: &mut Common,
+        robot: &mut Robot<'_>,
+        clock: u64,
+        resources: Resources,
+    ) {
+        let arbiters = match is_lease(common) {
+            true => self.everyone.clone(),
+            false => quorum(&self.everyone, robot.id(), &common.suspects)
+                .or_else(|| quorum(&self.everyone, robot.id(), &BTreeSet::new()))
+                .unwrap_or_default(),
+        };
+        let id = common.next_id(robot);
+        self.request = Some(Request::new(id, clock, resources, self.list, arbiters));
+        self.repeat(common, robot);
+    }
+
+    /// Repeats the request, or renews what is held; the first time too.
+    pub(super) fn repeat(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
+        let (now, enough) = (robot.now(), self.enough(common));
+        let mut post = Post::default();
+        let Some(request) = &mut self.request else {
+            return;
+        };
+        let mut after = common.options.timeout(request.repetitions);
+        if let Enough::Majority(majority, belief) = enough {
+            after = after.min(belief / REPETITIONS);
+            if request.is_entered {
+                let until = request.held_until(now, majority, belief);
+                if until <= now {
+                    common.report(robot, "expire", &common.held);
+                    common.held.clear();
+                    return self.give_back(common, robot);
+                }
+                after = (belief / RENEWALS).min(until.since(now));
+            }
+        } else if request.is_entered {
+            return;
+        }
+        if !request.is_entered && request.may_enter(now, enough, common, &mut post).is_some() {
+            // It would have entered long since: these grants were made up by a fault.
+            request.try_all_anew(common, &mut post);
+        }
+        request.yield_if_it_must(request.repetitions > 0, common, &mut post);
+        request.ask(now, enough, common, &mut post);
+        request.repetitions = request.repetitions.saturating_add(1);
+        robot.set_timer(common.timer(REPEAT), after);
+        self.deliver(common, robot, post);
+    }
+
+    /// Gives back all that was granted.
+    pub(super) fn give_back(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
+        let mut post = Post::default();
+        if let Some(request) = self.request.take() {
+            robot.cancel_timer(common.timer(REPEAT));
+            for arbiter in request.arbiters() {
+                let (id, left) = (request.id, Resources::new());
+                post.send(arbiter, Packet::Release { id, left });
+            }
+        }
+        self.deliver(common, robot, post);
+    }
+
+    /// Enters if it may, and yields if it must.
+    pub(super) fn go_on(&mut self, common: &mut Common, robot: &mut Robot<'_>, post: &mut Post) {
+        let (now, enough) = (robot.now(), self.enough(common));
+        let Some(request) = &mut self.request else {
+            return;
+        };
+        if request.is_entered {
+            return;
+        }
+        let Some((number, until)) = request.may_enter(now, enough, common, post) else {
+            return request.yield_if_it_must(false, common, post);
+        };
+        request.is_entered = true;
+        request.number = number;
+        common.held = request.resources.clone();
+        match enough {
+            Enough::All => {
+                robot.cancel_timer(common.timer(REPEAT));
+                common.report(robot, "enter", &common.held);
+            }
+            Enough::Majority(_, belief) => {
+                let after = (belief / RENEWALS).min(until.since(now) / 2);
+                robot.set_timer(common.timer(REPEAT), after);
+                common.report_numbered(robot, number);
+            }
+        }
+    }
+
+    /// An arbiter knows a later request of this robot than it has made, which only a corruption brings about.
+    pub(super) fn number_anew(
+        &mut self,
+        common: &mut Common,
+        robot: &mut Robot<'_>,
+        last: u64,
+        post: &mut Post,
+    ) {
+        let enough = self.enough(common);
+        let Some(request) = &mut self.request else {
+            return;
+        };
+        if request.is_entered {
+            return;
+        }
+        common.count_on_from(last);
+        let id = common.next_id(robot);
+        let renumbered = Request::new(
+            id,
+            request.clock,
+            request.resources.clone(),
+            request.list,
+            request.arbiters().collect(),
+        );
+        *request = renumbered;
+        request.ask(robot.now(), enough, common, post);
+    }
+}

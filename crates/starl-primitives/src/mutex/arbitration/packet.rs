@@ -1,0 +1,84 @@
+//! What robots and arbiters say to each other.
+
+use super::super::Resources;
+use super::super::common::RequestId;
+use serde::{Deserialize, Serialize};
+use starl_core::RobotId;
+
+/// A message.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Packet {
+    /// To an arbiter: the sender wants these resources, or wants to keep them.
+    Request(Wish),
+    /// To a robot: as far as this arbiter is concerned, it may have what it asked for.
+    Grant {
+        id: RequestId,
+        attempt: u32,
+        /// The latest round of asking that the arbiter had heard of.
+        round: u32,
+        /// The arbiter's clock (Lamport's): later requests are to be later by it.
+        clock: u64,
+        /// The grant's number, greater than all before it that were for one of its resources.
+        number: u64,
+    },
+    /// To a robot: it has to wait.
+    Wait {
+        id: RequestId,
+        attempt: u32,
+        clock: u64,
+        behind: Behind,
+        /// Whether whoever is in the way goes before it; otherwise that one has been asked to yield.
+        must_wait: bool,
+    },
+    /// To a robot that was granted something: does it still need it?
+    Inquire {
+        id: RequestId,
+        attempt: u32,
+        /// Somebody who goes before it wants one of the resources.
+        must_yield: bool,
+    },
+    /// To an arbiter: of what was granted only this is still needed.
+    Release { id: RequestId, left: Resources },
+    /// To a robot: its request counts as older than one that it has made, the last of which is this.
+    Outdated { id: RequestId, last: u64 },
+    /// To all: an arbiter that remembers nothing asks what it had granted.
+    Recall { nonce: u32, list: u32 },
+    /// The answer.
+    Recalled {
+        nonce: u32,
+        list: u32,
+        /// What the sender holds by the arbiter's grant.
+        holds: Option<Wish>,
+        /// The greatest number that the sender knows of as an arbiter.
+        number: u64,
+        /// Whether the sender remembers what it granted.
+        remembers: bool,
+    },
+}
+
+/// What a robot wants.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Wish {
+    pub id: RequestId,
+    /// Counts how often it was asked of this arbiter: what was granted to an earlier attempt is given
+    /// back.
+    pub attempt: u32,
+    /// Counts repetitions.
+    pub round: u32,
+    /// When it was first asked, on Lamport's clock: what was asked earlier is given first.
+    pub clock: u64,
+    /// The grant is to have this number at least.
+    pub number: u64,
+    /// A hash of the list of participants.
+    pub list: u32,
+    pub resources: Resources,
+}
+
+/// What a request waits for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Behind {
+    /// This robot holds or wants one of the resources, or is to tell the arbiter what it had granted.
+    Robot(RobotId),
+    /// The arbiter knows other participants.
+    OtherList,
+}

@@ -1,0 +1,116 @@
+//! An arbiter that remembers nothing asks, and robots answer: see [`super::recovery`].
+
+use super::super::common::Common;
+use super::packet::Packet;
+use super::recovery::Outlook;
+use super::{Arbitration, Post, RECALL, lease};
+use alloc::vec::Vec;
+use starl_core::random::hash_key;
+use starl_core::{Robot, RobotId};
+
+impl Arbitration {
+    /// Begins what has to be begun: see [`recovery`]. Called with every input.
+    pub fn look(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
+        let is_same = match &common.participants {
+            None => self.everyone == robot.fleet(),
+            Some(participants) => self.everyone.iter().eq(participants),
+        };
+        let is_change = !is_same && !self.everyone.is_empty();
+        if !is_same {
+            self.everyone = common.everyone(robot);
+            let ids: Vec<u64> = self.everyone.iter().map(|id| u64::from(id.0)).collect();
+            self.list = hash_key(ids.len() as u64, &ids) as u32;
+            self.arbiter.keep_only(&self.everyone);
+        }
+        if is_change {
+            self.change_list(common, robot);
+        }
+        if self.everyone.binary_search(&robot.id()).is_err() {
+            // Who takes no part is no arbiter.
+            self.recovery.is_ready = true;
+        } else if !is_same || self.recovery.is_idle() {
+            let nonce = robot.random().bits() ^ common.incarnation.of(robot);
+            self.recovery.begin(nonce, robot.now(), is_change);
+            self.recall(common, robot);
+        }
+        self.stabilise(common, robot);
+    }
+
+    /// Asks those who have not said yet what this robot had granted them.
+    pub(super) fn recall(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
+        let others = common.others(robot);
+        let mut post = Post::default();
+        self.review(common, robot, &mut post);
+        let lease = lease(common);
+        let silent = match lease {
+            // Who has answered may have come to remember more since.
+            Some(_) => others,
+            None => self.recovery.silent(&others),
+        };
+        let list = self.list;
+        if let Some(begun) = self.recovery.asking() {
+            let recall = Packet::Recall {
+                nonce: begun.nonce,
+                list,
+            };
+            for peer in silent {
+                post.send(peer, recall.clone());
+            }
+            let timeout = common.options.timeout(begun.repetitions);
+            begun.repetitions = begun.repetitions.saturating_add(1);
+            robot.set_timer(common.timer(RECALL), timeout);
+        }
+        self.deliver(common, robot, post);
+    }
+
+    /// Looks whether enough has been heard to be an arbiter.
+    pub(super) fn review(&mut self, common: &Common, robot: &Robot<'_>, post: &mut Post) {
+        if self.recovery.is_ready {
+            return;
+        }
+        let others = common.others(robot);
+        let outlook = self.recovery.outlook(robot.now(), &others, lease(common));
+        if outlook == Outlook::ReadyWithoutNumbers {
+            self.arbiter.numbers.begin_at(robot.now());
+        }
+        if outlook != Outlook::Unready {
+            self.recovery.is_ready = true;
+            self.recovery.remembers = true;
+            self.arbiter.settle(self.terms(common, robot), post);
+        }
+    }
+
+    /// An arbiter asks what it had granted this robot. What is only waited for is asked for anew.
+    pub(super) fn answer(
+        &mut self,
+        common: &Common,
+        from: RobotId,
+        nonce: u32,
+        list: u32,
+        post: &mut Post,
+    ) {
+        if list != self.list {
+            return;
+        }
+        let request = self
+            .request
+            .as_mut()
+            .filter(|request| request.has_asked(from));
+        let holds = match request {
+            Some(request) if request.is_entered => Some(request.wish(from, common)),
+            Some(request) => {
+                request.try_anew(from, common, post);
+                None
+            }
+            None => None,
+        };
+        let answer = Packet::Recalled {
+            nonce,
+            list,
+            holds,
+            number: self.arbiter.numbers.greatest(),
+            remembers: self.recovery.remembers,
+        };
+        post.send(from, answer);
+    }
+}

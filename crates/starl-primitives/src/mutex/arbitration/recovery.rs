@@ -1,0 +1,137 @@
+//! How an arbiter that remembers nothing comes to be one: it asks the others what it had granted.
+//!
+//! A robot cannot tell its first start from a restart, so every robot does this once. Until it is ready it
+//! grants nothing.
+//!
+//! Without leases all others have to answer: whoever does not may hold something by a grant that was
+//! forgotten. With leases nobody does after one lease of silence; what is missing then are the numbers. Of
+//! the arbiters that granted a number a majority knows it, so those who remember and have answered must be
+//! too many for such a majority to avoid. Where most remember nothing, all being new, numbers begin with
+//! the time, in milliseconds.
+//!
+//! After a change of participants all of the new ones have to answer, having changed too: two quorums of
+//! different lists need have nobody in common.
+
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
+use starl_core::{Duration, Random, RobotId, Time};
+
+/// How far an arbiter is.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Recovery {
+    /// None before it has begun.
+    begun: Option<Begun>,
+    pub is_ready: bool,
+    /// Whether it has been ready since the robot started, so that it knows what it has granted.
+    pub remembers: bool,
+}
+
+/// An arbiter that asks.
+#[derive(Clone, Debug)]
+pub(super) struct Begun {
+    pub nonce: u32,
+    since: Time,
+    /// Whether the participants have changed; otherwise the robot has started.
+    is_change: bool,
+    /// Who has answered, and whether they remember what they granted.
+    answers: BTreeMap<RobotId, bool>,
+    /// How often it has asked.
+    pub repetitions: u32,
+}
+
+/// What a look at the answers shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Outlook {
+    Ready,
+    /// Ready, but numbers have to begin anew.
+    ReadyWithoutNumbers,
+    Unready,
+}
+
+impl Recovery {
+    /// Whether it has to be begun, or begun anew.
+    pub fn is_idle(&self) -> bool {
+        !self.is_ready && self.begun.is_none()
+    }
+
+    pub fn begin(&mut self, nonce: u32, now: Time, is_change: bool) {
+        self.is_ready = false;
+        self.begun = Some(Begun {
+            nonce,
+            since: now,
+            is_change,
+            answers: BTreeMap::new(),
+            repetitions: 0,
+        });
+    }
+
+    /// The asking that is under way.
+    pub fn asking(&mut self) -> Option<&mut Begun> {
+        let is_ready = self.is_ready;
+        self.begun.as_mut().filter(|_| !is_ready)
+    }
+
+    /// Who has not answered; none if all have.
+    pub fn silent(&self, others: &[RobotId]) -> Vec<RobotId> {
+        let answered = |peer: &RobotId| {
+            let begun = self.begun.as_ref();
+            begun.is_some_and(|begun| begun.answers.contains_key(peer))
+        };
+        others
+            .iter()
+            .copied()
+            .filter(|peer| !answered(peer))
+            .collect()
+    }
+
+    /// Takes an answer; false if it is to another question.
+    pub fn hear(&mut self, from: RobotId, nonce: u32, remembers: bool) -> bool {
+        match self.asking() {
+            Some(begun) if begun.nonce == nonce => {
+                begun.answers.insert(from, remembers);
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether enough is known.
+    pub fn outlook(&self, now: Time, others: &[RobotId], lease: Option<Duration>) -> Outlook {
+        let Some(begun) = &self.begun else {
+            return Outlook::Unready;
+        };
+        let silent_for = now.since(begun.since);
+        let all = others.iter().all(|peer| begun.answers.contains_key(peer));
+        let Some(lease) = lease else {
+            return if all {
+                Outlook::Ready
+            } else {
+                Outlook::Unready
+            };
+        };
+        if silent_for < lease || begun.is_change && !all {
+            return Outlook::Unready;
+        }
+        let count = others.len() + 1;
+        let majority = count / 2 + 1;
+        let remember = begun
+            .answers
+            .values()
+            .filter(|&&remembers| remembers)
+            .count();
+        let forgetful = begun.answers.len() - remember + 1;
+        if remember > count - majority || begun.is_change && self.remembers {
+            Outlook::Ready
+        } else if all || forgetful >= majority && silent_for >= lease * 2 {
+            Outlook::ReadyWithoutNumbers
+        } else {
+            Outlook::Unready
+        }
+    }
+
+    /// Overwrites the state at random.
+    pub fn corrupt(&mut self, random: &mut Random) {
+        self.is_ready = random.chance(0.5);
+        self.begun = None;
+    }
+}
