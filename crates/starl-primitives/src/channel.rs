@@ -63,10 +63,17 @@ impl Channel {
         input: &Input,
         mut arrive: impl FnMut(&mut Robot<'_>, Arrival),
     ) {
-        let notices = self.reliable.handle(robot, input);
-        for arrival in self.settle(robot, notices) {
-            arrive(robot, arrival);
+        for notice in self.hear(robot, input) {
+            if let Notice::Arrived(arrival) = notice {
+                arrive(robot, arrival);
+            }
         }
+    }
+
+    /// Takes an input; gives what arrived and what other robots said of their messages.
+    pub fn hear(&mut self, robot: &mut Robot<'_>, input: &Input) -> Vec<Notice> {
+        let notices = self.reliable.handle(robot, input);
+        self.settle(robot, notices)
     }
 
     /// How long copies of a message are sent, in seconds, for trace events.
@@ -79,12 +86,12 @@ impl Channel {
         core::mem::take(&mut self.failures).into()
     }
 
-    /// Reports what became of messages and returns those that arrived.
-    fn settle(&mut self, robot: &mut Robot<'_>, notices: Notices) -> Vec<Arrival> {
-        let mut arrivals = Vec::new();
+    /// Reports what became of this robot's messages and returns what others said.
+    fn settle(&mut self, robot: &mut Robot<'_>, notices: Notices) -> Vec<Notice> {
+        let mut heard = Vec::new();
         for notice in notices {
             match notice {
-                Notice::Arrived(arrival) => arrivals.push(arrival),
+                Notice::Arrived(_) | Notice::Settled { .. } => heard.push(notice),
                 Notice::Repeated { message, to } => self.report_repeated(robot, message, &to),
                 Notice::Acknowledged(message) => self.report_acknowledged(robot, message),
                 Notice::Failed { message, unreached } => {
@@ -96,7 +103,7 @@ impl Channel {
                 }
             }
         }
-        arrivals
+        heard
     }
 
     fn report_repeated(&self, robot: &mut Robot<'_>, message: MessageId, to: &[RobotId]) {

@@ -126,6 +126,21 @@ impl Sequence {
         taken
     }
 
+    /// Nothing before `oldest` will come: releases what was held for it.
+    pub fn settle(&mut self, oldest: u32) -> Taken {
+        let mut taken = Taken::default();
+        self.skip_to(oldest);
+        while let Some(first) = self.held.first_entry() {
+            let number = *first.key();
+            if number > self.next {
+                break;
+            }
+            taken.arrived.push((number, first.remove()));
+            self.next = self.next.max(number.saturating_add(1));
+        }
+        taken
+    }
+
     fn contains(&self, number: u32) -> bool {
         number < self.next
             || self

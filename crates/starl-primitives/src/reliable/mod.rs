@@ -31,7 +31,7 @@ pub use options::Options;
 use crate::incarnation::Incarnation;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
-use inbox::Inbox;
+use inbox::{Inbox, Taken};
 use outbox::Outbox;
 use packet::{Key, Packet, Stream};
 use starl_core::{Destination, Input, Payload, Port, Robot, RobotId, TimerKey, message};
@@ -147,6 +147,11 @@ impl Reliable {
                         content,
                     }) => self.take(robot, message.from, key, oldest_back, content),
                     Some(Packet::Acknowledge(key)) => self.acknowledged(robot, message.from, key),
+                    Some(Packet::Ask) => self.answer(robot, message.from),
+                    Some(Packet::Oldest {
+                        incarnation,
+                        number,
+                    }) => self.settled(robot, message.from, incarnation, number),
                     None => Notices::new(),
                 }
             }
@@ -182,22 +187,78 @@ impl Reliable {
         } else {
             sequence.take(number, oldest, content, most_gaps)
         };
-        let to_all = stream == Stream::Multicast;
+        let again = taken.again.then_some(number);
+        self.hand_out(robot, from, key, taken, again)
+    }
+
+    /// Acknowledges what was taken, and what was taken before and came again.
+    fn hand_out(
+        &self,
+        robot: &mut Robot<'_>,
+        from: RobotId,
+        key: Key,
+        taken: Taken,
+        again: Option<u32>,
+    ) -> Notices {
         let numbers = taken.arrived.iter().map(|&(number, _)| number);
-        for number in numbers.chain(taken.again.then_some(number)) {
+        for number in numbers.chain(again) {
             let acknowledgement = Packet::<Payload>::Acknowledge(Key { number, ..key });
             robot.transmit(Destination::Robot(from), self.port, &acknowledgement);
         }
         let arrivals = taken.arrived.into_iter().map(|(number, content)| {
             Notice::Arrived(Arrival {
                 from,
-                incarnation,
-                to_all,
+                incarnation: key.incarnation,
+                to_all: key.stream == Stream::Multicast,
                 number,
                 content,
             })
         });
         arrivals.collect()
+    }
+
+    /// Asks a robot which of its messages to all may still come; the answer is a
+    /// [`Notice::Settled`], if it comes.
+    pub fn ask(&self, robot: &mut Robot<'_>, peer: RobotId) {
+        robot.transmit(Destination::Robot(peer), self.port, &Packet::<Payload>::Ask);
+    }
+
+    fn answer(&mut self, robot: &mut Robot<'_>, to: RobotId) -> Notices {
+        let next = self.last_multicast.wrapping_add(1);
+        let answer = Packet::<Payload>::Oldest {
+            incarnation: self.incarnation.of(robot),
+            number: self.outbox.oldest_outstanding(to).unwrap_or(next),
+        };
+        robot.transmit(Destination::Robot(to), self.port, &answer);
+        Notices::new()
+    }
+
+    fn settled(
+        &mut self,
+        robot: &mut Robot<'_>,
+        from: RobotId,
+        incarnation: u32,
+        before: u32,
+    ) -> Notices {
+        if !is_peer(robot, from) {
+            return Notices::new();
+        }
+        let inbox = self.inboxes.entry(from).or_default();
+        let taken = inbox
+            .sequence(incarnation, Stream::Multicast)
+            .settle(before);
+        let key = Key {
+            incarnation,
+            stream: Stream::Multicast,
+            number: before,
+        };
+        let mut notices = self.hand_out(robot, from, key, taken, None);
+        notices.push(Notice::Settled {
+            from,
+            incarnation,
+            before,
+        });
+        notices
     }
 
     fn timer(&self, ticket: u32) -> TimerKey {

@@ -35,6 +35,15 @@ pub struct Arrival {
 pub enum Notice {
     /// A message reached this robot.
     Arrived(Arrival),
+    /// A robot that was asked has said which of its messages to all are settled.
+    Settled {
+        /// The robot.
+        from: RobotId,
+        /// The incarnation that it has now.
+        incarnation: u32,
+        /// Messages of that incarnation with lower numbers have arrived or never will.
+        before: u32,
+    },
     /// A message of this robot was sent again to each of these receivers.
     Repeated {
         /// Which message.

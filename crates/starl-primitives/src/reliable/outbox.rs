@@ -114,6 +114,15 @@ impl Outbox {
         })
     }
 
+    /// The number of the oldest message to all that is on its way to `peer`.
+    pub fn oldest_outstanding(&self, peer: RobotId) -> Option<u32> {
+        let waits = |outgoing: &&Outgoing| {
+            outgoing.message.to.is_none() && outgoing.pending.binary_search(&peer).is_ok()
+        };
+        let oldest = self.messages.values().find(waits)?;
+        Some(oldest.message.number)
+    }
+
     /// Whether an earlier message of the same stream is still tried for one of the same receivers.
     pub fn is_behind(&self, ticket: u32) -> bool {
         let Some(outgoing) = self.messages.get(&ticket) else {

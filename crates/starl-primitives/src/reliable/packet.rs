@@ -17,6 +17,16 @@ pub(super) enum Packet<C> {
     },
     /// The receiver has taken the message.
     Acknowledge(Key),
+    /// Which messages to all may still come?
+    Ask,
+    /// Of the sender's present incarnation, messages to all before this number will not come to the
+    /// robot that asked, or not again.
+    Oldest {
+        /// The sender's.
+        incarnation: u32,
+        /// The number.
+        number: u32,
+    },
 }
 
 /// Names a message between one sender and one receiver.

@@ -9,6 +9,7 @@ pub mod pilot;
 pub mod registrar;
 pub mod sharer;
 mod talker;
+pub mod teller;
 pub mod watcher;
 
 pub use talker::{Talker, broadcast, geocast, unicast};

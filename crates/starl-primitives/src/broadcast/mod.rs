@@ -1,0 +1,215 @@
+//! Broadcast: a message to every other robot (thesis, section 3.3.1), in one of several orders.
+//!
+//! Property (d1): over a network that delivers a datagram within `longest_delay` or not at all, every
+//! robot that receives the message does so within [`Broadcast::delivery_bound`] of the call, once; and
+//! every robot receives it that is up and for which not all copies are lost. Whoever did not
+//! acknowledge it is named by [`Broadcast::take_failures`].
+//!
+//! "This can be easily expanded to enforce message ordering, such as FIFO ordering, causal ordering, and
+//! total ordering", says the thesis: see [`Order`], [`causal`] and [`total`].
+
+mod causal;
+mod order;
+mod total;
+
+pub use order::Order;
+
+use crate::Failure;
+use crate::channel::{Channel, report_arrival};
+use crate::reliable::{MessageId, Options, encode};
+use alloc::boxed::Box;
+use alloc::collections::VecDeque;
+use alloc::vec::Vec;
+use causal::Causal;
+use serde::Serialize;
+use starl_core::{Duration, Input, Port, Primitive, Random, Robot, RobotId};
+use total::Total;
+
+const KIND: &str = "broadcast";
+
+/// Sends messages to all other robots of the application. What arrives is handed to
+/// [`starl_core::Program::receive`] with this primitive's port.
+#[derive(Clone, Debug)]
+pub struct Broadcast {
+    order: Order,
+    way: Way,
+}
+
+/// How the order comes about.
+#[derive(Clone, Debug)]
+enum Way {
+    Acknowledged(Channel),
+    Causal(Box<Causal>),
+    Total(Box<Total>),
+}
+
+/// Messages that were passed over: others may have received them, and this robot will not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Gap {
+    /// Whose they were; none where they may have been anyone's.
+    pub from: Option<RobotId>,
+}
+
+/// Gaps that nobody asks for are kept up to this number, the latest.
+const MOST_GAPS: usize = 64;
+
+/// What was passed over and not asked for.
+#[derive(Clone, Debug, Default)]
+struct Gaps(VecDeque<Gap>);
+
+impl Gaps {
+    fn push(&mut self, gap: Gap) {
+        if self.0.len() == MOST_GAPS {
+            self.0.pop_front();
+        }
+        self.0.push_back(gap);
+    }
+
+    fn take(&mut self) -> Vec<Gap> {
+        core::mem::take(&mut self.0).into()
+    }
+}
+
+impl Broadcast {
+    /// An instance; those of the same name on all robots talk to each other. Its order is that of the
+    /// options: [`Order::Fifo`] or none.
+    pub fn new(name: &str, options: Options) -> Broadcast {
+        let order = match options.first_in_first_out {
+            true => Order::Fifo,
+            false => Order::Unordered,
+        };
+        Broadcast::in_order(name, order, options)
+    }
+
+    /// An instance with this order.
+    pub fn in_order(name: &str, order: Order, options: Options) -> Broadcast {
+        let options = Options {
+            first_in_first_out: order != Order::Unordered,
+            ..options
+        };
+        let channel = Channel::new(KIND, name, options);
+        let way = match order {
+            Order::Unordered | Order::Fifo => Way::Acknowledged(channel),
+            Order::Causal => Way::Causal(Box::new(Causal::new(channel))),
+            Order::Total => Way::Total(Box::new(Total::new(channel.port, options))),
+        };
+        Broadcast { order, way }
+    }
+
+    /// The order of its messages.
+    pub fn order(&self) -> Order {
+        self.order
+    }
+
+    /// Sends `content` to every other robot; in total order, to this one too.
+    pub fn broadcast<T: Serialize>(&mut self, robot: &mut Robot<'_>, content: &T) -> MessageId {
+        // The command is recorded ahead of what it brings about.
+        let message = match &mut self.way {
+            Way::Acknowledged(channel) => channel.reliable.next_to_all(robot),
+            Way::Causal(causal) => causal.channel.reliable.next_to_all(robot),
+            Way::Total(total) => total.next(robot),
+        };
+        let number = ("number", message.number.into());
+        let incarnation = ("incarnation", message.incarnation.into());
+        let retry_span = ("retry_span", self.options().retry_span().seconds().into());
+        let port = self.port();
+        match self.order.name() {
+            None => {
+                let fields = [number, incarnation, retry_span];
+                robot.emit_primitive(KIND, port, "broadcast", fields);
+            }
+            Some(order) => {
+                let fields = [number, incarnation, retry_span, ("order", order.into())];
+                robot.emit_primitive(KIND, port, "broadcast", fields);
+            }
+        }
+        match &mut self.way {
+            Way::Acknowledged(channel) => channel.send_to_peers(robot, encode(content)),
+            Way::Causal(causal) => causal.broadcast(robot, encode(content)),
+            Way::Total(total) => total.broadcast(robot, encode(content)),
+        }
+    }
+
+    /// Whether some robot has neither acknowledged the message nor been given up; in total order,
+    /// whether this robot has neither been handed it nor given it up.
+    pub fn is_outstanding(&self, message: MessageId) -> bool {
+        match &self.way {
+            Way::Acknowledged(channel) => channel.reliable.is_outstanding(message),
+            Way::Causal(causal) => causal.channel.reliable.is_outstanding(message),
+            Way::Total(total) => total.is_outstanding(message),
+        }
+    }
+
+    /// The messages that some robot did not acknowledge, since the last call; at most the latest 64.
+    /// In total order, those that were given up without a place in the order, of which nobody knows who
+    /// received them.
+    pub fn take_failures(&mut self) -> Vec<Failure> {
+        match &mut self.way {
+            Way::Acknowledged(channel) => channel.take_failures(),
+            Way::Causal(causal) => causal.channel.take_failures(),
+            Way::Total(total) => total.take_failures(),
+        }
+    }
+
+    /// What was passed over since the last call; at most the latest 64.
+    pub fn take_gaps(&mut self) -> Vec<Gap> {
+        match &mut self.way {
+            Way::Acknowledged(_) => Vec::new(),
+            Way::Causal(causal) => causal.take_gaps(),
+            Way::Total(total) => total.take_gaps(),
+        }
+    }
+
+    /// Whether nothing can be ordered at present, since no majority of the fleet is in reach. Only in
+    /// total order.
+    pub fn failed(&self) -> bool {
+        matches!(&self.way, Way::Total(total) if total.failed())
+    }
+
+    /// The thesis's d1, for the longest time that the network takes to deliver a datagram. In total
+    /// order a message may take longer, where no majority is in reach or its leader fails.
+    pub fn delivery_bound(&self, longest_delay: Duration) -> Duration {
+        self.options().delivery_bound(longest_delay)
+    }
+
+    /// Overwrites the state at random, as a transient fault would.
+    pub fn corrupt(&mut self, random: &mut Random) {
+        match &mut self.way {
+            Way::Acknowledged(_) => {}
+            Way::Causal(causal) => causal.corrupt(random),
+            Way::Total(total) => total.corrupt(random),
+        }
+    }
+
+    fn options(&self) -> &Options {
+        match &self.way {
+            Way::Acknowledged(channel) => channel.reliable.options(),
+            Way::Causal(causal) => causal.channel.reliable.options(),
+            Way::Total(total) => total.options(),
+        }
+    }
+}
+
+impl Primitive for Broadcast {
+    fn port(&self) -> Port {
+        match &self.way {
+            Way::Acknowledged(channel) => channel.port,
+            Way::Causal(causal) => causal.channel.port,
+            Way::Total(total) => total.port,
+        }
+    }
+
+    fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
+        match &mut self.way {
+            Way::Acknowledged(channel) => {
+                let port = channel.port;
+                channel.handle(robot, input, |robot, arrival| {
+                    report_arrival(robot, KIND, port, "deliver", &arrival);
+                    robot.deliver(arrival.from, port, arrival.content);
+                });
+            }
+            Way::Causal(causal) => causal.handle(robot, input),
+            Way::Total(total) => total.handle(robot, input),
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! In which order messages are handed to programs.
+
+/// The order of messages. Each demands what those before it do, but for total order, which does not
+/// demand causal order across senders (Hadzilacos and Toueg 1994).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Order {
+    /// As they come.
+    #[default]
+    Unordered,
+    /// Each sender's in the order in which they were sent.
+    Fifo,
+    /// A message after all that its sender had sent or received when it sent it.
+    Causal,
+    /// The same order on all robots, the sender's own messages among them.
+    Total,
+}
+
+impl Order {
+    /// What records call it; none where there is no order.
+    pub(super) fn name(self) -> Option<&'static str> {
+        match self {
+            Order::Unordered => None,
+            Order::Fifo => Some("fifo"),
+            Order::Causal => Some("causal"),
+            Order::Total => Some("total"),
+        }
+    }
+}

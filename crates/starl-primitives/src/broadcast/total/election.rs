@@ -1,0 +1,156 @@
+//! Who leads: the one for whom a quorum voted in its term (Ongaro and Ousterhout 2014).
+//!
+//! Invariant: a life votes once in a term, and only for one whose log holds all that the voter's does up to
+//! the last term in it. Before a robot asks in earnest it asks whether it would be elected, and those
+//! who hear a leader say no: one that comes back from behind a wall unseats nobody.
+
+use super::packet::{Body, Life};
+use super::{FURTHEST, Role, Total};
+use alloc::collections::BTreeSet;
+use starl_core::{Destination, Robot};
+
+/// Who has heard the leader within so many ticks votes for nobody else.
+const LOYALTY: u32 = 6;
+
+/// What a robot that wants to lead says of itself.
+#[derive(Clone, Copy)]
+pub(super) struct Claim {
+    pub number: u32,
+    pub trial: bool,
+    pub term: u32,
+    pub last_term: u32,
+    pub last: u64,
+}
+
+impl Total {
+    /// Asks all whether they vote for this robot.
+    pub(super) fn ask(&mut self, robot: &mut Robot<'_>, trial: bool) {
+        let life = self.life(robot);
+        let patience = super::patience(robot);
+        let Some(member) = &mut self.member else {
+            return;
+        };
+        let is_voter = member.log.voters().contains(&life);
+        if !trial && !is_voter {
+            return;
+        }
+        self.ask_number = self.ask_number.wrapping_add(1);
+        if !trial {
+            member.enter_term(member.term.saturating_add(1));
+            member.vote = Some(life);
+        }
+        member.see(life, false);
+        if member.is_dead() {
+            return self.leave(robot, "lost");
+        }
+        member.patience = patience;
+        member.silence = 0;
+        member.leader = None;
+        member.role = Role::Asking {
+            trial,
+            votes: BTreeSet::from([life]),
+        };
+        self.send_ask(robot);
+        self.count_votes(robot);
+    }
+
+    /// Asks, or asks once more those whose answers may have been lost.
+    pub(super) fn send_ask(&mut self, robot: &mut Robot<'_>) {
+        let Some(member) = &self.member else { return };
+        let &Role::Asking { trial, .. } = &member.role else {
+            return;
+        };
+        let body = Body::Ask {
+            number: self.ask_number,
+            trial,
+            term: member.term.saturating_add(u32::from(trial)),
+            last_term: member.log.last_term(),
+            last: member.log.last(),
+        };
+        self.say(robot, Destination::All, body);
+    }
+
+    /// Another member wants to lead.
+    pub(super) fn consider(&mut self, robot: &mut Robot<'_>, from: Life, claim: Claim) {
+        let Some(member) = &mut self.member else {
+            return;
+        };
+        let to = Destination::Robot(from.robot);
+        let refusal = Body::Vote {
+            number: claim.number,
+            term: member.term,
+            is_granted: false,
+        };
+        if claim.term > member.term.saturating_add(FURTHEST) {
+            return self.say(robot, to, refusal);
+        }
+        let hears_leader = matches!(member.role, Role::Leading(_))
+            || member.leader.is_some() && member.silence < LOYALTY;
+        let end = (member.log.last_term(), member.log.last());
+        let is_whole = (claim.last_term, claim.last) >= end;
+        let is_late = claim.term < member.term || claim.trial && claim.term == member.term;
+        if hears_leader || is_late {
+            return self.say(robot, to, refusal);
+        }
+        if !claim.trial {
+            member.enter_term(claim.term);
+        }
+        if !is_whole || !claim.trial && member.vote.is_some_and(|vote| vote != from) {
+            return self.say(robot, to, refusal);
+        }
+        if !claim.trial {
+            member.vote = Some(from);
+            member.silence = 0;
+        }
+        let vote = Body::Vote {
+            number: claim.number,
+            term: member.term,
+            is_granted: true,
+        };
+        self.say(robot, to, vote);
+    }
+
+    /// A member says whether it votes for this robot.
+    pub(super) fn answered(
+        &mut self,
+        robot: &mut Robot<'_>,
+        from: Life,
+        (number, term, is_granted): (u32, u32, bool),
+    ) {
+        let is_answer = number == self.ask_number;
+        let Some(member) = &mut self.member else {
+            return;
+        };
+        if !is_answer {
+            return;
+        }
+        member.see(from, false);
+        if is_granted && let Role::Asking { votes, .. } = &mut member.role {
+            votes.insert(from);
+        }
+        let is_absurd = member.term > term.saturating_add(FURTHEST);
+        if is_absurd || member.is_dead() {
+            let reason = if is_absurd { "corrupt" } else { "lost" };
+            return self.leave(robot, reason);
+        }
+        match is_granted {
+            true => self.count_votes(robot),
+            false if term <= member.term.saturating_add(FURTHEST) => member.enter_term(term),
+            false => {}
+        }
+    }
+
+    fn count_votes(&mut self, robot: &mut Robot<'_>) {
+        let Some(member) = &self.member else { return };
+        let Role::Asking { trial, votes, .. } = &member.role else {
+            return;
+        };
+        if !member.is_quorum(votes) {
+            return;
+        }
+        match trial {
+            true => self.ask(robot, false),
+            false => self.lead(robot),
+        }
+    }
+}

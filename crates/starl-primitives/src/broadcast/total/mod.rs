@@ -1,0 +1,436 @@
+//! Total order: all robots are handed the same messages in the same order, by a log on which a majority
+//! agrees.
+//!
+//! Within a group this is Raft (Ongaro and Ousterhout 2014), a relative of Viewstamped Replication (Liskov
+//! and Cowling 2012): a leader puts messages into a log, an entry that a majority of the fleet has is
+//! decided, and each robot hands out what is decided in the order of the log.
+//!
+//! Where ours differs: nothing is kept when a robot stops. A robot that starts again is another voter, which
+//! knows nothing; the leader lets it in with what it has to know, and takes its earlier life off the list of
+//! voters, one change at a time. So nobody votes twice or forgets what it acknowledged, which is what goes
+//! wrong where replicas come back under their old names (Michael et al. 2017). If so many stop at once that
+//! those left can decide nothing more, the group is dead, which its members find out by asking: then
+//! a majority of the fleet founds the next group, with an empty log.
+//!
+//! Properties, whatever the network does and whoever crashes and restarts:
+//! - order: no two robots hand out two messages in different orders. Logs are sequences that only grow at
+//!   their decided end, a message is proposed in one group only, and robots go from group to group
+//!   upwards only;
+//! - no gaps: a robot hands out every message between two that it hands out, unless it says that it has a
+//!   gap: because it was away for more than the log holds, or because a group died.
+//!
+//! And where a majority of the fleet is up and linked, and datagrams are not always lost:
+//! - progress: what a robot of that majority broadcasts is handed out by all of it, by the sender too.
+//!
+//! A robot without a majority hands out nothing, and says so: [`Total::failed`].
+
+mod election;
+mod following;
+mod founding;
+mod leading;
+mod log;
+mod member;
+mod packet;
+mod proposing;
+
+use super::{Gap, Gaps, KIND};
+use crate::Failure;
+use crate::incarnation::Incarnation;
+use crate::reliable::{MessageId, Options};
+use alloc::collections::VecDeque;
+use alloc::vec::Vec;
+use election::Claim;
+use following::{Continuation, Place};
+use founding::Idle;
+use member::{Member, Role};
+use packet::{Body, Generation, Life, Said};
+use proposing::Proposal;
+use starl_core::random::hash_key;
+use starl_core::{Destination, Duration, Input, Message, Port, Random, Robot, TimerKey, Value};
+
+/// A log with this many entries or bytes is long: it is no longer kept for those who are away. Besides,
+/// it may hold as much that is not decided.
+const MOST_LOG: u64 = 512;
+const MOST_BYTES: usize = 1 << 18;
+
+/// Datagrams are not much longer than this, bytes, unless one message is.
+const CHUNK: usize = 1000;
+
+/// A count this far ahead is none that robots could have come to.
+const FURTHEST: u32 = 1 << 20;
+
+/// After this many ticks without a leader a robot says that it has failed.
+const SILENCE: u32 = 12;
+
+/// One end of a totally ordered broadcast.
+#[derive(Clone, Debug)]
+pub(super) struct Total {
+    pub port: Port,
+    options: Options,
+    incarnation: Incarnation,
+    /// Counts this robot's lives, beyond its starts.
+    lives: u32,
+    /// The greatest counter of a group that was heard of.
+    highest: u32,
+    member: Option<Member>,
+    idle: Idle,
+    /// Counts how often this robot asked to lead.
+    ask_number: u32,
+    /// The last message that was handed out.
+    position: Option<(Generation, u64)>,
+    /// The number of this robot's last message.
+    last: u32,
+    proposals: VecDeque<Proposal>,
+    /// The last of those that were sent to the leader and wait for their places.
+    in_flight: Option<u32>,
+    failures: VecDeque<Failure>,
+    gaps: Gaps,
+    /// Ticks without a leader.
+    silence: u32,
+    is_ticking: bool,
+}
+
+/// After how many ticks without a leader a robot asks to lead.
+fn patience(robot: &mut Robot<'_>) -> u32 {
+    let spread = robot.fleet().len() as u32 / 4;
+    8 + robot.random().below(8 + spread)
+}
+
+impl Total {
+    pub fn new(port: Port, options: Options) -> Total {
+        Total {
+            port,
+            options,
+            incarnation: Incarnation::default(),
+            lives: 0,
+            highest: 0,
+            member: None,
+            idle: Idle::default(),
+            ask_number: 0,
+            position: None,
+            last: 0,
+            proposals: VecDeque::new(),
+            in_flight: None,
+            failures: VecDeque::new(),
+            gaps: Gaps::default(),
+            silence: 0,
+            is_ticking: false,
+        }
+    }
+
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// The name of the next message.
+    pub fn next(&mut self, robot: &mut Robot<'_>) -> MessageId {
+        MessageId {
+            incarnation: self.incarnation.of(robot),
+            to: None,
+            number: self.last.wrapping_add(1),
+        }
+    }
+
+    /// Whether the message has no place yet and was not given up.
+    pub fn is_outstanding(&self, message: MessageId) -> bool {
+        let mut all = self.proposals.iter();
+        Some(message.incarnation) == self.incarnation.known()
+            && all.any(|proposal| proposal.number == message.number)
+    }
+
+    /// Whether no leader with a majority has been heard for a while.
+    pub fn failed(&self) -> bool {
+        self.silence >= SILENCE
+    }
+
+    pub fn take_failures(&mut self) -> Vec<Failure> {
+        core::mem::take(&mut self.failures).into()
+    }
+
+    pub fn take_gaps(&mut self) -> Vec<Gap> {
+        self.gaps.take()
+    }
+
+    pub fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
+        match input {
+            Input::Start => self.arm(robot),
+            Input::Message(message) if message.port == self.port => self.receive(robot, message),
+            Input::Timer(key) if *key == self.timer() => self.tick_over(robot),
+            _ => {}
+        }
+    }
+
+    fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
+        let Some(said) = message.read::<Said>() else {
+            return;
+        };
+        let Said {
+            life,
+            generation,
+            body,
+        } = said;
+        let is_peer = robot.fleet().binary_search(&message.from).is_ok();
+        if !is_peer || message.from == robot.id() {
+            return;
+        }
+        self.arm(robot);
+        if let Some(generation) = generation {
+            if generation.counter > self.highest.saturating_add(FURTHEST) {
+                return;
+            }
+            self.highest = self.highest.max(generation.counter);
+        }
+        let from = Life {
+            robot: message.from,
+            number: life,
+        };
+        match body {
+            Body::Hello { bound_to, answer } => {
+                self.greeted(robot, from, generation, (bound_to, answer));
+            }
+            Body::Found {
+                generation,
+                quorum,
+                voters,
+            } => self.founded(robot, generation, quorum, voters),
+            Body::Snapshot {
+                quorum,
+                term,
+                index,
+                index_term,
+                voters,
+                senders,
+            } => {
+                let place = Place {
+                    quorum,
+                    term,
+                    index,
+                    index_term,
+                    voters,
+                    senders,
+                };
+                if let Some(generation) = generation {
+                    self.go_on(robot, from, generation, place);
+                }
+            }
+            body => match (&self.member, generation) {
+                (Some(member), Some(generation)) if member.generation == generation => {
+                    self.converse(robot, from, body);
+                }
+                (_, generation) => self.overhear(robot, from, generation, &body),
+            },
+        }
+        self.note_contact(robot);
+    }
+
+    /// A member of another group speaks to its members.
+    fn overhear(
+        &mut self,
+        robot: &mut Robot<'_>,
+        from: Life,
+        generation: Option<Generation>,
+        body: &Body,
+    ) {
+        let to = Destination::Robot(from.robot);
+        match body {
+            Body::Ask { number, .. } => self.greet(robot, to, Some(*number)),
+            Body::Append { .. } => {
+                let is_obsolete = self
+                    .member
+                    .as_ref()
+                    .is_some_and(|member| generation > Some(member.generation));
+                if is_obsolete {
+                    self.leave(robot, "obsolete");
+                }
+                if self.member.is_none() || generation < self.member.as_ref().map(|m| m.generation)
+                {
+                    self.greet(robot, to, None);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Another member of this robot's group speaks.
+    fn converse(&mut self, robot: &mut Robot<'_>, from: Life, body: Body) {
+        match body {
+            Body::Ask {
+                number,
+                trial,
+                term,
+                last_term,
+                last,
+            } => {
+                let claim = Claim {
+                    number,
+                    trial,
+                    term,
+                    last_term,
+                    last,
+                };
+                self.consider(robot, from, claim);
+            }
+            Body::Vote {
+                number,
+                term,
+                is_granted,
+            } => self.answered(robot, from, (number, term, is_granted)),
+            Body::Append {
+                term,
+                previous,
+                previous_term,
+                entries,
+                commit,
+                floor,
+                is_beat,
+            } => {
+                let next = Continuation {
+                    term,
+                    previous,
+                    previous_term,
+                    entries,
+                    commit,
+                    floor,
+                    is_beat,
+                };
+                self.append(robot, from, next);
+            }
+            Body::Taken {
+                term,
+                through,
+                is_whole,
+                applied,
+            } => {
+                if self
+                    .member
+                    .as_ref()
+                    .is_some_and(|member| member.term == term)
+                {
+                    self.taken_by(robot, from, (through, is_whole, applied));
+                }
+            }
+            Body::Propose {
+                incarnation,
+                messages,
+            } => self.put_messages(robot, (from.robot, incarnation), messages),
+            Body::Hello { .. } | Body::Found { .. } | Body::Snapshot { .. } => {}
+        }
+    }
+
+    fn tick_over(&mut self, robot: &mut Robot<'_>) {
+        self.is_ticking = false;
+        self.silence = self.silence.saturating_add(1);
+        if self.silence == SILENCE {
+            self.report(robot, "unavailable", []);
+        }
+        if self
+            .member
+            .as_ref()
+            .is_some_and(|member| !member.is_sound())
+        {
+            self.leave(robot, "corrupt");
+        }
+        match &mut self.member {
+            None => self.wait_for_group(robot),
+            Some(member) => {
+                member.silence = member.silence.saturating_add(1);
+                if member.is_leading() {
+                    self.beat(robot);
+                } else if member.silence >= member.patience {
+                    self.ask(robot, true);
+                } else if member.silence % 2 == 0 {
+                    self.send_ask(robot);
+                }
+            }
+        }
+        self.propose_again(robot);
+        self.note_contact(robot);
+        self.arm(robot);
+    }
+
+    /// Takes note of a leader with a majority.
+    fn note_contact(&mut self, robot: &mut Robot<'_>) {
+        let is_led = self
+            .member
+            .as_ref()
+            .is_some_and(|member| member.leader.is_some() && member.silence == 0);
+        if is_led {
+            if self.silence >= SILENCE {
+                self.report(robot, "available", []);
+            }
+            self.silence = 0;
+        }
+    }
+
+    /// Overwrites the state at random, as a transient fault would.
+    pub fn corrupt(&mut self, random: &mut Random) {
+        if let Some(member) = &mut self.member {
+            if random.chance(0.5) {
+                member.term = random.bits() >> random.below(32);
+            }
+            if random.chance(0.5) {
+                member.silence = random.bits() >> random.below(32);
+            }
+            if random.chance(0.5) {
+                let last = member.log.last() as u32;
+                member.log.truncate(u64::from(random.below(last.max(1))));
+            }
+            if random.chance(0.5) {
+                member.commit = u64::from(random.bits() >> random.below(32));
+            }
+            member.vote = None;
+            member.gone.clear();
+        }
+        self.silence = random.bits() >> random.below(32);
+        self.ask_number = random.bits();
+    }
+
+    /// This robot's life.
+    fn life(&mut self, robot: &mut Robot<'_>) -> Life {
+        let start = u64::from(self.incarnation.of(robot));
+        Life {
+            robot: robot.id(),
+            number: hash_key(start, &[u64::from(self.lives)]) as u32,
+        }
+    }
+
+    fn say(&self, robot: &mut Robot<'_>, to: Destination, body: Body) {
+        let start = u64::from(self.incarnation.known().unwrap_or(0));
+        let said = Said {
+            life: hash_key(start, &[u64::from(self.lives)]) as u32,
+            generation: self.member.as_ref().map(|member| member.generation),
+            body,
+        };
+        robot.transmit(to, self.port, &said);
+    }
+
+    fn report<const N: usize>(
+        &self,
+        robot: &mut Robot<'_>,
+        name: &'static str,
+        fields: [(&'static str, Value); N],
+    ) {
+        robot.emit_primitive(KIND, self.port, name, fields);
+    }
+
+    fn tick(&self) -> Duration {
+        self.options.first_timeout.max(Duration::from_millis(1))
+    }
+
+    /// Sees to it that the next tick comes.
+    fn arm(&mut self, robot: &mut Robot<'_>) {
+        let _ = self.incarnation.of(robot);
+        if !self.is_ticking {
+            self.is_ticking = true;
+            robot.set_timer(self.timer(), self.tick());
+        }
+    }
+
+    fn timer(&self) -> TimerKey {
+        TimerKey {
+            port: self.port,
+            kind: 0,
+            number: 0,
+        }
+    }
+}

@@ -1,0 +1,322 @@
+//! A program that broadcasts in some order, by itself and when told to; and judges of what its events say
+//! of who was handed what when.
+
+use super::{World, int, robot};
+use starl_core::event::Value;
+use starl_core::{
+    Duration, Event, Message, Port, Primitive, Program, Random, Robot, RobotId, Time, TimerKey,
+    message,
+};
+use starl_primitives::broadcast::Order;
+use starl_primitives::reliable::Options;
+use starl_primitives::{Broadcast, FailureDetector, failure_detector};
+use std::any::Any;
+use std::collections::{BTreeMap, BTreeSet};
+
+#[derive(Clone)]
+pub struct Teller {
+    pub broadcast: Broadcast,
+    detector: FailureDetector,
+    /// Messages of its own that it sends, and how likely in each activation.
+    left: u32,
+    likelihood: f64,
+}
+
+impl Teller {
+    /// Robots that send so many messages by themselves after each start, with this likelihood in each
+    /// activation.
+    pub fn boxed(order: Order, count: u32, likelihood: f64) -> impl Fn() -> Box<dyn Program> {
+        move || {
+            Box::new(Teller {
+                broadcast: Broadcast::in_order("news", order, Options::default()),
+                detector: FailureDetector::new("watch", failure_detector::Options::default()),
+                left: count,
+                likelihood,
+            })
+        }
+    }
+}
+
+/// Tells a robot to broadcast a number.
+pub fn tell(value: u32) -> TimerKey {
+    TimerKey {
+        port: Port::PROGRAM,
+        kind: 0,
+        number: value,
+    }
+}
+
+impl Program for Teller {
+    fn activate(&mut self, robot: &mut Robot<'_>) {
+        if self.left > 0 && robot.random().chance(self.likelihood) {
+            self.left -= 1;
+            self.broadcast.broadcast(robot, &self.left);
+        }
+    }
+
+    fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
+        // Tests garble what travels.
+        let value: u32 = message::decode(&message.payload).unwrap_or(u32::MAX);
+        robot.emit(
+            "got",
+            [("from", message.from.into()), ("value", value.into())],
+        );
+    }
+
+    fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
+        self.broadcast.broadcast(robot, &key.number);
+    }
+
+    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
+        visit(&mut self.detector);
+        visit(&mut self.broadcast);
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        self.broadcast.corrupt(random);
+    }
+
+    fn inspect(&self) -> Option<&dyn Any> {
+        Some(self)
+    }
+}
+
+/// The broadcast of a robot that is up.
+pub fn teller(world: &World, robot: usize) -> &Broadcast {
+    let program = world.program(robot).expect("the robot is up");
+    let teller = program
+        .inspect()
+        .and_then(|any| any.downcast_ref::<Teller>());
+    &teller.expect("it is a teller").broadcast
+}
+
+/// A message: its sender, the sender's incarnation, its number.
+pub type Id = (u32, i64, i64);
+
+/// What happened to a robot from one start to the next.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Step {
+    Sent(Id),
+    Handed(Id),
+    /// All up to this one, of the same sender and incarnation, are passed over.
+    Passed(Id),
+    /// Any may be missing here.
+    Gap,
+}
+
+/// All runs of all robots, as steps in the order of time with their places in the records. `starts` are
+/// when robots started again.
+pub fn runs(world: &World, starts: &[(Time, u32)]) -> Vec<(u32, Vec<(usize, Step)>)> {
+    let mut present: BTreeMap<u32, usize> = BTreeMap::new();
+    let mut runs: Vec<(u32, Vec<(usize, Step)>)> = Vec::new();
+    let mut starts = starts.iter().copied().peekable();
+    for (place, (at, RobotId(number), event)) in world.records.iter().enumerate() {
+        while let Some((_, started)) = starts.next_if(|(time, _)| time <= at) {
+            present.remove(&started);
+        }
+        let Event::Primitive {
+            primitive,
+            name,
+            fields,
+            ..
+        } = event
+        else {
+            continue;
+        };
+        if primitive != "broadcast" {
+            continue;
+        }
+        let field = |wanted: &str| -> &Value {
+            let found = fields.iter().find(|(name, _)| name == wanted);
+            &found.expect("the field").1
+        };
+        let id = |from: u32| (from, int(field("incarnation")), int(field("number")));
+        let step = match &**name {
+            "broadcast" => Step::Sent(id(*number)),
+            "deliver" => Step::Handed(id(robot(field("from")))),
+            "pass_over" => Step::Passed(id(robot(field("from")))),
+            "gap" => Step::Gap,
+            _ => continue,
+        };
+        let run = *present.entry(*number).or_insert_with(|| {
+            runs.push((*number, Vec::new()));
+            runs.len() - 1
+        });
+        runs[run].1.push((place, step));
+    }
+    runs
+}
+
+fn handed(steps: &[(usize, Step)]) -> Vec<Id> {
+    let handed = steps.iter().filter_map(|(_, step)| match step {
+        Step::Handed(id) => Some(*id),
+        _ => None,
+    });
+    handed.collect()
+}
+
+/// What each run was handed, after a judgement that nothing was handed out twice or made up.
+pub fn sequences(runs: &[(u32, Vec<(usize, Step)>)], seed: u64) -> Vec<(u32, Vec<Id>)> {
+    let steps = runs.iter().flat_map(|(_, steps)| steps);
+    let sent: BTreeSet<Id> = steps
+        .filter_map(|(_, step)| match step {
+            Step::Sent(id) => Some(*id),
+            _ => None,
+        })
+        .collect();
+    let mut all = Vec::new();
+    for (robot, steps) in runs {
+        let handed = handed(steps);
+        let distinct: BTreeSet<Id> = handed.iter().copied().collect();
+        assert_eq!(
+            distinct.len(),
+            handed.len(),
+            "seed {seed}: twice at {robot}"
+        );
+        assert!(distinct.is_subset(&sent), "seed {seed}: made up");
+        all.push((*robot, handed));
+    }
+    all
+}
+
+/// Whether each sender's messages are handed out as they were sent.
+pub fn is_fifo(sequence: &[Id]) -> bool {
+    let mut last: BTreeMap<(u32, i64), i64> = BTreeMap::new();
+    sequence.iter().all(|&(from, incarnation, number)| {
+        let before = last.insert((from, incarnation), number);
+        before.is_none_or(|before| before < number)
+    })
+}
+
+/// Some two messages that were handed out before something that comes before them.
+pub fn causal_violation(runs: &[(u32, Vec<(usize, Step)>)]) -> Option<String> {
+    let mut steps: Vec<(usize, usize, &Step)> = Vec::new();
+    for (run, (_, of_run)) in runs.iter().enumerate() {
+        steps.extend(of_run.iter().map(|(place, step)| (*place, run, step)));
+    }
+    steps.sort_by_key(|step| step.0);
+    let mut past: BTreeMap<Id, BTreeSet<Id>> = BTreeMap::new();
+    let mut known: Vec<BTreeSet<Id>> = vec![BTreeSet::new(); runs.len()];
+    let mut passed: Vec<BTreeMap<(u32, i64), i64>> = vec![BTreeMap::new(); runs.len()];
+    for (_, run, step) in steps {
+        let me = runs[run].0;
+        match step {
+            Step::Sent(id) => {
+                past.insert(*id, known[run].clone());
+                known[run].insert(*id);
+            }
+            Step::Passed((from, incarnation, number)) => {
+                let mark = passed[run].entry((*from, *incarnation)).or_default();
+                *mark = (*mark).max(*number);
+            }
+            Step::Gap => {}
+            Step::Handed(id) => {
+                let is_passed = |id: &Id| {
+                    let mark = passed[run].get(&(id.0, id.1));
+                    mark.is_some_and(|mark| *mark >= id.2)
+                };
+                if is_passed(id) {
+                    return Some(format!("{id:?} was passed over and handed to {me}"));
+                }
+                let mut before = past[id].iter();
+                let missing =
+                    before.find(|b| b.0 != me && !known[run].contains(b) && !is_passed(b));
+                if let Some(missing) = missing {
+                    return Some(format!("{id:?} was handed to {me} before {missing:?}"));
+                }
+                let before = past[id].clone();
+                known[run].extend(before);
+                known[run].insert(*id);
+            }
+        }
+    }
+    None
+}
+
+/// Two messages that two runs were handed in different orders, or one that a run should have been handed
+/// between two others.
+pub fn total_violation(runs: &[(u32, Vec<(usize, Step)>)]) -> Option<String> {
+    let places: Vec<(u32, Vec<Id>, BTreeMap<Id, usize>)> = runs
+        .iter()
+        .map(|(robot, steps)| {
+            let handed = handed(steps);
+            let places = handed
+                .iter()
+                .enumerate()
+                .map(|(at, id)| (*id, at))
+                .collect();
+            (*robot, handed, places)
+        })
+        .collect();
+    for (robot, sequence, _) in &places {
+        for (other, _, places) in &places {
+            let common: Vec<usize> = sequence
+                .iter()
+                .filter_map(|id| places.get(id).copied())
+                .collect();
+            if !common.is_sorted() {
+                return Some(format!("robots {robot} and {other} differ in order"));
+            }
+        }
+    }
+    let mut next: BTreeMap<Id, Id> = BTreeMap::new();
+    for (robot, steps) in runs {
+        let mut last = None;
+        for (_, step) in steps {
+            match step {
+                Step::Handed(id) => {
+                    if let Some(last) = last.replace(*id)
+                        && *next.entry(last).or_insert(*id) != *id
+                    {
+                        return Some(format!("robot {robot} has a gap after {last:?}"));
+                    }
+                }
+                Step::Gap => last = None,
+                _ => {}
+            }
+        }
+    }
+    None
+}
+
+/// Runs a fleet of robots that each send for a while, while faults strike at random until `calm`, then
+/// for `calm` more. Gives when robots started again.
+pub fn trouble(world: &mut World, robots: usize, seed: u64, span: Duration) -> Vec<(Time, u32)> {
+    let mut random = Random::keyed(seed, &[77]);
+    let mut starts = Vec::new();
+    let mut down = BTreeSet::new();
+    let end = world.now + span;
+    while world.now < end {
+        world.run_for(Duration::from_millis(300 + u64::from(random.below(2500))));
+        let robot = random.below(robots as u32);
+        match random.below(5) {
+            0 | 1 if down.len() * 2 + 2 < robots || random.chance(0.1) => {
+                world.crash(robot as usize);
+                down.insert(robot);
+            }
+            2 => {
+                if let Some(robot) = down.pop_first() {
+                    starts.push((world.now, robot));
+                    world.start(robot as usize);
+                }
+            }
+            3 => {
+                let side: Vec<bool> = (0..robots).map(|_| random.chance(0.5)).collect();
+                for a in 0..robots {
+                    for b in 0..robots {
+                        if side[a] != side[b] {
+                            world.wire.cut.insert((a as u32, b as u32));
+                        }
+                    }
+                }
+            }
+            _ => world.wire.cut.clear(),
+        }
+    }
+    world.wire.cut.clear();
+    for robot in down {
+        starts.push((world.now, robot));
+        world.start(robot as usize);
+    }
+    starts
+}
