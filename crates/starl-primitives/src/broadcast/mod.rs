@@ -38,7 +38,7 @@ pub struct Broadcast {
 /// How the order comes about.
 #[derive(Clone, Debug)]
 enum Way {
-    Acknowledged(Channel),
+    Acknowledged(Box<Channel>),
     Causal(Box<Causal>),
     Total(Box<Total>),
 }
@@ -89,7 +89,7 @@ impl Broadcast {
         };
         let channel = Channel::new(KIND, name, options);
         let way = match order {
-            Order::Unordered | Order::Fifo => Way::Acknowledged(channel),
+            Order::Unordered | Order::Fifo => Way::Acknowledged(Box::new(channel)),
             Order::Causal => Way::Causal(Box::new(Causal::new(channel))),
             Order::Total => Way::Total(Box::new(Total::new(channel.port, options))),
         };
