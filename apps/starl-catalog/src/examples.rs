@@ -62,6 +62,34 @@ pub const EXAMPLES: &[Example] = &[
         text: include_str!("../../../examples/primitives/mutex.toml"),
         files: &[file!("primitives", "mutex.starl")],
     },
+    Example {
+        name: "flocking",
+        summary: "groups of robots travel in lines abreast",
+        path: "examples/flocking/flocking.toml",
+        text: include_str!("../../../examples/flocking/flocking.toml"),
+        files: &[file!("flocking", "flocking.starl")],
+    },
+    Example {
+        name: "maze",
+        summary: "robots look for their goals and tell each other of the walls they meet",
+        path: "examples/maze/maze.toml",
+        text: include_str!("../../../examples/maze/maze.toml"),
+        files: &[file!("maze", "maze.starl")],
+    },
+    Example {
+        name: "auction",
+        summary: "robots share out places to visit by bidding for them",
+        path: "examples/auction/auction.toml",
+        text: include_str!("../../../examples/auction/auction.toml"),
+        files: &[file!("auction", "auction.starl")],
+    },
+    Example {
+        name: "traffic-signs",
+        summary: "robots stop at a crossing and go over it in turn",
+        path: "examples/traffic-signs/traffic-signs.toml",
+        text: include_str!("../../../examples/traffic-signs/traffic-signs.toml"),
+        files: &[file!("traffic-signs", "traffic-signs.starl")],
+    },
 ];
 
 impl Example {

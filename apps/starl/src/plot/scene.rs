@@ -3,9 +3,9 @@
 
 use super::drawing::{Anchor, Drawing, Fill, Shape as Drawn, Spot, Stroke};
 use super::frame::Frame;
-use super::{legend, marks};
 use super::palette::{self, BLACK, INK, OBSTACLE, OBSTACLE_EDGE, WAY_POINT, WHITE};
 use super::{PlotData, RobotPath};
+use super::{legend, marks};
 use starl_core::{Obstacle, Point, Shape};
 
 /// Larger fleets are coloured by model: nobody tells more colours apart.
@@ -224,13 +224,23 @@ pub fn body_look(stroke: Stroke) -> (Fill, Stroke) {
     )
 }
 
+/// With more way-points than this they are dots without names: a drawing or a map, not places to go to.
+const MOST_NAMES: usize = 24;
+
 fn draw_way_points(drawing: &mut Drawing, frame: &Frame, data: &PlotData) {
-    for way_point in data
-        .way_points
-        .iter()
-        .filter(|way_point| Frame::shows(&way_point.position))
-    {
+    let are_many = data.way_points.len() > MOST_NAMES;
+    let shown = data.way_points.iter();
+    for way_point in shown.filter(|way_point| Frame::shows(&way_point.position)) {
         let center = frame.spot(way_point.position);
+        if are_many {
+            drawing.push(Drawn::Circle {
+                center,
+                radius: 1.5,
+                fill: Some(Fill::solid(WAY_POINT)),
+                stroke: None,
+            });
+            continue;
+        }
         let ring = |color, width| Some(Stroke::solid(color, width));
         for stroke in [ring(WHITE, 4.5), ring(WAY_POINT, 2.2)] {
             drawing.push(Drawn::Circle {

@@ -10,6 +10,7 @@ fn robot(name: &str, model: &str, path: Vec<Point>) -> RobotPath {
         radius: 0.17,
         flies: false,
         path,
+        marks: BTreeMap::new(),
     }
 }
 
@@ -196,4 +197,27 @@ fn a_png_shows_the_same_picture_with_text_on_a_machine_without_fonts() {
         .filter(|&(x, y)| pixels.pixel(x, y).unwrap().red() < 60)
         .count();
     assert!((50..900).contains(&dark), "{dark} dark pixels");
+}
+
+#[test]
+fn what_programs_draw_is_shown() {
+    let mut data = race();
+    let plain = svg(&data);
+    let corner = Point::planar(0.5, 2.0);
+    let marks = [
+        (
+            "line",
+            MarkShape::Line(vec![corner, Point::planar(1.5, 2.5)]),
+        ),
+        ("here <1>", MarkShape::Text(corner)),
+        ("gone", MarkShape::Nothing),
+        ("nowhere", MarkShape::Dot(Point::planar(f64::NAN, 0.0))),
+    ];
+    data.robots[0].marks = marks.map(|(label, mark)| (label.into(), mark)).into();
+    let drawn = svg(&data);
+    assert!(drawn.contains("here &lt;1&gt;"));
+    assert!(!drawn.contains("gone") && !drawn.contains("nowhere"));
+    let lines =
+        |picture: &str| picture.matches("<polyline").count() + picture.matches("<path").count();
+    assert_eq!(lines(&drawn), lines(&plain) + 1);
 }

@@ -1,8 +1,10 @@
-//! Reads the world files of StarL 1.5: way-points, starts, things and obstacles, a line for each.
+//! Reads world files: drawings in SVG, and those of StarL 1.5: way-points, starts, things and obstacles, a
+//! line for each.
 //!
 //! Lengths are in millimetres, headings in degrees, times in milliseconds; see
 //! `docs/reference/world-files.md`. Errors name the line and the column of the value.
 
+mod drawing;
 mod word;
 
 use super::names::Names;
@@ -37,6 +39,9 @@ pub(super) fn read(
         }
     };
     let start = report.file(name, text);
+    if text.trim_start_matches(['\u{feff}', ' ', '\t', '\r', '\n']).starts_with('<') {
+        return drawing::read(text, start, contents, report);
+    }
     let mut file = File {
         names,
         contents,
