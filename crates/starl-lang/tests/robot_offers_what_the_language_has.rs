@@ -49,6 +49,9 @@ impl Types {
             Shape::Named("Planner") => {
                 self.variants("Planner", &["auto", "rrt", "rrt_connect", "rrt_star"])
             }
+            Shape::Named("ElectionAlgorithm") => {
+                self.variants("ElectionAlgorithm", &["leases", "ballots", "bully"])
+            }
             Shape::Named("Detection") => {
                 let optional = |kind| Type::Optional(Box::new(kind));
                 let fields = [

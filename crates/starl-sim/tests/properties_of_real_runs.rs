@@ -122,6 +122,12 @@ fn all_properties_hold_when_nothing_is_in_the_way() {
             "shared_memory.integrity",
             "shared_memory.order",
             "shared_memory.convergence",
+            "election.uniqueness",
+            "election.order",
+            "election.exclusion",
+            "election.soundness",
+            "election.agreement",
+            "election.progress",
         ]
     );
     assert_eq!(violated(&verdicts), [""; 0], "{verdicts:#?}");
@@ -170,6 +176,7 @@ fn only_what_the_scenario_asks_for_is_checked() {
     scenario.properties.broadcast = false;
     scenario.properties.geocast = false;
     scenario.properties.shared_memory = false;
+    scenario.properties.election = false;
     scenario.properties.no_collision = false;
     scenario.properties.reach_avoid = false;
     assert_eq!(verdicts(scenario, true), []);

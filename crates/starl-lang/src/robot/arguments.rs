@@ -2,6 +2,7 @@
 
 use crate::machine::{Body, HostCall, List, Object};
 use alloc::borrow::Cow;
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use starl_core::motion::Obstacles;
 use starl_core::{Area, Duration, Point, RobotId};
@@ -89,6 +90,12 @@ impl<'a> Arguments<'a> {
             Point::new(x, y, z)
         });
         points.collect()
+    }
+
+    /// A set of robots.
+    pub fn robots(&mut self) -> BTreeSet<RobotId> {
+        let scalars = self.object().list().map_or(&[][..], List::scalars);
+        scalars.iter().map(|&robot| RobotId(robot as u32)).collect()
     }
 
     /// A text, collection, area or obstacles.

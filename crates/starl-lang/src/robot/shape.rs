@@ -6,6 +6,7 @@ use crate::machine::{Bytecode, Enum, Import, ObjectType, Type};
 use alloc::string::String;
 use alloc::vec::Vec;
 use starl_core::motion::Planner;
+use starl_primitives::election::Algorithm;
 
 /// A type that a function of the host takes or gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,6 +35,8 @@ pub enum Shape {
     Side,
     /// The enum `Planner` of the prelude.
     Planner,
+    /// The enum `ElectionAlgorithm` of the prelude.
+    ElectionAlgorithm,
     /// The record `Detection` of the prelude.
     Detection,
     /// A list.
@@ -74,6 +77,13 @@ pub const PLANNERS: [(&str, Planner); 4] = [
     ("rrt", Planner::Rrt),
     ("rrt_connect", Planner::RrtConnect),
     ("rrt_star", Planner::RrtStar),
+];
+
+/// How a leader is elected, as the prelude has it.
+pub const ELECTION_ALGORITHMS: [(&str, Algorithm); 3] = [
+    ("leases", Algorithm::Leases),
+    ("ballots", Algorithm::Ballots),
+    ("bully", Algorithm::Bully),
 ];
 
 /// The types that bytecode declares.
@@ -146,6 +156,9 @@ impl Declared {
             (Shape::Side, Type::Enum(index)) => self.variants(*index) == SIDES,
             (Shape::Planner, Type::Enum(index)) => {
                 self.variants(*index) == PLANNERS.map(|(name, _)| name)
+            }
+            (Shape::ElectionAlgorithm, Type::Enum(index)) => {
+                self.variants(*index) == ELECTION_ALGORITHMS.map(|(name, _)| name)
             }
             (Shape::Detection, Type::Record(fields)) => {
                 let kinds: Vec<Type> = fields.iter().map(|(_, kind)| kind.clone()).collect();

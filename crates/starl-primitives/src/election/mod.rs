@@ -72,10 +72,10 @@ pub struct LeaderElection {
 /// What became of a leader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
-    /// This robot leads from now on, or again in a later epoch.
+    /// This robot leads from now on; or it did before, and does in a later epoch.
     Elected(RobotId),
-    /// There is none any more.
-    Lost,
+    /// This robot was, and there is none any more.
+    Lost(RobotId),
 }
 
 #[derive(Clone, Debug)]
@@ -273,13 +273,14 @@ impl LeaderElection {
         if now_shown == self.shown {
             return;
         }
-        self.shown = now_shown;
-        let change = match now_shown {
-            None => {
+        let before = core::mem::replace(&mut self.shown, now_shown);
+        let change = match (before, now_shown) {
+            (None, None) => return,
+            (Some(before), None) => {
                 robot.emit_primitive(KIND, self.port, "lost", []);
-                Change::Lost
+                Change::Lost(before.leader)
             }
-            Some(Leadership { leader, epoch }) => {
+            (_, Some(Leadership { leader, epoch })) => {
                 let leader_field = ("leader", leader.into());
                 match epoch {
                     None => robot.emit_primitive(KIND, self.port, "leader", [leader_field]),

@@ -2,7 +2,7 @@
 
 use super::{World, int, robot};
 use starl_core::event::Value;
-use starl_core::{Event, Port, Primitive, Program, Random, Robot, RobotId, Time, TimerKey};
+use starl_core::{Event, Port, Primitive, Program, Random, Robot, RobotId, TimerKey};
 use starl_primitives::election::{Algorithm, Options};
 use starl_primitives::{FailureDetector, LeaderElection, failure_detector};
 use std::any::Any;
@@ -124,15 +124,15 @@ pub fn agreed(world: &World, robots: &[usize]) -> Option<u32> {
 
 /// Judges a run by its events, as long as it is about leases: each epoch has one leader, epochs grow from
 /// leader to leader, no two robots lead at once, and who leads has called for an election. Crashes are given,
-/// since they leave no event. Gives the epochs in which someone led, with the leaders, in the order of time.
-pub fn judge(world: &World, crashes: &[(Time, u32)]) -> Vec<(i64, u32)> {
+/// since they leave no event, by the number of events before. Gives the epochs in which someone led, with the leaders, in the order of time.
+pub fn judge(world: &World, crashes: &[(usize, u32)]) -> Vec<(i64, u32)> {
     let mut crashes = crashes.iter().copied().peekable();
     let mut leads: BTreeMap<u32, i64> = BTreeMap::new();
     let mut called: BTreeSet<u32> = BTreeSet::new();
     let mut names: BTreeMap<i64, u32> = BTreeMap::new();
     let mut history: Vec<(i64, u32)> = Vec::new();
-    for (at, RobotId(me), event) in &world.records {
-        while let Some((_, crashed)) = crashes.next_if(|(time, _)| time < at) {
+    for (index, (at, RobotId(me), event)) in world.records.iter().enumerate() {
+        while let Some((_, crashed)) = crashes.next_if(|&(before, _)| before <= index) {
             leads.remove(&crashed);
             called.remove(&crashed);
         }

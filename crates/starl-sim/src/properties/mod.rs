@@ -5,6 +5,7 @@
 
 mod bodies;
 mod broadcast;
+mod election;
 mod geocast;
 mod health;
 mod monitor;
@@ -86,6 +87,9 @@ pub fn checkers(scenario: &Scenario, setting: &Setting) -> Vec<Box<dyn Checker>>
         checkers.push(Box::new(shared_memory::SharedMemory::new(
             scenario, setting,
         )));
+    }
+    if wanted.election {
+        checkers.push(Box::new(election::Election::new(scenario, setting)));
     }
     checkers
 }

@@ -122,6 +122,8 @@ fn properties(table: Section<'_>) -> Properties {
         geocast_bound: table.duration("geocast_bound"),
         shared_memory: table.flag("shared_memory"),
         shared_memory_bound: table.duration("shared_memory_bound"),
+        election: table.flag("election"),
+        election_bound: table.duration("election_bound"),
         program: table.flag("program"),
     }
 }

@@ -126,6 +126,10 @@ pub struct Properties {
     pub shared_memory: bool,
     /// Shared memories converge within this time; default 35 s.
     pub shared_memory_bound: Duration,
+    /// Leader election: uniqueness, order, exclusion, soundness, agreement and progress; default true.
+    pub election: bool,
+    /// Robots agree on a leader within this time; default 35 s.
+    pub election_bound: Duration,
     /// What programs in the StarL language say of themselves; default true.
     pub program: bool,
 }
@@ -180,6 +184,8 @@ impl Default for Properties {
             geocast_bound: Duration::from_seconds(35),
             shared_memory: true,
             shared_memory_bound: Duration::from_seconds(35),
+            election: true,
+            election_bound: Duration::from_seconds(35),
             program: true,
         }
     }

@@ -129,6 +129,8 @@ pub(super) fn properties(properties: &Properties) -> String {
         geocast_bound,
         shared_memory,
         shared_memory_bound,
+        election,
+        election_bound,
         program,
     });
     table.finish()

@@ -222,22 +222,45 @@ pub const PRIMITIVES: &[Primitive] = &[
         documentation: "Agreement on who takes part (thesis, section 3.4.1).",
     },
     Primitive {
-        constructor: "LeaderElection(id: String, participants?: Set[RobotId])",
+        constructor: "LeaderElection(id: String, participants?: Set[RobotId], algorithm?: ElectionAlgorithm)",
         members: &[
             member(
                 "elect()",
                 Effect,
-                "Starts or joins an election (the thesis's do_election).",
+                "Stands for election from now on, and has one if there is none (the thesis's do_election).",
+            ),
+            member(
+                "resign()",
+                Effect,
+                "No longer stands; a leader that resigns is replaced.",
             ),
             member(
                 "leader: RobotId?",
                 Query,
-                "Who was elected; none while that is open and if it failed.",
+                "Who leads; none while that is open and if the election failed.",
             ),
-            member("failed: Bool", Query, "Whether the election failed."),
+            member(
+                "epoch: Int?",
+                Query,
+                "The number of its leadership, greater than those before; with `leases` only.",
+            ),
+            member(
+                "failed: Bool",
+                Query,
+                "Whether the election takes too long; it goes on all the same.",
+            ),
         ],
-        events: &[],
-        is_available: false,
+        events: &[
+            Event {
+                text: "elected(leader: RobotId)",
+                documentation: "This robot leads from now on, or in a new epoch.",
+            },
+            Event {
+                text: "lost(leader: RobotId)",
+                documentation: "This robot led, and nobody does now.",
+            },
+        ],
+        is_available: true,
         documentation: "Election of one robot (thesis, section 3.4.2).",
     },
     Primitive {

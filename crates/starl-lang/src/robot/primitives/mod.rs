@@ -6,6 +6,7 @@
 //! to the checker.
 
 mod attended;
+mod election;
 mod messaging;
 mod mutex;
 mod reach_avoid;
@@ -213,6 +214,7 @@ pub static KINDS: &[Entry] = &[
     Entry::of::<starl_primitives::Mutex>(),
     Entry::of::<starl_primitives::Registration>(),
     Entry::of::<watch::Watch>(),
+    Entry::of::<starl_primitives::LeaderElection>(),
     Entry::of::<shared::SingleWriter>(),
     Entry::of::<shared::MultiWriter>(),
 ];

@@ -141,7 +141,6 @@ impl Leases {
             self.stand(scene);
         } else {
             self.give_up(scene);
-            self.postpone(scene);
         }
     }
 
@@ -149,6 +148,7 @@ impl Leases {
     pub(super) fn give_up(&mut self, scene: &mut Scene<'_, '_>) {
         if let Some(claim) = self.claim.take() {
             scene.tell_all(Packet::Void(claim.epoch));
+            self.postpone(scene);
         }
     }
 }

@@ -14,6 +14,7 @@
 //! and from their clocks. Who begins anew does not count as one that remembers for those that were up then.
 
 use super::{Leases, Promise};
+use crate::election::KIND;
 use crate::election::epoch::Epoch;
 use crate::election::options::no_later;
 use crate::election::packet::{Memory, Packet};
@@ -159,6 +160,9 @@ impl Leases {
         } else {
             return;
         }
+        let is_anew = matches!(self.stage, Stage::Remembering(Some(_)));
+        let fields = [("anew", is_anew.into())];
+        scene.robot.emit_primitive(KIND, scene.port, "vote", fields);
         self.promise = Promise {
             epoch: self.known,
             until: Time::ZERO,

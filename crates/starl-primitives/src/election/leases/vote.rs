@@ -59,6 +59,7 @@ impl Leases {
         self.voided = epoch;
         if self.promise.epoch == epoch {
             self.promise.until = Time::ZERO;
+            self.postpone(scene);
         }
         if self.shown.is_some_and(|shown| shown.epoch == epoch) {
             self.lose(scene);

@@ -1,0 +1,118 @@
+//! LeaderElection in programs.
+
+use super::{Arguments, Context, Event, Instance, Kind, Member, Needs, Report, method, query};
+use crate::machine::HostCall;
+use crate::robot::shape::{ELECTION_ALGORITHMS, Shape};
+use alloc::borrow::Cow;
+use alloc::format;
+use alloc::vec::Vec;
+use starl_core::Primitive;
+use starl_primitives::LeaderElection;
+use starl_primitives::election::{Algorithm, Change, Options};
+
+impl Kind for LeaderElection {
+    const NAME: &'static str = "LeaderElection";
+
+    /// The name of the election, who takes part (all, if none are given), and how a leader is found.
+    const CONSTRUCTOR: &'static [Shape] = &[
+        Shape::Text,
+        Shape::Optional(&Shape::Set(&Shape::Robot)),
+        Shape::Optional(&Shape::ElectionAlgorithm),
+    ];
+
+    const MEMBERS: &'static [Member<LeaderElection>] = &[
+        method("elect", &[], None, |election, context, _| {
+            election.elect(context.robot);
+            Ok(10)
+        }),
+        method("resign", &[], None, |election, context, _| {
+            election.resign(context.robot);
+            Ok(10)
+        }),
+        query(
+            "leader",
+            &[],
+            Shape::Optional(&Shape::Robot),
+            |election, _, call| {
+                let leader = election.leader().map(|leader| i64::from(leader.0));
+                give(call, leader);
+                Ok(0)
+            },
+        ),
+        query(
+            "epoch",
+            &[],
+            Shape::Optional(&Shape::Int),
+            |election, _, call| {
+                // Epochs have 63 bits.
+                give(call, election.epoch().map(|epoch| epoch as i64));
+                Ok(0)
+            },
+        ),
+        query("failed", &[], Shape::Bool, |election, _, call| {
+            call.set_bool(0, election.failed());
+            Ok(0)
+        }),
+    ];
+
+    const EVENTS: &'static [Event] = &[
+        Event {
+            name: "elected",
+            parameters: &[Shape::Robot],
+        },
+        Event {
+            name: "lost",
+            parameters: &[Shape::Robot],
+        },
+    ];
+
+    const NEEDS: Needs = Needs {
+        detector: true,
+        ..Needs::NOTHING
+    };
+
+    fn bind(
+        _: &Instance,
+        _: &mut Context<'_, '_>,
+        arguments: &mut Arguments<'_>,
+    ) -> Result<LeaderElection, Cow<'static, str>> {
+        let name = format!("election/{}", arguments.text());
+        let participants = arguments.optional(Arguments::robots);
+        let algorithm = match arguments.optional(Arguments::int) {
+            None => Algorithm::default(),
+            Some(variant) => {
+                let algorithm = ELECTION_ALGORITHMS.get(variant as usize);
+                algorithm.ok_or("there is no such algorithm")?.1
+            }
+        };
+        let options = Options {
+            algorithm,
+            ..Options::default()
+        };
+        Ok(LeaderElection::new(&name, participants, options))
+    }
+
+    fn primitive(&mut self) -> Option<&mut dyn Primitive> {
+        Some(self)
+    }
+
+    fn take_reports(&mut self, take: &mut dyn FnMut(Report)) {
+        for change in self.take_changes() {
+            let (event, robot) = match change {
+                Change::Elected(leader) => (0, leader),
+                Change::Lost(leader) => (1, leader),
+            };
+            take(Report {
+                event,
+                scalars: Vec::from([u64::from(robot.0)]),
+                objects: Vec::new(),
+            });
+        }
+    }
+}
+
+/// Gives a value or none.
+fn give(call: &mut HostCall<'_>, value: Option<i64>) {
+    call.set_bool(0, value.is_some());
+    call.set_int(1, value.unwrap_or(0));
+}

@@ -1,0 +1,177 @@
+//! Leader election (thesis, section 3.4.2): agreement, soundness and progress, and what epochs promise.
+//!
+//! That an epoch has one leader is judged as it is. What rests on memory and clocks is not judged where memory
+//! was lost: epochs need not grow past a moment at which a majority of the participants had crashed and did not
+//! vote again yet, and nothing but the uniqueness of epochs is asked for a bound after a corruption.
+//! Agreement and progress are judged with a bound, in which those concerned were well and linked.
+
+mod instance;
+mod owed;
+
+use super::health::{Health, Needs};
+use super::parts::Parts;
+use super::report::Report;
+use super::{Checker, Setting, Violation};
+use crate::scenario::Scenario;
+use instance::{Instance, Member, Shown};
+use starl_core::event::{Event, Value};
+use starl_core::{Duration, Port, Record, RobotId, Time};
+use std::collections::{BTreeMap, BTreeSet};
+
+const UNIQUENESS: &str = "election.uniqueness";
+const ORDER: &str = "election.order";
+const EXCLUSION: &str = "election.exclusion";
+const SOUNDNESS: &str = "election.soundness";
+const AGREEMENT: &str = "election.agreement";
+const PROGRESS: &str = "election.progress";
+
+/// Watches all elections.
+#[derive(Clone, Debug)]
+pub(super) struct Election {
+    bound: Duration,
+    health: Health,
+    parts: Parts,
+    instances: BTreeMap<Port, Instance>,
+    /// Robots whose agreement or progress is to be judged, by the time at which it is.
+    due: BTreeSet<(Time, Port, RobotId)>,
+    /// Robots that have crashed and may have forgotten what they promised, or who led.
+    crashed: BTreeSet<RobotId>,
+    /// When some state was corrupted last.
+    corrupted: Option<Time>,
+}
+
+impl Election {
+    pub fn new(scenario: &Scenario, setting: &Setting) -> Election {
+        let bound = scenario.properties.election_bound;
+        let robots = setting.bodies.len();
+        Election {
+            bound,
+            health: Health::new(robots, Needs::Computing, bound),
+            parts: Parts::new(robots, bound),
+            instances: BTreeMap::new(),
+            due: BTreeSet::new(),
+            crashed: BTreeSet::new(),
+            corrupted: None,
+        }
+    }
+
+    /// Whether what a corruption made up may still be about.
+    fn is_disturbed(&self, now: Time) -> bool {
+        self.corrupted.is_some_and(|at| now < at + self.bound)
+    }
+
+    fn reported(&mut self, report: &Report<'_>, found: &mut Vec<Violation>) {
+        let Report {
+            at, robot, port, ..
+        } = *report;
+        let is_disturbed = self.is_disturbed(at);
+        let instance = self.instances.entry(port).or_default();
+        let member = instance
+            .members
+            .entry(robot)
+            .or_insert_with(|| Member::new(at));
+        match report.name {
+            "start" => {
+                *member = Member::new(at);
+                if let Some(Value::Robots(participants)) = report.get("participants") {
+                    instance.participants.clone_from(participants);
+                }
+                let has_leases =
+                    matches!(report.get("algorithm"), Some(Value::Text(name)) if name == "leases");
+                instance.has_leases = has_leases;
+            }
+            "elect" => {
+                member.called.get_or_insert(at);
+            }
+            "resign" => member.called = None,
+            "vote" => {
+                member.votes_since.get_or_insert(at);
+            }
+            "leader" => {
+                if let Some(&Value::Robot(leader)) = report.get("leader") {
+                    let epoch = match report.get("epoch") {
+                        Some(&Value::Int(epoch)) => Some(epoch),
+                        _ => None,
+                    };
+                    instance.shows(robot, leader, epoch, at, is_disturbed, found);
+                }
+            }
+            "lost" => instance.shows_none(robot, at),
+            _ => return,
+        }
+        self.due.insert((at + self.bound, port, robot));
+    }
+
+    /// A robot has lost all it knew.
+    fn crash(&mut self, robot: RobotId) {
+        self.crashed.insert(robot);
+        for instance in self.instances.values_mut() {
+            instance.leading.remove(&robot);
+            instance.members.remove(&robot);
+            instance.note_forgotten(&self.crashed);
+        }
+    }
+
+    fn corrupt(&mut self, at: Time) {
+        self.corrupted = Some(at);
+        for instance in self.instances.values_mut() {
+            instance.highest = None;
+        }
+    }
+}
+
+impl Checker for Election {
+    fn properties(&self) -> &'static [&'static str] {
+        &[UNIQUENESS, ORDER, EXCLUSION, SOUNDNESS, AGREEMENT, PROGRESS]
+    }
+
+    fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
+        match &record.event {
+            Event::Sent { .. } | Event::Delivered { .. } => {
+                // Before anyone elects nobody is to agree.
+                if !self.instances.is_empty() {
+                    self.parts.observe(record);
+                }
+            }
+            Event::Primitive { .. } => {
+                if let Some(report) = Report::of(record, "election") {
+                    self.check_bounds(record.at, violations);
+                    self.reported(&report, violations);
+                }
+            }
+            Event::Fault(fault) => {
+                self.check_bounds(record.at, violations);
+                self.health.observe(record);
+                self.parts.observe(record);
+                match (record.robot, &**fault) {
+                    (Some(robot), "crash") => self.crash(robot),
+                    (Some(_), "corrupt state") => self.corrupt(record.at),
+                    _ => {}
+                }
+            }
+            Event::Failed(_) => {
+                self.check_bounds(record.at, violations);
+                self.health.observe(record);
+            }
+            _ => {}
+        }
+    }
+
+    fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
+        self.check_bounds(now, violations);
+    }
+}
+
+fn violation(
+    property: &'static str,
+    at: Time,
+    robots: impl Into<Vec<RobotId>>,
+    text: String,
+) -> Violation {
+    Violation {
+        property: property.into(),
+        at,
+        robots: robots.into(),
+        text,
+    }
+}
