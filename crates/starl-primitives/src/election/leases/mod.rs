@@ -48,6 +48,8 @@ pub(super) struct Leases {
     shown: Option<Shown>,
     /// It does not stand earlier.
     stand_at: Time,
+    /// Whether the robot stood for election when it last looked.
+    stood: bool,
 }
 
 /// What this robot has promised.
@@ -174,6 +176,10 @@ impl Rules for Leases {
     fn settle(&mut self, scene: &mut Scene<'_, '_>) {
         self.make_plausible(scene);
         self.recover(scene);
+        if scene.stands && !self.stood {
+            self.postpone(scene);
+        }
+        self.stood = scene.stands;
         let now = scene.now();
         if self.shown.is_some_and(|shown| now >= shown.until) {
             let was_own = self

@@ -11,18 +11,6 @@ pub const SCENARIO: &[Field] = &[
         "What is run.",
     ),
     field(
-        "election",
-        Kind::Flag,
-        Default::Value("true"),
-        "What leader elections promise.",
-    ),
-    field(
-        "election_bound",
-        SPAN,
-        Default::Value("35s"),
-        "Within this time robots agree on a leader.",
-    ),
-    field(
         "program",
         Kind::Text,
         Default::Depends("each group names its own"),
@@ -210,6 +198,18 @@ const PROPERTIES: &[Field] = &[
         SPAN,
         Default::Value("35s"),
         "Within this time memories converge.",
+    ),
+    field(
+        "election",
+        Kind::Flag,
+        Default::Value("true"),
+        "What leader elections promise.",
+    ),
+    field(
+        "election_bound",
+        SPAN,
+        Default::Value("35s"),
+        "Within this time robots agree on a leader.",
     ),
     field(
         "program",
