@@ -79,6 +79,8 @@ fn timeless(scenario: &Scenario) -> Scenario {
         geocast_bound,
         shared_memory: _,
         shared_memory_bound,
+        election: _,
+        election_bound,
         program: _,
     } = &mut scenario.properties;
     for bound in [
@@ -86,6 +88,7 @@ fn timeless(scenario: &Scenario) -> Scenario {
         broadcast_bound,
         geocast_bound,
         shared_memory_bound,
+        election_bound,
     ] {
         *bound = FOREVER;
     }
