@@ -18,7 +18,6 @@ use super::common::Common;
 use super::lease::belief;
 use super::options::Algorithm;
 
-use alloc::boxed::Box;
 
 use alloc::vec::Vec;
 use arbiter::{Arbiter, Terms};
