@@ -63,6 +63,13 @@ pub const EXAMPLES: &[Example] = &[
         files: &[file!("primitives", "mutex.starl")],
     },
     Example {
+        name: "election",
+        summary: "robots elect a leader again and again",
+        path: "examples/primitives/election.toml",
+        text: include_str!("../../../examples/primitives/election.toml"),
+        files: &[file!("primitives", "election.starl")],
+    },
+    Example {
         name: "flocking",
         summary: "groups of robots travel in lines abreast",
         path: "examples/flocking/flocking.toml",

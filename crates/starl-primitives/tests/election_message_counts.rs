@@ -87,6 +87,7 @@ fn by_leases_if_one_stands() {
 fn by_leases_if_all_stand() {
     for count in COUNTS {
         let counted = of_all(count, Algorithm::Leases);
+        println!("{count}: {counted}");
         assert!(counted <= 2 * (count + 1), "{counted} for {count} robots");
     }
 }
@@ -104,6 +105,7 @@ fn by_leases_after_a_resignation() {
         world.command(leader, RESIGN);
         world.run_for(Duration::from_millis(2));
         let counted = until_agreed(&mut world, count);
+        println!("{count}: {counted}");
         assert!(counted <= 2 * (count + 1), "{counted} for {count} robots");
     }
 }

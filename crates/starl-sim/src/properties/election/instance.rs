@@ -148,14 +148,14 @@ impl Instance {
         self.leading.insert(robot, epoch);
     }
 
-    /// Where a majority has crashed and does not vote again yet, nobody may remember the latest epoch.
-    pub fn note_forgotten(&mut self, crashed: &BTreeSet<RobotId>) {
+    /// Where a majority does not vote, having crashed or not begun, nobody may remember the latest epoch.
+    pub fn note_forgotten(&mut self) {
         let votes = |robot: &RobotId| {
             let member = self.members.get(robot);
             member.is_some_and(|member| member.votes_since.is_some())
         };
-        let has_forgotten = |robot: &&RobotId| crashed.contains(robot) && !votes(robot);
-        if self.participants.iter().filter(has_forgotten).count() >= self.majority() {
+        let forgetful = self.participants.iter().filter(|robot| !votes(robot));
+        if forgetful.count() >= self.majority() {
             self.highest = None;
         }
     }

@@ -1,8 +1,8 @@
 //! Leader election (thesis, section 3.4.2): agreement, soundness and progress, and what epochs promise.
 //!
 //! That an epoch has one leader is judged as it is. What rests on memory and clocks is not judged where memory
-//! was lost: epochs need not grow past a moment at which a majority of the participants had crashed and did not
-//! vote again yet, and nothing but the uniqueness of epochs is asked for a bound after a corruption.
+//! was lost: epochs need not grow past a moment at which a majority of the participants did not vote, having
+//! crashed or not begun, and nothing but the uniqueness of epochs is asked for a bound after a corruption.
 //! Agreement and progress are judged with a bound, in which those concerned were well and linked.
 
 mod instance;
@@ -34,8 +34,6 @@ pub(super) struct Election {
     instances: BTreeMap<Port, Instance>,
     /// Robots whose agreement or progress is to be judged, by the time at which it is.
     due: BTreeSet<(Time, Port, RobotId)>,
-    /// Robots that have crashed and may have forgotten what they promised, or who led.
-    crashed: BTreeSet<RobotId>,
     /// When some state was corrupted last.
     corrupted: Option<Time>,
 }
@@ -50,7 +48,6 @@ impl Election {
             parts: Parts::new(robots, bound),
             instances: BTreeMap::new(),
             due: BTreeSet::new(),
-            crashed: BTreeSet::new(),
             corrupted: None,
         }
     }
@@ -104,11 +101,10 @@ impl Election {
 
     /// A robot has lost all it knew.
     fn crash(&mut self, robot: RobotId) {
-        self.crashed.insert(robot);
         for instance in self.instances.values_mut() {
             instance.leading.remove(&robot);
             instance.members.remove(&robot);
-            instance.note_forgotten(&self.crashed);
+            instance.note_forgotten();
         }
     }
 

@@ -1,0 +1,262 @@
+//! The checker of elections and the primitive agree on simulated robots: the primitive keeps its promises under
+//! every fault, and elections that are made worse are found out.
+
+mod engine_support;
+
+use engine_support::scenario;
+use starl_core::{
+    Destination, Duration, Input, Message, Port, Primitive, Program, Random, Robot, RobotId, Time,
+    Value,
+};
+use starl_primitives::election::{Algorithm, Options};
+use starl_primitives::{FailureDetector, LeaderElection, failure_detector};
+use starl_sim::scenario::Clock;
+use starl_sim::{Run, Scenario};
+
+/// Five robots within reach of each other for two minutes.
+fn five_robots(seed: u64) -> Scenario {
+    let places: Vec<_> = (0..5).map(|robot| (f64::from(robot), 0.0)).collect();
+    let mut scenario = scenario("create", &places);
+    scenario.seed = seed;
+    scenario.duration = Duration::from_seconds(120);
+    scenario.properties.no_collision = false;
+    scenario
+}
+
+/// Loses, repeats and reorders datagrams; clocks are up to an hour apart, and drift.
+fn lossy(seed: u64) -> Scenario {
+    let mut scenario = five_robots(seed);
+    scenario.network.link.loss = 0.3;
+    scenario.network.link.duplication = 0.2;
+    scenario.network.link.reordering = 0.2;
+    scenario.fleet.groups[0].clock = Clock {
+        offset: Duration::from_seconds(3600),
+        drift_ppm: 5000.0,
+    };
+    scenario
+}
+
+/// And partitions and crashes.
+fn chaotic(seed: u64) -> Scenario {
+    let mut scenario = lossy(seed);
+    let rates = &mut scenario.faults.rates;
+    rates.crash = 0.02;
+    rates.restart_after = Duration::from_seconds(3);
+    rates.partition = 0.05;
+    rates.heal_after = Duration::from_seconds(5);
+    scenario
+}
+
+/// And overwrites the robots' state.
+fn corrupting(seed: u64) -> Scenario {
+    let mut scenario = chaotic(seed);
+    scenario.faults.rates.corrupt_state = 0.01;
+    scenario
+}
+
+/// Stands all the time, and resigns now and then.
+#[derive(Clone)]
+struct Elector {
+    detector: FailureDetector,
+    election: LeaderElection,
+}
+
+impl Elector {
+    fn by(algorithm: Algorithm) -> Elector {
+        let options = Options {
+            algorithm,
+            ..Options::default()
+        };
+        Elector {
+            detector: FailureDetector::new("watch", failure_detector::Options::default()),
+            election: LeaderElection::new("election", None, options),
+        }
+    }
+}
+
+impl Program for Elector {
+    fn start(&mut self, robot: &mut Robot<'_>) {
+        self.election.elect(robot);
+    }
+
+    fn activate(&mut self, robot: &mut Robot<'_>) {
+        let leads = self.election.leader() == Some(robot.id());
+        if leads && robot.random().below(200) == 0 {
+            self.election.resign(robot);
+            self.election.elect(robot);
+        }
+    }
+
+    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
+        visit(&mut self.detector);
+        visit(&mut self.election);
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        self.election.corrupt(random);
+    }
+}
+
+/// Votes of a majority as in the primitive, and nothing else: no epochs but a count, no leases, no memory over
+/// a restart. The leader is lost sight of when it has been silent for two seconds.
+#[derive(Clone)]
+struct Naive {
+    count: i64,
+    votes: Vec<RobotId>,
+    leader: Option<RobotId>,
+    heard: Time,
+}
+
+const NAIVE: Port = Port::named("naive");
+
+impl Naive {
+    fn show(&mut self, robot: &mut Robot<'_>, leader: RobotId) {
+        if self.leader.replace(leader) != Some(leader) {
+            let fields = [("leader", leader.into()), ("epoch", Value::Int(self.count))];
+            robot.emit_primitive("election", NAIVE, "leader", fields);
+        }
+        self.heard = robot.now();
+    }
+
+    fn hear(&mut self, robot: &mut Robot<'_>, message: &Message) {
+        // A count, and whether it asks (0), votes (1) or leads (2).
+        match message.read::<(i64, u8)>() {
+            Some((count, 0)) if count > self.count => {
+                self.count = count;
+                self.votes.clear();
+                robot.transmit(Destination::Robot(message.from), NAIVE, &(count, 1u8));
+            }
+            Some((count, 1)) if count == self.count && !self.votes.contains(&message.from) => {
+                self.votes.push(message.from);
+                if self.votes.len() >= robot.fleet().len() / 2 {
+                    self.show(robot, robot.id());
+                }
+            }
+            Some((count, 2)) if count >= self.count => {
+                self.count = count;
+                self.show(robot, message.from);
+            }
+            _ => {}
+        }
+    }
+
+    fn look(&mut self, robot: &mut Robot<'_>) {
+        if self.leader == Some(robot.id()) {
+            robot.transmit(Destination::All, NAIVE, &(self.count, 2u8));
+        } else if robot.now().since(self.heard) > Duration::from_seconds(2) {
+            if self.leader.take().is_some() {
+                robot.emit_primitive("election", NAIVE, "lost", []);
+            }
+            if robot.random().below(10) == 0 {
+                self.count += 1;
+                self.votes.clear();
+                robot.transmit(Destination::All, NAIVE, &(self.count, 0u8));
+            }
+        }
+    }
+}
+
+impl Primitive for Naive {
+    fn port(&self) -> Port {
+        NAIVE
+    }
+
+    fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
+        match input {
+            Input::Start => {
+                let fields = [
+                    ("algorithm", "leases".into()),
+                    ("participants", robot.fleet().to_vec().into()),
+                ];
+                robot.emit_primitive("election", NAIVE, "start", fields);
+                robot.emit_primitive("election", NAIVE, "elect", []);
+                robot.emit_primitive("election", NAIVE, "vote", []);
+                self.heard = robot.now();
+            }
+            Input::Message(message) => self.hear(robot, message),
+            Input::Activate => self.look(robot),
+            _ => {}
+        }
+    }
+}
+
+#[derive(Clone)]
+struct NaiveElector(Naive);
+
+impl Program for NaiveElector {
+    fn activate(&mut self, _: &mut Robot<'_>) {}
+
+    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
+        visit(&mut self.0);
+    }
+}
+
+fn naive() -> NaiveElector {
+    NaiveElector(Naive {
+        count: 0,
+        votes: Vec::new(),
+        leader: None,
+        heard: Time::ZERO,
+    })
+}
+
+/// The properties that are violated, each once, and how many times leaders changed.
+fn violated(scenario: Scenario, program: impl Program + Clone + 'static) -> (Vec<String>, usize) {
+    let mut run = Run::new(scenario, &|_| Ok(Box::new(program.clone()))).expect("the run starts");
+    let mut changes = 0;
+    while !run.is_over() {
+        let is_change = |record: &&starl_core::Record| matches!(&record.event, starl_core::Event::Primitive { name, .. } if name == "leader");
+        changes += run.step().iter().filter(is_change).count();
+    }
+    for violation in run.violations() {
+        println!(
+            "{} {}: {}",
+            violation.at, violation.property, violation.text
+        );
+    }
+    let verdicts = run.verdicts().into_iter();
+    let found = verdicts.filter(|verdict| verdict.violations > 0);
+    let found = found.map(|verdict| verdict.property.to_string());
+    (found.collect(), changes)
+}
+
+#[test]
+fn the_primitive_keeps_its_promises_under_every_fault() {
+    for seed in 0..10 {
+        for algorithm in [Algorithm::Leases, Algorithm::Ballots, Algorithm::Bully] {
+            for make in [five_robots, lossy, chaotic, corrupting] {
+                let (found, changes) = violated(make(seed), Elector::by(algorithm));
+                assert_eq!(found, [] as [&str; 0], "{algorithm:?}, seed {seed}");
+                assert!(changes > 20, "{changes}");
+            }
+        }
+    }
+}
+
+#[test]
+fn one_without_leases_leads_twice_at_once_where_the_network_parts() {
+    let mut found_by = [0; 3];
+    for seed in 0..10 {
+        let (calm, _) = violated(five_robots(seed), naive());
+        assert_eq!(calm, [] as [&str; 0], "seed {seed}");
+        let (found, _) = violated(chaotic(seed), naive());
+        let names = [
+            "election.uniqueness",
+            "election.order",
+            "election.exclusion",
+        ];
+        for (count, name) in found_by.iter_mut().zip(names) {
+            *count += usize::from(found.iter().any(|found| found == name));
+        }
+    }
+    assert!(found_by[2] >= 9, "{found_by:?}");
+    assert!(found_by[0] + found_by[1] >= 3, "{found_by:?}");
+}
+
+#[test]
+fn bounds_that_are_too_short_are_found_out() {
+    let mut scenario = lossy(1);
+    scenario.properties.election_bound = Duration::from_millis(500);
+    let (found, _) = violated(scenario, Elector::by(Algorithm::Leases));
+    assert_eq!(found, ["election.progress"]);
+}
