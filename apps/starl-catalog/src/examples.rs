@@ -97,6 +97,36 @@ pub const EXAMPLES: &[Example] = &[
         text: include_str!("../../../examples/traffic-signs/traffic-signs.toml"),
         files: &[file!("traffic-signs", "traffic-signs.starl")],
     },
+    Example {
+        name: "light-painting",
+        summary: "robots share out the strokes of a drawing and draw them with lights",
+        path: "examples/light-painting/light-painting.toml",
+        text: include_str!("../../../examples/light-painting/light-painting.toml"),
+        files: &[
+            file!("light-painting", "light-painting.starl"),
+            file!("light-painting", "house.svg"),
+        ],
+    },
+    Example {
+        name: "search",
+        summary: "robots look for an item in the rooms of a house that a leader gives them",
+        path: "examples/search/search.toml",
+        text: include_str!("../../../examples/search/search.toml"),
+        files: &[
+            file!("search", "search.starl"),
+            file!("search", "worlds/house.wpt"),
+        ],
+    },
+    Example {
+        name: "search-building",
+        summary: "twenty robots look for an item in a building of fifty rooms",
+        path: "examples/search/building.toml",
+        text: include_str!("../../../examples/search/building.toml"),
+        files: &[
+            file!("search", "search.starl"),
+            file!("search", "worlds/building.wpt"),
+        ],
+    },
 ];
 
 impl Example {
