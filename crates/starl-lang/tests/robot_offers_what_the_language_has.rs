@@ -52,6 +52,9 @@ impl Types {
             Shape::Named("ElectionAlgorithm") => {
                 self.variants("ElectionAlgorithm", &["leases", "ballots", "bully"])
             }
+            Shape::Named("MutexAlgorithm") => {
+                self.variants("MutexAlgorithm", &["permission", "quorum", "lease"])
+            }
             Shape::Named("Detection") => {
                 let optional = |kind| Type::Optional(Box::new(kind));
                 let fields = [

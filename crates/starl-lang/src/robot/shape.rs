@@ -6,7 +6,7 @@ use crate::machine::{Bytecode, Enum, Import, ObjectType, Type};
 use alloc::string::String;
 use alloc::vec::Vec;
 use starl_core::motion::Planner;
-use starl_primitives::election::Algorithm;
+use starl_primitives::{election, mutex};
 
 /// A type that a function of the host takes or gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +37,8 @@ pub enum Shape {
     Planner,
     /// The enum `ElectionAlgorithm` of the prelude.
     ElectionAlgorithm,
+    /// The enum `MutexAlgorithm` of the prelude.
+    MutexAlgorithm,
     /// The record `Detection` of the prelude.
     Detection,
     /// A list.
@@ -80,10 +82,17 @@ pub const PLANNERS: [(&str, Planner); 4] = [
 ];
 
 /// How a leader is elected, as the prelude has it.
-pub const ELECTION_ALGORITHMS: [(&str, Algorithm); 3] = [
-    ("leases", Algorithm::Leases),
-    ("ballots", Algorithm::Ballots),
-    ("bully", Algorithm::Bully),
+pub const ELECTION_ALGORITHMS: [(&str, election::Algorithm); 3] = [
+    ("leases", election::Algorithm::Leases),
+    ("ballots", election::Algorithm::Ballots),
+    ("bully", election::Algorithm::Bully),
+];
+
+/// The algorithms of a mutex, as the prelude has them.
+pub const MUTEX_ALGORITHMS: [(&str, mutex::Algorithm); 3] = [
+    ("permission", mutex::Algorithm::Permission),
+    ("quorum", mutex::Algorithm::Quorum),
+    ("lease", mutex::Algorithm::Lease),
 ];
 
 /// The types that bytecode declares.
@@ -159,6 +168,8 @@ impl Declared {
             }
             (Shape::ElectionAlgorithm, Type::Enum(index)) => {
                 self.variants(*index) == ELECTION_ALGORITHMS.map(|(name, _)| name)
+            (Shape::MutexAlgorithm, Type::Enum(index)) => {
+                self.variants(*index) == MUTEX_ALGORITHMS.map(|(name, _)| name)
             }
             (Shape::Detection, Type::Record(fields)) => {
                 let kinds: Vec<Type> = fields.iter().map(|(_, kind)| kind.clone()).collect();

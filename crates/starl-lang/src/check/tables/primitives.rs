@@ -161,7 +161,7 @@ pub const PRIMITIVES: &[Primitive] = &[
         documentation: "Notices which robots have failed, by their heartbeats.",
     },
     Primitive {
-        constructor: "Mutex(id: String, participants?: Set[RobotId])",
+        constructor: "Mutex(id: String, participants?: Set[RobotId], algorithm?: MutexAlgorithm, lease?: Duration)",
         members: &[
             member(
                 "acquire(resources: Set[String], participants?: Set[RobotId])",
@@ -179,9 +179,19 @@ pub const PRIMITIVES: &[Primitive] = &[
                 "Whether this robot alone holds them (the thesis's crit).",
             ),
             member(
+                "waiting: Bool",
+                Query,
+                "Whether resources are asked for and not held yet.",
+            ),
+            member(
+                "fencing: Int?",
+                Query,
+                "With leases, the number of what is held: greater than those of all who held any of it before.",
+            ),
+            member(
                 "failed: Bool",
                 Query,
-                "Whether the resources could not be had.",
+                "Whether somebody who is waited for is believed to have failed.",
             ),
         ],
         events: &[],

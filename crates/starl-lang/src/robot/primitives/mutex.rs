@@ -2,7 +2,7 @@
 
 use super::{Arguments, Context, Instance, Kind, Member, Needs, method, query};
 use crate::machine::List;
-use crate::robot::shape::Shape;
+use crate::robot::shape::{MUTEX_ALGORITHMS, Shape};
 use alloc::borrow::Cow;
 use alloc::boxed::Box;
 use alloc::collections::BTreeSet;
@@ -14,9 +14,14 @@ use starl_primitives::mutex::{AcquireError, Options, Resources};
 impl Kind for Mutex {
     const NAME: &'static str = "Mutex";
 
-    /// The name of the mutex, and who takes part: all, if none are given.
-    const CONSTRUCTOR: &'static [Shape] =
-        &[Shape::Text, Shape::Optional(&Shape::Set(&Shape::Robot))];
+    /// The name of the mutex, who takes part (all, if none are given), how they agree, and for how long a
+    /// lease is.
+    const CONSTRUCTOR: &'static [Shape] = &[
+        Shape::Text,
+        Shape::Optional(&Shape::Set(&Shape::Robot)),
+        Shape::Optional(&Shape::MutexAlgorithm),
+        Shape::Optional(&Shape::Duration),
+    ];
 
     const MEMBERS: &'static [Member<Mutex>] = &[
         method(
@@ -61,6 +66,21 @@ impl Kind for Mutex {
                 Ok(1 + resources.len() as u64)
             },
         ),
+        query("waiting", &[], Shape::Bool, |mutex, _, call| {
+            call.set_bool(0, mutex.is_waiting());
+            Ok(0)
+        }),
+        query(
+            "fencing",
+            &[],
+            Shape::Optional(&Shape::Int),
+            |mutex, _, call| {
+                let number = mutex.fencing();
+                call.set_bool(0, number.is_some());
+                call.set_scalar(1, number.unwrap_or(0));
+                Ok(0)
+            },
+        ),
         query("failed", &[], Shape::Bool, |mutex, _, call| {
             call.set_bool(0, mutex.failed());
             Ok(0)
@@ -79,7 +99,24 @@ impl Kind for Mutex {
     ) -> Result<Mutex, Cow<'static, str>> {
         let name = format!("mutex/{}", arguments.text());
         let participants = arguments.optional(robots);
-        Ok(Mutex::new(&name, participants, Options::default()))
+        let default = Options::default();
+        let options = Options {
+            algorithm: match arguments.optional(Arguments::int) {
+                None => default.algorithm,
+                Some(variant) => {
+                    let algorithm = MUTEX_ALGORITHMS.get(variant as usize);
+                    algorithm.ok_or("there is no such algorithm")?.1
+                }
+            },
+            lease: arguments
+                .optional(Arguments::duration)
+                .unwrap_or(default.lease),
+            ..default
+        };
+        if options.lease.is_zero() {
+            return Err("`lease` is no time at all".into());
+        }
+        Ok(Mutex::new(&name, participants, options))
     }
 
     fn primitive(&mut self) -> Option<&mut dyn Primitive> {
