@@ -81,6 +81,8 @@ fn timeless(scenario: &Scenario) -> Scenario {
         shared_memory_bound,
         election: _,
         election_bound,
+        mutex: _,
+        mutex_bound,
         program: _,
     } = &mut scenario.properties;
     for bound in [
@@ -89,6 +91,7 @@ fn timeless(scenario: &Scenario) -> Scenario {
         geocast_bound,
         shared_memory_bound,
         election_bound,
+        mutex_bound,
     ] {
         *bound = FOREVER;
     }

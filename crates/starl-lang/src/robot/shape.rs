@@ -168,6 +168,7 @@ impl Declared {
             }
             (Shape::ElectionAlgorithm, Type::Enum(index)) => {
                 self.variants(*index) == ELECTION_ALGORITHMS.map(|(name, _)| name)
+            }
             (Shape::MutexAlgorithm, Type::Enum(index)) => {
                 self.variants(*index) == MUTEX_ALGORITHMS.map(|(name, _)| name)
             }

@@ -62,11 +62,6 @@ impl Common {
         }
     }
 
-    /// The next request is numbered after this one.
-    pub fn count_on_from(&mut self, number: u64) {
-        self.last_number = number;
-    }
-
     /// The time of the next request on Lamport's clock.
     pub fn tick(&mut self) -> u64 {
         self.clock = self.clock.saturating_add(1);

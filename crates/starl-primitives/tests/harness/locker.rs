@@ -201,3 +201,32 @@ pub fn entries(world: &World, crashes: &[(Time, u32)]) -> BTreeMap<u32, usize> {
         .map(|(robot, times)| (robot, times.len()));
     counted.collect()
 }
+
+/// Judges only the numbers of a run by its events: no resource is entered with the same number twice. Gives how
+/// often two robots held one resource at once.
+pub fn numbers(world: &World) -> usize {
+    let mut numbers: BTreeSet<(String, i64)> = BTreeSet::new();
+    let mut holders: BTreeMap<String, BTreeSet<u32>> = BTreeMap::new();
+    let mut at_once = 0;
+    for (at, RobotId(robot), event) in &world.records {
+        let Event::Primitive { name, fields, .. } = event else {
+            continue;
+        };
+        let Some((Name::Borrowed("resource"), Value::Text(resource))) = fields.first() else {
+            continue;
+        };
+        let holders = holders.entry(resource.to_string()).or_default();
+        if let (Some((_, Value::Int(number))), "enter") = (fields.get(1), &**name) {
+            let is_new = numbers.insert((resource.to_string(), *number));
+            assert!(
+                is_new,
+                "{robot} enters {resource} with {number} at {at:?}, as one before"
+            );
+            holders.insert(*robot);
+            at_once += usize::from(holders.len() > 1);
+        } else {
+            holders.remove(robot);
+        }
+    }
+    at_once
+}

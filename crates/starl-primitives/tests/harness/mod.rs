@@ -19,7 +19,7 @@ use starl_core::event::{Name, Value};
 use starl_core::motion::{Body, Obstacles, Workspace};
 use starl_core::{
     Agent, Destination, Duration, Effect, Estimate, Event, Input, Message, MotionRequest, Payload,
-    Point, Pose, Program, Random, Robot, RobotId, Sensors, Time, TimerKey, View, WayPoint,
+    Point, Port, Pose, Program, Random, Robot, RobotId, Sensors, Time, TimerKey, View, WayPoint,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -138,8 +138,8 @@ pub struct World {
     pub clocks_drift: BTreeMap<u32, f64>,
     /// Handed to the network.
     pub sent: usize,
-    /// To how many robots these went, in all.
-    pub addressed: usize,
+    /// By port: how many datagrams, and to how many robots these went in all.
+    pub traffic: BTreeMap<Port, (usize, usize)>,
     /// How long these were in all, and the longest, bytes.
     pub sent_bytes: usize,
     pub longest_sent: usize,
@@ -173,7 +173,7 @@ impl World {
             clocks_ahead: BTreeMap::new(),
             clocks_drift: BTreeMap::new(),
             sent: 0,
-            addressed: 0,
+            traffic: BTreeMap::new(),
             sent_bytes: 0,
             longest_sent: 0,
             payloads: Vec::new(),
@@ -379,6 +379,12 @@ impl World {
                     self.payloads.push(payload.clone());
                 }
                 let from = RobotId(robot as u32);
+                let traffic = self.traffic.entry(port).or_default();
+                traffic.0 += 1;
+                traffic.1 += match destination {
+                    Destination::All => self.nodes.len() - 1,
+                    Destination::Robot(_) => 1,
+                };
                 let message = Message {
                     from,
                     port,
@@ -440,7 +446,6 @@ impl World {
     }
 
     fn carry(&mut self, to: usize, message: Message) {
-        self.addressed += 1;
         let copies = 1 + u32::from(self.random.chance(self.wire.duplication));
         for _ in 0..copies {
             let lost = self.random.chance(self.wire.loss)

@@ -9,6 +9,7 @@ mod election;
 mod geocast;
 mod health;
 mod monitor;
+mod mutex;
 mod no_collision;
 mod outstanding;
 mod parts;
@@ -90,6 +91,9 @@ pub fn checkers(scenario: &Scenario, setting: &Setting) -> Vec<Box<dyn Checker>>
     }
     if wanted.election {
         checkers.push(Box::new(election::Election::new(scenario, setting)));
+    }
+    if wanted.mutex {
+        checkers.push(Box::new(mutex::Mutex::new(scenario, setting)));
     }
     checkers
 }

@@ -124,6 +124,8 @@ fn properties(table: Section<'_>) -> Properties {
         shared_memory_bound: table.duration("shared_memory_bound"),
         election: table.flag("election"),
         election_bound: table.duration("election_bound"),
+        mutex: table.flag("mutex"),
+        mutex_bound: table.duration("mutex_bound"),
         program: table.flag("program"),
     }
 }

@@ -130,6 +130,10 @@ pub struct Properties {
     pub election: bool,
     /// Robots agree on a leader within this time; default 35 s.
     pub election_bound: Duration,
+    /// Mutex's safety, non-interference, progress and growing numbers; default true.
+    pub mutex: bool,
+    /// What is free is granted within this time; default 35 s.
+    pub mutex_bound: Duration,
     /// What programs in the StarL language say of themselves; default true.
     pub program: bool,
 }
@@ -186,6 +190,8 @@ impl Default for Properties {
             shared_memory_bound: Duration::from_seconds(35),
             election: true,
             election_bound: Duration::from_seconds(35),
+            mutex: true,
+            mutex_bound: Duration::from_seconds(35),
             program: true,
         }
     }

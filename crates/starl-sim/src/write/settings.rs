@@ -131,6 +131,8 @@ pub(super) fn properties(properties: &Properties) -> String {
         shared_memory_bound,
         election,
         election_bound,
+        mutex,
+        mutex_bound,
         program,
     });
     table.finish()

@@ -241,6 +241,38 @@ impl Story {
         self.report(millis, robot, ("shared_memory", name), fields)
     }
 
+    /// A robot's mutex reports something of a resource.
+    pub fn locks(
+        &mut self,
+        millis: u64,
+        robot: u32,
+        name: &'static str,
+        resource: &'static str,
+    ) -> &mut Story {
+        self.report(
+            millis,
+            robot,
+            ("mutex", name),
+            [("resource", resource.into())],
+        )
+    }
+
+    /// A robot comes to hold a resource for a lease, with a number, if clocks run wrong by 0.01 at most.
+    pub fn leases(
+        &mut self,
+        millis: u64,
+        robot: u32,
+        resource: &'static str,
+        number: i64,
+    ) -> &mut Story {
+        let fields = [
+            ("resource", resource.into()),
+            ("fencing", number.into()),
+            ("drift", 0.01.into()),
+        ];
+        self.report(millis, robot, ("mutex", "enter"), fields)
+    }
+
     /// A datagram reaches a robot.
     pub fn sends(&mut self, millis: u64, from: u32, sequence: u32, to: u32) -> &mut Story {
         let sent = Event::Sent {

@@ -91,8 +91,7 @@ impl Arbiter {
         let known = self.entries.get(&from).map(|entry| entry.wish.id);
         for before in last.into_iter().chain(known.filter(|&known| known != id)) {
             if before.incarnation == id.incarnation && id.number <= before.number {
-                let last = before.number;
-                return post.send(from, Packet::Outdated { id, last });
+                return post.send(from, Packet::Outdated { id });
             }
         }
         let until = terms.until();
@@ -110,9 +109,8 @@ impl Arbiter {
                     entry.until = until;
                     entry.is_told = false;
                     entry.wish.clock = wish.clock;
-                    if is_later(wish.round, entry.wish.round) {
-                        entry.wish.round = wish.round;
-                    }
+                    // An earlier one only makes the robot believe in the lease for less long.
+                    entry.wish.round = wish.round;
                     entry.wish.number = entry.wish.number.max(wish.number);
                     if entry.is_granted {
                         // It may have given back some of it.

@@ -6,13 +6,16 @@ use super::super::quorum::quorum;
 use super::packet::Packet;
 use super::request::{Enough, Request};
 use super::{Arbitration, Post, REPEAT, is_lease};
+use crate::incarnation::Incarnation;
 use alloc::collections::BTreeSet;
-use starl_core::Robot;
+use starl_core::{Duration, Robot};
 
 /// How many renewals fit into a lease, so that some may be lost.
 const RENEWALS: u64 = 5;
 /// How many repetitions of a request at least, so that what was granted late is known to be recent.
 const REPETITIONS: u64 = 3;
+/// A robot ceases to believe in a lease this long before its end: timers are no more precise.
+const MARGIN: Duration = Duration::from_millis(1);
 
 impl Arbitration {
     /// A request that waits for robots that are suspected tries a quorum without them.
@@ -76,12 +79,14 @@ impl Arbitration {
             after = after.min(belief / REPETITIONS);
             if request.is_entered {
                 let until = request.held_until(now, majority, belief);
-                if until <= now {
+                if until <= now + MARGIN {
                     common.report(robot, "expire", &common.held);
                     common.held.clear();
                     return self.give_back(common, robot);
                 }
-                after = (belief / RENEWALS).min(until.since(now));
+                after = (belief / RENEWALS)
+                    .min(until.since(now + MARGIN))
+                    .max(MARGIN);
             }
         } else if request.is_entered {
             return;
@@ -131,19 +136,21 @@ impl Arbitration {
                 common.report(robot, "enter", &common.held);
             }
             Enough::Majority(_, belief) => {
-                let after = (belief / RENEWALS).min(until.since(now) / 2);
+                let after = (belief / RENEWALS)
+                    .min(until.since(now + MARGIN) / 2)
+                    .max(MARGIN);
                 robot.set_timer(common.timer(REPEAT), after);
                 common.report_numbered(robot, number);
             }
         }
     }
 
-    /// An arbiter knows a later request of this robot than it has made, which only a corruption brings about.
+    /// An arbiter knows a later request of this robot than it has made, which only a fault brings about: the
+    /// robot counts anew, as after a restart.
     pub(super) fn number_anew(
         &mut self,
         common: &mut Common,
         robot: &mut Robot<'_>,
-        last: u64,
         post: &mut Post,
     ) {
         let enough = self.enough(common);
@@ -153,7 +160,7 @@ impl Arbitration {
         if request.is_entered {
             return;
         }
-        common.count_on_from(last);
+        common.incarnation = Incarnation::default();
         let id = common.next_id(robot);
         let renumbered = Request::new(
             id,

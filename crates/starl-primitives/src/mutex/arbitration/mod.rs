@@ -18,7 +18,6 @@ use super::common::Common;
 use super::lease::belief;
 use super::options::Algorithm;
 
-
 use alloc::vec::Vec;
 use arbiter::{Arbiter, Terms};
 use packet::{Behind, Packet};
@@ -218,7 +217,7 @@ impl Arbitration {
             }
             Packet::Grant { id, .. } | Packet::Wait { id, .. } | Packet::Outdated { id, .. }
                 if !mine(id) => {}
-            Packet::Outdated { last, .. } => self.number_anew(common, robot, last, post),
+            Packet::Outdated { .. } => self.number_anew(common, robot, post),
             packet => {
                 if let Packet::Grant { clock, .. } | Packet::Wait { clock, .. } = packet {
                     common.hear(clock);

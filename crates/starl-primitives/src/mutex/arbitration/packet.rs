@@ -39,8 +39,8 @@ pub(super) enum Packet {
     },
     /// To an arbiter: of what was granted only this is still needed.
     Release { id: RequestId, left: Resources },
-    /// To a robot: its request counts as older than one that it has made, the last of which is this.
-    Outdated { id: RequestId, last: u64 },
+    /// To a robot: its request counts as older than another that it has made.
+    Outdated { id: RequestId },
     /// To all: an arbiter that remembers nothing asks what it had granted.
     Recall { nonce: u32, list: u32 },
     /// The answer.

@@ -4,10 +4,11 @@
 //! grants nothing.
 //!
 //! Without leases all others have to answer: whoever does not may hold something by a grant that was
-//! forgotten. With leases nobody does after one lease of silence; what is missing then are the numbers. Of
-//! the arbiters that granted a number a majority knows it, so those who remember and have answered must be
-//! too many for such a majority to avoid. Where most remember nothing, all being new, numbers begin with
-//! the time, in milliseconds.
+//! forgotten. With leases nobody does after one lease of silence; what is missing then are the numbers. A
+//! number that somebody has entered with is known to a majority, so those who remember and have answered must
+//! be too many for such a majority to avoid. Where so many do not answer within another lease, or remember
+//! nothing, all being new, numbers go on from the time in milliseconds: no counting is as fast, and so they
+//! grow unless clocks have been set back.
 //!
 //! After a change of participants all of the new ones have to answer, having changed too: two quorums of
 //! different lists need have nobody in common.
@@ -119,10 +120,9 @@ impl Recovery {
             .values()
             .filter(|&&remembers| remembers)
             .count();
-        let forgetful = begun.answers.len() - remember + 1;
         if remember > count - majority || begun.is_change && self.remembers {
             Outlook::Ready
-        } else if all || forgetful >= majority && silent_for >= lease * 2 {
+        } else if all || begun.answers.len() + 1 >= majority && silent_for >= lease * 2 {
             Outlook::ReadyWithoutNumbers
         } else {
             Outlook::Unready

@@ -179,7 +179,9 @@ impl Request {
         post: &mut Post,
     ) {
         let Some(asked) = self.asked.get_mut(&from) else {
-            return;
+            // It was made up by a fault.
+            let (id, left) = (self.id, Resources::new());
+            return post.send(from, Packet::Release { id, left });
         };
         if (attempt.wrapping_sub(asked.attempt) as i32) > 0 {
             // Only a corruption makes an arbiter know attempts that were not made.

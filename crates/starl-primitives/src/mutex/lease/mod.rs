@@ -7,9 +7,10 @@
 //!
 //! A grant's number is greater than all that its arbiter has given or heard of before for one of the
 //! resources. A robot enters when a majority has granted it the same number (it asks those with lower ones
-//! to raise theirs). Two majorities share an arbiter, so whoever enters later has the greater number, and
-//! that follows from no clock. A storage or a motor that refuses lower numbers than it has seen (the
-//! sequencers of Burrows 2006; fencing tokens, Kleppmann 2016) is safe even where clocks break their bound.
+//! to raise theirs). Two majorities share an arbiter, so of two robots the one that it granted the resource
+//! later has the greater number, and that follows from no clock. A storage or a motor that refuses lower
+//! numbers than it has seen (the sequencers of Burrows 2006; fencing tokens, Kleppmann 2016) is safe even where
+//! clocks break their bound and a robot acts on a lease that has ended.
 //! The last [`BITS`] of a number are the robot's own, so that no two robots can ever have the same.
 
 use super::{Options, Resources};

@@ -212,6 +212,18 @@ const PROPERTIES: &[Field] = &[
         "Within this time robots agree on a leader.",
     ),
     field(
+        "mutex",
+        Kind::Flag,
+        Default::Value("true"),
+        "Safety, non-interference and progress of Mutex, and that its numbers grow.",
+    ),
+    field(
+        "mutex_bound",
+        SPAN,
+        Default::Value("35s"),
+        "Within this time what is free is granted.",
+    ),
+    field(
         "program",
         Kind::Flag,
         Default::Value("true"),
