@@ -1,8 +1,8 @@
 //! The primitives of StarL: pure state machines that programs own and call (thesis, chapter 3).
 //!
 //! Communication: [`Broadcast`], [`Geocast`] and [`Unicast`], all built on one acknowledged protocol,
-//! [`reliable::Reliable`], and [`SharedMemory`]. Motion: [`ReachAvoid`]. A program keeps primitives as
-//! fields, shows them in [`starl_core::Program::primitives`], calls their methods with its
+//! [`reliable::Reliable`]; [`SharedMemory`] and [`Register`]. Motion: [`ReachAvoid`]. A program keeps
+//! primitives as fields, shows them in [`starl_core::Program::primitives`], calls their methods with its
 //! [`starl_core::Robot`] and reads their flags. No primitive waits for ever on a robot that is gone.
 
 #![no_std]
@@ -16,6 +16,7 @@ pub mod geocast;
 mod incarnation;
 pub mod mutex;
 pub mod reach_avoid;
+pub mod register;
 pub mod registration;
 pub mod reliable;
 pub mod shared_memory;
@@ -28,6 +29,7 @@ pub use failure_detector::FailureDetector;
 pub use geocast::Geocast;
 pub use mutex::Mutex;
 pub use reach_avoid::ReachAvoid;
+pub use register::Register;
 pub use registration::Registration;
 pub use shared_memory::SharedMemory;
 pub use unicast::Unicast;

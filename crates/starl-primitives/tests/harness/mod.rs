@@ -4,6 +4,7 @@
 #![allow(dead_code, unused_imports)] // each test uses a part of it
 
 pub mod elector;
+pub mod keeper;
 pub mod locker;
 pub mod pilot;
 pub mod registrar;

@@ -1,0 +1,102 @@
+//! What operations ask of others, when they ask again, and when they say that nobody answers.
+
+use super::operation::Phase;
+use super::packet::{Content, Entry, QuestionId};
+use super::{OPERATION_TIMER, OperationId, Register, report};
+use alloc::vec::Vec;
+use starl_core::{Destination, Robot, RobotId};
+
+impl Register {
+    /// What an operation asks now.
+    fn question(&mut self, robot: &mut Robot<'_>, number: u32) -> Option<Content> {
+        let operation = self.operations.get(&number)?;
+        let id = QuestionId {
+            incarnation: self.incarnation.of(robot),
+            number,
+        };
+        let register = (*operation.register).into();
+        Some(match (operation.phase, &operation.latest) {
+            (Phase::Store, Some((tag, value))) => Content::Store {
+                id,
+                entry: Entry {
+                    register,
+                    tag: *tag,
+                    value: value.clone(),
+                },
+            },
+            _ => Content::Query {
+                id,
+                register,
+                is_read: operation.written.is_none(),
+            },
+        })
+    }
+
+    /// Asks those that have not answered.
+    pub(super) fn ask(&mut self, robot: &mut Robot<'_>, number: u32) {
+        let Some(question) = self.question(robot, number) else {
+            return;
+        };
+        let (me, mut missing) = (robot.id(), self.members(robot));
+        let Some(operation) = self.operations.get_mut(&number) else {
+            return;
+        };
+        missing.retain(|peer| *peer != me && !operation.answers.contains_key(peer));
+        let after = self.options.timeout(operation.repetitions);
+        operation.repetitions = operation.repetitions.saturating_add(1);
+        self.send_each(robot, &missing, &question);
+        robot.set_timer(self.timer(OPERATION_TIMER, number), after);
+    }
+
+    /// The time for answers is over.
+    pub(super) fn ask_again(&mut self, robot: &mut Robot<'_>, number: u32) {
+        // A corruption may have taken away answers, or brought such as nobody gave.
+        self.answer_own(robot, number);
+        self.advance(robot, number);
+        self.ask(robot, number);
+        self.judge(robot, number);
+    }
+
+    /// Says so if no majority seems to answer.
+    fn judge(&mut self, robot: &mut Robot<'_>, number: u32) {
+        let mut members = self.members(robot);
+        members.retain(|member| !self.suspects.contains(member));
+        let is_hopeless = members.len() < self.majority(robot);
+        let (patience, now) = (self.options.patience, robot.now());
+        let Some(operation) = self.operations.get_mut(&number) else {
+            return;
+        };
+        operation.begun = operation.begun.min(now);
+        if !operation.is_stuck && (is_hopeless || now.since(operation.begun) >= patience) {
+            operation.is_stuck = true;
+            let (id, register) = (OperationId(number), &operation.register);
+            report::operation(robot, self.port, "no_quorum", id, register, None);
+        }
+    }
+
+    /// A participant is believed to have failed.
+    pub(super) fn suspect(&mut self, robot: &mut Robot<'_>, peer: RobotId) {
+        if self.is_member(robot, peer) && self.suspects.insert(peer) {
+            let numbers: Vec<u32> = self.operations.keys().copied().collect();
+            numbers
+                .into_iter()
+                .for_each(|number| self.judge(robot, number));
+        }
+    }
+
+    /// A participant is believed to be up again.
+    pub(super) fn trust(&mut self, robot: &mut Robot<'_>, peer: RobotId) {
+        self.suspects.remove(&peer);
+        let asked: Vec<u32> = self
+            .operations
+            .iter()
+            .filter(|(_, operation)| !operation.answers.contains_key(&peer))
+            .map(|(&number, _)| number)
+            .collect();
+        for number in asked {
+            if let Some(question) = self.question(robot, number) {
+                self.send(robot, Destination::Robot(peer), question);
+            }
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! Overwriting registers at random, as a transient fault would, and what sets an operation right again.
+
+use super::Register;
+use super::entering::Standing;
+use super::operation::Phase;
+use super::tag::Tag;
+use starl_core::{Duration, Payload, Random, Robot, RobotId, Time};
+
+/// Corrupted values are up to this long, bytes.
+const LONGEST_VALUE: u32 = 40;
+
+impl Register {
+    /// Overwrites the state at random, within its types: for a program's
+    /// [`starl_core::Program::corrupt`]. The names of registers stay, as they are part of the program.
+    pub fn corrupt(&mut self, random: &mut Random) {
+        for (tag_of, content) in self.replica.all_mut() {
+            if random.chance(0.5) {
+                *tag_of = tag(random);
+                *content = value(random);
+            }
+        }
+        for life in self.lives.all_mut() {
+            *life = word(random);
+        }
+        if random.chance(0.5) {
+            self.standing = Standing::Up(word(random));
+        }
+        for operation in self.operations.values_mut() {
+            operation.answers.retain(|_, _| random.chance(0.5));
+            if random.chance(0.5) {
+                operation.latest = Some((tag(random), value(random)));
+                operation.phase = Phase::Store;
+            }
+            operation.begun = Time(word(random));
+            operation.repetitions = random.bits();
+        }
+        self.last_number = random.bits();
+        self.gossip.interval = Duration(word(random));
+        self.gossip.equal = random.bits();
+        self.gossip.compared = random.chance(0.5);
+        self.suspects.retain(|_| random.chance(0.5));
+    }
+
+    /// Begins an operation anew after a corruption.
+    pub(super) fn begin_again(&mut self, robot: &mut Robot<'_>, number: u32) {
+        if let Some(operation) = self.operations.get_mut(&number) {
+            operation.phase = Phase::Query;
+            operation.latest = None;
+            operation.answers.clear();
+        }
+        self.ask_again(robot, number);
+    }
+}
+
+fn tag(random: &mut Random) -> Tag {
+    Tag {
+        count: word(random),
+        writer: RobotId(random.bits()),
+        incarnation: random.bits(),
+    }
+}
+
+fn value(random: &mut Random) -> Payload {
+    let length = random.below(LONGEST_VALUE);
+    (0..length).map(|_| random.bits() as u8).collect()
+}
+
+/// A number of any order of magnitude.
+fn word(random: &mut Random) -> u64 {
+    let word = u64::from(random.bits()) << 32 | u64::from(random.bits());
+    word >> random.below(64)
+}

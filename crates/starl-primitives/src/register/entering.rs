@@ -1,0 +1,103 @@
+//! How far a robot is that has just started: which stage it is in, and whom it has heard in it.
+//!
+//! See the module `recovery` for when a stage is over, and why.
+
+use alloc::collections::BTreeMap;
+use alloc::string::String;
+use starl_core::{RobotId, Time};
+
+/// Whether a robot answers others.
+#[derive(Clone, Debug)]
+pub(super) enum Standing {
+    /// Not yet.
+    New(Entering),
+    /// In the life with this number.
+    Up(u64),
+}
+
+/// How far a robot is that has just started.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Entering {
+    /// How many stages it has begun.
+    pub stages: u32,
+    /// In the second stage the number of its new life.
+    pub life: Option<u64>,
+    /// The greatest number of its earlier lives that others knew.
+    pub told: u64,
+    /// When it began, by its own clock; none if it has not.
+    pub begun: Option<Time>,
+    /// Who had just started in the first stage, and in which incarnation.
+    pub new_before: BTreeMap<RobotId, u32>,
+    /// What is known of others in this stage.
+    pub heard: BTreeMap<RobotId, Heard>,
+    pub repetitions: u32,
+}
+
+/// What a robot that has just started knows of another one.
+#[derive(Clone, Debug)]
+pub(super) enum Heard {
+    /// It has just started too, in this incarnation.
+    New(u32),
+    /// It is up.
+    Up {
+        life: u64,
+        /// Its copies up to this register have come.
+        after: Option<String>,
+        /// All that is wanted of it in this stage has come.
+        is_done: bool,
+    },
+}
+
+impl Default for Standing {
+    fn default() -> Standing {
+        Standing::New(Entering::default())
+    }
+}
+
+impl Standing {
+    /// The life in which the robot answers; 0 if it does not.
+    pub fn life(&self) -> u64 {
+        match self {
+            Standing::New(_) => 0,
+            Standing::Up(life) => *life,
+        }
+    }
+}
+
+impl Entering {
+    pub fn next_stage(&mut self, life: Option<u64>) {
+        let heard = core::mem::take(&mut self.heard).into_iter();
+        let new = heard.filter_map(|(peer, heard)| match heard {
+            Heard::New(incarnation) => Some((peer, incarnation)),
+            Heard::Up { .. } => None,
+        });
+        self.new_before = match life {
+            Some(_) => new.collect(),
+            None => BTreeMap::new(),
+        };
+        self.life = life;
+        self.stages = self.stages.wrapping_add(1);
+        self.repetitions = 0;
+    }
+
+    /// Whether a robot that has just started had done so in the first stage already.
+    pub fn is_new(&self, peer: RobotId, incarnation: u32) -> bool {
+        self.life.is_none() || self.new_before.get(&peer) == Some(&incarnation)
+    }
+
+    /// Whether this stage has come to its end; of `others` participants and this one so many are a
+    /// majority.
+    pub fn is_over(&self, others: usize, majority: usize, has_waited: bool) -> bool {
+        let (mut up, mut new, mut unfinished) = (0, 0, 0);
+        for (&peer, heard) in &self.heard {
+            match heard {
+                Heard::Up { is_done: true, .. } => up += 1,
+                Heard::New(incarnation) if self.is_new(peer, *incarnation) => new += 1,
+                _ => unfinished += 1,
+            }
+        }
+        up >= majority
+            || up + new == others
+            || up + unfinished == 0 && new + 1 >= majority && has_waited
+    }
+}

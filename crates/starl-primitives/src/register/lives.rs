@@ -1,0 +1,49 @@
+//! Crash vectors: which life each robot is in, as far as is known.
+//!
+//! Invariant: a robot answers others only in a life whose number is greater than those of all lives in which
+//! it answered before. So where one robot has heard of a later life, what was said in an earlier one is
+//! known to be forgotten.
+
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
+use starl_core::RobotId;
+
+/// Numbers go no further: a greater one comes from a corruption.
+const GREATEST: u64 = 1 << 62;
+
+/// The first life's number; it goes without saying.
+pub(super) const FIRST: u64 = 1;
+
+/// Latest lives, by robot: those after the first.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Lives(BTreeMap<RobotId, u64>);
+
+impl Lives {
+    /// The latest life of a robot that is known.
+    pub fn of(&self, robot: RobotId) -> u64 {
+        self.0.get(&robot).copied().unwrap_or(FIRST)
+    }
+
+    /// Takes note of a life.
+    pub fn learn(&mut self, robot: RobotId, life: u64) {
+        if life > self.of(robot) && life <= GREATEST {
+            self.0.insert(robot, life);
+        }
+    }
+
+    /// All that are not the first.
+    pub fn list(&self) -> Vec<(RobotId, u64)> {
+        self.0.iter().map(|(&robot, &life)| (robot, life)).collect()
+    }
+
+    /// Forgets what no life of ours can have been.
+    pub fn refresh(&mut self, is_member: impl Fn(RobotId) -> bool) {
+        self.0
+            .retain(|&robot, &mut life| is_member(robot) && life > FIRST && life <= GREATEST);
+    }
+
+    /// To be overwritten.
+    pub fn all_mut(&mut self) -> impl Iterator<Item = &mut u64> {
+        self.0.values_mut()
+    }
+}

@@ -1,0 +1,307 @@
+//! Linearizable registers by majority quorum.
+//!
+//! The algorithm is that of Attiya, Bar-Noy and Dolev (1995, "Sharing Memory Robustly in Message-Passing
+//! Systems") for many writers (Lynch and Shvartsman 1997, "Robust Emulation of Shared Memory Using Dynamic
+//! Quorum-Acknowledged Broadcasts"). Each participant keeps a copy of each register with a [`Tag`]. A read
+//! asks for the copies of a majority, has the latest of them stored by a majority, and then gives it; the
+//! second part is left out where the majority agrees. A write asks a majority for their tags, and has its
+//! value stored by a majority under a greater one.
+//!
+//! Robots have no stable storage: one that starts again has lost its copies, and what it acknowledged before
+//! must not count any more. It answers nothing until it has the copies of a majority of all from the others
+//! (the module `recovery`), and answers of its earlier lives are told apart by crash vectors (Michael, Ports, Sharma,
+//! Szekeres 2017, "Recovering Shared Objects Without Stable Storage"; a nonce alone, as in Viewstamped
+//! Replication Revisited, does not do, as they show).
+//!
+//! Properties, for robots that name the same participants:
+//! - linearizability: each operation takes effect at one moment between its call and its end, whatever the
+//!   network does, as long as at no time a majority of the participants is down or recovering. If that
+//!   happens the robots that are left block rather than forget, unless nobody that is heard has anything
+//!   left;
+//! - progress: an operation ends if a majority is up and can be reached;
+//! - nobody waits unaware: otherwise [`Status::NoQuorum`] says so, and the operation goes on trying until it
+//!   is done or withdrawn.
+//!
+//! An operation that was withdrawn, or whose robot has crashed, may still take effect later.
+//!
+//! Messages among n participants: 2(n - 1) for a read where all agree, else 4(n - 1), as for a write; the
+//! n - 1 questions being one datagram to all. Copies that missed a write are repaired in the background
+//! (the module `gossip`), so that [`Register::known`] comes to show it.
+//!
+//! Self-stabilising: whatever copies, tags and lives a corruption leaves behind, once a write is done all
+//! later reads of its register give it or a later one.
+
+mod asking;
+mod corrupt;
+mod entering;
+mod gossip;
+mod lives;
+mod operating;
+mod operation;
+mod options;
+mod packet;
+mod recovery;
+mod replica;
+mod report;
+mod serving;
+mod tag;
+
+pub use options::Options;
+pub use tag::Tag;
+
+use crate::incarnation::Incarnation;
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::vec::Vec;
+use core::fmt;
+use entering::Standing;
+use gossip::Gossip;
+use lives::Lives;
+use operation::Operation;
+use packet::{Content, Datagram};
+use replica::Replica;
+use starl_core::{Destination, Input, Message, Payload, Port, Primitive, Robot, RobotId, TimerKey};
+
+/// What the timers are for.
+const OPERATION_TIMER: u16 = 0;
+const ENTER_TIMER: u16 = 1;
+const GOSSIP_TIMER: u16 = 2;
+
+/// Longer names of registers are refused, bytes.
+const LONGEST_NAME: usize = 255;
+
+/// So many results are kept for the program to look at.
+const MOST_RESULTS: usize = 256;
+
+/// Registers, any number by name, that all robots read and write as if there were one of each. See the
+/// [module](self).
+#[derive(Clone, Debug)]
+pub struct Register {
+    port: Port,
+    options: Options,
+    /// Who keeps copies; none for all of the fleet.
+    participants: Option<BTreeSet<RobotId>>,
+    incarnation: Incarnation,
+    standing: Standing,
+    /// Crash vector: the latest life of each robot that is known.
+    lives: Lives,
+    replica: Replica,
+    /// Counts operations.
+    last_number: u32,
+    operations: BTreeMap<u32, Operation>,
+    results: BTreeMap<u32, Option<Payload>>,
+    gossip: Gossip,
+    suspects: BTreeSet<RobotId>,
+}
+
+/// Names an operation of this robot since it started.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct OperationId(u32);
+
+/// How far an operation is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// It is under way.
+    Pending,
+    /// It is under way, but no majority has answered for [`Options::patience`], or so many participants
+    /// are suspected that none can. It goes on trying: [`Register::withdraw`] ends it.
+    NoQuorum,
+    /// It has taken effect. What was read, none where nothing was ever written; or what was written.
+    Done(Option<Payload>),
+    /// It was withdrawn, or was never begun, or ended so long ago that its result is forgotten.
+    Unknown,
+}
+
+/// Why an operation was not begun.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OperationError {
+    /// The register's name is longer than 255 bytes.
+    NameTooLong,
+    /// The value is longer than [`Options::longest_value`].
+    ValueTooLong,
+    /// [`Options::most_operations`] are under way already.
+    TooMany,
+}
+
+impl fmt::Display for OperationError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            OperationError::NameTooLong => "the register's name is too long",
+            OperationError::ValueTooLong => "the value is too long for a datagram",
+            OperationError::TooMany => "as many operations as there may be are under way",
+        })
+    }
+}
+
+impl core::error::Error for OperationError {}
+
+impl Register {
+    /// An instance; those of the same name on all robots are one set of registers. `participants` keep the
+    /// copies: all of the fleet, if none are given. They must be the same for all robots and stay so; others
+    /// may read and write too.
+    pub fn new(name: &str, participants: Option<BTreeSet<RobotId>>, options: Options) -> Register {
+        Register {
+            port: Port::named(name),
+            options,
+            participants,
+            incarnation: Incarnation::default(),
+            standing: Standing::default(),
+            lives: Lives::default(),
+            replica: Replica::default(),
+            last_number: 0,
+            operations: BTreeMap::new(),
+            results: BTreeMap::new(),
+            gossip: Gossip::default(),
+            suspects: BTreeSet::new(),
+        }
+    }
+
+    /// How far an operation is. The result of one that is done can be looked at again and again, until
+    /// many others are done too.
+    pub fn status(&self, operation: OperationId) -> Status {
+        if let Some(result) = self.results.get(&operation.0) {
+            return Status::Done(result.clone());
+        }
+        match self.operations.get(&operation.0) {
+            Some(operation) if operation.is_stuck => Status::NoQuorum,
+            Some(_) => Status::Pending,
+            None => Status::Unknown,
+        }
+    }
+
+    /// What this robot's own copy shows, without asking anyone: a value that was written, but maybe not the
+    /// latest; none where this robot knows of no write.
+    pub fn known(&self, register: &str) -> Option<&[u8]> {
+        Some(&self.replica.get(register)?.1)
+    }
+
+    /// Whether this robot answers others: it is a participant, and has recovered if it had to.
+    pub fn is_up(&self) -> bool {
+        matches!(self.standing, Standing::Up(_))
+    }
+
+    /// How many operations are under way.
+    pub fn pending(&self) -> usize {
+        self.operations.len()
+    }
+
+    /// Whether an operation is under way that cannot go on as far as this robot knows.
+    pub fn failed(&self) -> bool {
+        self.operations.values().any(|operation| operation.is_stuck)
+    }
+
+    /// The settings.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// All that keep copies.
+    fn members(&self, robot: &Robot<'_>) -> Vec<RobotId> {
+        match &self.participants {
+            Some(participants) => participants.iter().copied().collect(),
+            None => robot.fleet().to_vec(),
+        }
+    }
+
+    fn is_member(&self, robot: &Robot<'_>, who: RobotId) -> bool {
+        match &self.participants {
+            Some(participants) => participants.contains(&who),
+            None => robot.fleet().binary_search(&who).is_ok(),
+        }
+    }
+
+    /// So many are a majority.
+    fn majority(&self, robot: &Robot<'_>) -> usize {
+        let members = self.participants.as_ref().map(BTreeSet::len);
+        members.unwrap_or(robot.fleet().len()) / 2 + 1
+    }
+
+    fn send(&mut self, robot: &mut Robot<'_>, to: Destination, content: Content) {
+        let datagram = Datagram {
+            incarnation: self.incarnation.of(robot),
+            life: self.standing.life(),
+            lives: self.lives.list(),
+            content,
+        };
+        robot.transmit(to, self.port, &datagram);
+    }
+
+    /// Sends to these: in one datagram to all where they are most of the fleet, since others ignore it or
+    /// answer in vain.
+    fn send_each(&mut self, robot: &mut Robot<'_>, to: &[RobotId], content: &Content) {
+        if 2 * to.len() > robot.peers().count() {
+            self.send(robot, Destination::All, content.clone());
+        } else {
+            for &peer in to {
+                self.send(robot, Destination::Robot(peer), content.clone());
+            }
+        }
+    }
+
+    fn timer(&self, kind: u16, number: u32) -> TimerKey {
+        TimerKey {
+            port: self.port,
+            kind,
+            number,
+        }
+    }
+
+    /// Takes a datagram. What is not one of ours is ignored.
+    fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
+        let from = message.from;
+        let is_peer = from != robot.id() && robot.fleet().binary_search(&from).is_ok();
+        let Some(datagram) = message.read::<Datagram>().filter(|_| is_peer) else {
+            return;
+        };
+        self.learn_lives(robot, from, &datagram);
+        let is_past = self.is_member(robot, from) && datagram.life < self.lives.of(from);
+        match datagram.content {
+            Content::Hello { id, life, after } => self.welcome(robot, from, id, life, after),
+            Content::Told { id, life, is_up } if self.asks(id) => {
+                self.told(robot, from, datagram.incarnation, life, is_up);
+            }
+            Content::State { id, page } if !is_past && self.asks(id) => {
+                self.take_page(robot, from, datagram.life, page);
+            }
+            Content::Query { .. } | Content::Store { .. } => {
+                self.serve(robot, from, datagram.content);
+            }
+            Content::Value { id, tag, value } if !is_past => {
+                self.answered(robot, from, datagram.life, id, Some((tag, value)));
+            }
+            Content::Stored { id } if !is_past => {
+                self.answered(robot, from, datagram.life, id, None);
+            }
+            Content::Announcement(_)
+            | Content::Comparison { .. }
+            | Content::Entries(_)
+            | Content::Wanted(_) => self.gossip(robot, from, datagram.content),
+            // Too late.
+            Content::Told { .. }
+            | Content::State { .. }
+            | Content::Value { .. }
+            | Content::Stored { .. } => {}
+        }
+    }
+}
+
+impl Primitive for Register {
+    fn port(&self) -> Port {
+        self.port
+    }
+
+    fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
+        match input {
+            Input::Message(message) if message.port == self.port => self.receive(robot, message),
+            Input::Timer(key) if key.port == self.port => match key.kind {
+                OPERATION_TIMER => self.ask_again(robot, key.number),
+                ENTER_TIMER => self.enter_again(robot),
+                GOSSIP_TIMER => self.announce(robot),
+                _ => {}
+            },
+            Input::Suspected(peer) => self.suspect(robot, *peer),
+            Input::Trusted(peer) => self.trust(robot, *peer),
+            _ => {}
+        }
+        self.keep_time(robot);
+    }
+}

@@ -1,0 +1,268 @@
+//! A program that reads and writes registers at random, or as a test tells it to; and whether what its
+//! events say is linearizable.
+
+use super::{World, int};
+use starl_core::{
+    Duration, Event, Port, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value,
+};
+use starl_primitives::register::{OperationId, Options, Status};
+use starl_primitives::{FailureDetector, Register, failure_detector};
+use std::any::Any;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The registers that there are.
+pub const REGISTERS: [&str; 2] = ["x", "y"];
+
+#[derive(Clone)]
+pub struct Keeper {
+    pub register: Register,
+    detector: FailureDetector,
+    /// Whether it begins operations by itself.
+    is_busy: bool,
+    pub last: Option<OperationId>,
+    next: Time,
+}
+
+impl Keeper {
+    /// Robots that read and write by themselves, if they are busy.
+    pub fn boxed(
+        is_busy: bool,
+        participants: Option<BTreeSet<RobotId>>,
+    ) -> impl Fn() -> Box<dyn Program> {
+        move || {
+            Box::new(Keeper {
+                register: Register::new("register", participants.clone(), Options::default()),
+                detector: FailureDetector::new("watch", failure_detector::Options::default()),
+                is_busy,
+                last: None,
+                next: Time::ZERO,
+            })
+        }
+    }
+}
+
+const READ: u16 = 0;
+const WRITE: u16 = 1;
+const WITHDRAW: u16 = 2;
+
+fn command(kind: u16, number: u32) -> TimerKey {
+    TimerKey {
+        port: Port::PROGRAM,
+        kind,
+        number,
+    }
+}
+
+/// Tells a robot to read `x`.
+pub fn read() -> TimerKey {
+    command(READ, 0)
+}
+
+/// Tells a robot to write a number to `x`.
+pub fn write(value: u32) -> TimerKey {
+    command(WRITE, value)
+}
+
+/// Tells a robot to withdraw what it began last.
+pub fn withdraw() -> TimerKey {
+    command(WITHDRAW, 0)
+}
+
+impl Program for Keeper {
+    fn activate(&mut self, robot: &mut Robot<'_>) {
+        let now = robot.now();
+        if !self.is_busy || self.register.pending() > 0 || now < self.next {
+            return;
+        }
+        self.next = now + Duration::from_millis(u64::from(robot.random().below(600)));
+        let name = REGISTERS[robot.random().below(2) as usize];
+        if robot.random().chance(0.5) {
+            self.register.read(robot, name).expect("few are under way");
+            return;
+        }
+        // No two writes are of the same value.
+        let value = now.0 << 8 | u64::from(robot.id().0);
+        let value = value.to_le_bytes().as_slice().into();
+        let begun = self.register.write(robot, name, value);
+        begun.expect("few are under way");
+    }
+
+    fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
+        let value = key.number.to_le_bytes().as_slice().into();
+        let begun = match key.kind {
+            READ => self.register.read(robot, "x"),
+            WRITE => self.register.write(robot, "x", value),
+            _ => {
+                if let Some(last) = self.last.take() {
+                    self.register.withdraw(robot, last);
+                }
+                return;
+            }
+        };
+        self.last = Some(begun.expect("few are under way"));
+    }
+
+    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
+        visit(&mut self.detector);
+        visit(&mut self.register);
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        self.register.corrupt(random);
+    }
+
+    fn inspect(&self) -> Option<&dyn Any> {
+        Some(self)
+    }
+}
+
+/// The program of a robot that is up.
+pub fn keeper(world: &World, robot: usize) -> &Keeper {
+    let program = world.program(robot).expect("the robot is up");
+    let keeper = program
+        .inspect()
+        .and_then(|any| any.downcast_ref::<Keeper>());
+    keeper.expect("it is a keeper")
+}
+
+/// How far a robot's last operation is.
+pub fn status(world: &World, robot: usize) -> Status {
+    let keeper = keeper(world, robot);
+    let last = keeper.last.expect("it has begun something");
+    keeper.register.status(last)
+}
+
+/// What a robot has read or written, as a number.
+pub fn result(world: &World, robot: usize) -> Option<u32> {
+    match status(world, robot) {
+        Status::Done(value) => value.map(|bytes| number(&bytes)),
+        other => panic!("robot {robot} is not done but {other:?}"),
+    }
+}
+
+/// What a robot's own copy of `x` shows.
+pub fn known(world: &World, robot: usize) -> Option<u32> {
+    let register = &keeper(world, robot).register;
+    register.known("x").map(number)
+}
+
+fn number(value: &[u8]) -> u32 {
+    value.try_into().map_or(u32::MAX, u32::from_le_bytes)
+}
+
+/// All operations of one value: its write and the reads that gave it.
+#[derive(Clone, Debug, Default)]
+struct Cluster {
+    write: Option<(Time, Time)>,
+    first_end: Option<Time>,
+    last_begin: Option<Time>,
+}
+
+/// When an operation began, whether it is a write, of which register, and the value.
+type Begun = (Time, bool, String, Option<i64>);
+
+/// Judges a run by its events; gives how many operations each robot has done. No two writes of a register
+/// are of the same value, so this is decided by the zones of values (Gibbons and Korach 1997, "Testing
+/// Shared Memories"): in time between the first end and the last begin of its operations a register holds a
+/// value.
+pub fn judge(world: &World) -> Result<BTreeMap<u32, usize>, String> {
+    let mut begun: BTreeMap<(u32, i64), Begun> = BTreeMap::new();
+    let mut done = Vec::new();
+    let mut count: BTreeMap<u32, usize> = BTreeMap::new();
+    for (at, RobotId(robot), event) in &world.records {
+        let Event::Primitive {
+            primitive,
+            name,
+            fields,
+            ..
+        } = event
+        else {
+            continue;
+        };
+        let field = |wanted: &str| {
+            let mut fields = fields.iter();
+            fields
+                .find(|(name, _)| name == wanted)
+                .map(|(_, value)| value)
+        };
+        let ("register", Some(operation), Some(Value::Text(register))) =
+            (&**primitive, field("operation"), field("register"))
+        else {
+            continue;
+        };
+        let key = (*robot, int(operation));
+        let value = field("value").map(int);
+        match &**name {
+            "read" | "write" => {
+                // Whoever starts anew counts anew; what was under way then never ends.
+                let operation = (*at, &**name == "write", register.to_string(), value);
+                if let Some(lost) = begun.insert(key, operation) {
+                    done.push((lost, Time::NEVER));
+                }
+            }
+            "done" => {
+                let mut operation = begun.remove(&key).expect("it was begun");
+                operation.3 = value;
+                done.push((operation, *at));
+                *count.entry(*robot).or_default() += 1;
+            }
+            _ => {}
+        }
+    }
+    done.extend(begun.into_values().map(|lost| (lost, Time::NEVER)));
+    let mut clusters: BTreeMap<(String, Option<i64>), Cluster> = BTreeMap::new();
+    for register in REGISTERS {
+        let none = clusters.entry((register.to_string(), None)).or_default();
+        none.write = Some((Time::ZERO, Time::ZERO));
+        none.first_end = Some(Time::ZERO);
+    }
+    for ((begin, is_write, register, value), end) in done {
+        if end == Time::NEVER && !is_write {
+            continue;
+        }
+        let cluster = clusters.entry((register, value)).or_default();
+        if is_write {
+            cluster.write = Some((begin, end));
+        }
+        let first = cluster.first_end.unwrap_or(Time::NEVER).min(end);
+        cluster.first_end = Some(first);
+        let last = cluster.last_begin.unwrap_or(Time::ZERO).max(begin);
+        cluster.last_begin = Some(last);
+    }
+    let mut zones: BTreeMap<String, Vec<(Time, Time)>> = BTreeMap::new();
+    for ((register, value), cluster) in clusters {
+        let end = cluster.first_end.unwrap_or(Time::NEVER);
+        let begin = cluster.last_begin.unwrap_or(Time::ZERO);
+        let Some((written, _)) = cluster.write else {
+            return Err(format!("{register}: {value:?} was read and never written"));
+        };
+        if end < written {
+            return Err(format!(
+                "{register}: {value:?} was read before it was written"
+            ));
+        }
+        if end != Time::NEVER {
+            zones.entry(register).or_default().push((end, begin));
+        }
+    }
+    for (register, zones) in zones {
+        for (index, &(end, begin)) in zones.iter().enumerate() {
+            for (other, &(other_end, other_begin)) in zones.iter().enumerate() {
+                let forward = end < begin;
+                let other_forward = other_end < other_begin;
+                let clash = match (forward, other_forward) {
+                    (true, true) => index != other && end < other_begin && other_end < begin,
+                    (true, false) => end < other_begin && other_end < begin,
+                    _ => false,
+                };
+                if clash {
+                    return Err(format!(
+                        "{register}: a value is held from {end:?} to {begin:?}, another from \
+                         {other_end:?} to {other_begin:?}"
+                    ));
+                }
+            }
+        }
+    }
+    Ok(count)
+}
