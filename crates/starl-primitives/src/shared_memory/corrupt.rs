@@ -25,6 +25,13 @@ impl SharedMemory {
             element.value = (0..length)
                 .map(|_| random.bits() as u8)
                 .collect::<Payload>();
+            for dependency in element.depends.iter_mut().flatten() {
+                dependency.stamp.time = time(random);
+                dependency.stamp.count = random.bits();
+                if random.chance(0.5) {
+                    dependency.key = word(random);
+                }
+            }
             element.mine = random.chance(0.5);
             element.touched = time(random);
         }

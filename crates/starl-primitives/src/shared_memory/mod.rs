@@ -14,10 +14,15 @@
 //!   with the greater number;
 //! - a robot shows only values that were written, or the initial one, and for one variable never goes
 //!   back to an earlier stamp for as long as it runs;
+//! - a robot that shows a write of a [causal](SharedMemory::make_causal) variable shows all writes of causal
+//!   variables that the writer showed then, or later ones;
 //! - after any corruption of memories all this holds again for what is written later.
 //!
-//! The value of a variable may be lost for good only together with all robots that have it.
+//! The value of a variable may be lost for good only together with all robots that have it. Then whoever has
+//! a causal write that depends on it, and has not shown it yet, does so only when the lost one is written
+//! again.
 
+mod causality;
 mod compare;
 mod corrupt;
 mod error;
@@ -37,6 +42,7 @@ pub use stamp::Stamp;
 
 use alloc::boxed::Box;
 use alloc::collections::{BTreeMap, BTreeSet};
+use causality::Held;
 use gossip::Gossip;
 use stamp::HybridClock;
 use starl_core::{Input, Payload, Port, Primitive, Robot, RobotId, Time, TimerKey};
@@ -65,6 +71,10 @@ pub struct SharedMemory {
     initial: BTreeMap<Box<str>, Payload>,
     /// What elements of arrays hold before any write.
     initial_elements: BTreeMap<Box<str>, Payload>,
+    /// The variables that are causal.
+    causal: BTreeSet<Box<str>>,
+    /// What came before what it depends on.
+    held: Held,
     /// Written and not yet sent.
     unsent: BTreeSet<u64>,
     /// To be sent again, since some robot lacks it.
@@ -86,6 +96,8 @@ impl SharedMemory {
             store: Store::default(),
             initial: BTreeMap::new(),
             initial_elements: BTreeMap::new(),
+            causal: BTreeSet::new(),
+            held: Held::new(),
             unsent: BTreeSet::new(),
             repairs: BTreeSet::new(),
             repair_due: None,

@@ -26,6 +26,8 @@ pub(super) enum Content {
     Comparison(Vec<Part>),
     /// To one: send me what you have under these keys.
     Wanted(Vec<u64>),
+    /// To all: elements of causal variables to merge, with what they depend on.
+    Causal(Vec<(Write, Vec<Dependency>)>),
 }
 
 /// A whole memory in short.
@@ -46,6 +48,16 @@ pub(super) struct Write {
     pub single_writer: bool,
     pub stamp: Stamp,
     pub value: Payload,
+    /// What it depends on; none for a variable that is not causal.
+    #[serde(skip)]
+    pub depends: Option<Vec<Dependency>>,
+}
+
+/// A write that another one may depend on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Dependency {
+    pub key: u64,
+    pub stamp: Stamp,
 }
 
 /// A range of keys and what the sender has there.
@@ -133,6 +145,8 @@ impl Part {
 impl Write {
     /// At most.
     pub fn bytes(&self) -> usize {
-        5 + self.variable.len() + 1 + STAMP_BYTES + 5 + self.value.len()
+        let depends = self.depends.as_ref().map_or(0, Vec::len);
+        let depends = 5 + depends * (KEY_BYTES + STAMP_BYTES);
+        5 + self.variable.len() + 1 + STAMP_BYTES + 5 + self.value.len() + depends
     }
 }

@@ -25,6 +25,13 @@ impl SharedMemory {
         self.clock.observe(datagram.clock);
         match datagram.content {
             Content::Elements(writes) => self.merge(robot, writes),
+            Content::Causal(writes) => {
+                let writes = writes.into_iter().map(|(write, depends)| Write {
+                    depends: Some(depends),
+                    ..write
+                });
+                self.merge(robot, writes.collect());
+            }
             Content::Announcement(theirs) => self.heard(robot, from, theirs),
             Content::Comparison(parts) => self.compare(robot, from, &parts),
             Content::Wanted(keys) => {
@@ -41,8 +48,13 @@ impl SharedMemory {
                 && write.stamp.clock().is_valid();
             if is_ours {
                 self.clock.observe(write.stamp.clock());
-                self.merge_one(robot, write);
+                if let Some(write) = self.hold(write) {
+                    self.merge_one(robot, write);
+                }
             }
+        }
+        while let Some(write) = self.next_released() {
+            self.merge_one(robot, write);
         }
     }
 

@@ -47,6 +47,12 @@ pub(super) fn initial(
     robot.emit_primitive(KIND, port, "initialize", fields);
 }
 
+/// A variable is causal from now on.
+pub(super) fn causal(robot: &mut Robot<'_>, port: Port, variable: &str) {
+    let variable = Value::Text(Name::Owned(variable.to_owned()));
+    robot.emit_primitive(KIND, port, "causal", [("variable", variable)]);
+}
+
 /// Stands for a value in events.
 fn value_hash(value: &[u8]) -> i64 {
     let mut digest = Digest::default();

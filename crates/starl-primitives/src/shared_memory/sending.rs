@@ -33,10 +33,32 @@ impl SharedMemory {
         let written = written.iter().filter_map(|&key| self.store.at(key));
         let written = written.filter(|element| element.is_mine(robot.id()));
         let writes: Vec<Write> = written.map(write).collect();
-        let mut writes = writes.into_iter().peekable();
-        while writes.peek().is_some() {
-            let content = self.pack(&mut writes, Write::bytes);
-            self.send(robot, Destination::All, Content::Elements(content));
+        let (causal, plain): (Vec<Write>, Vec<Write>) = writes
+            .into_iter()
+            .partition(|write| write.depends.is_some());
+        for writes in [plain, causal] {
+            let mut writes = writes.into_iter().peekable();
+            while writes.peek().is_some() {
+                let packed = self.pack(&mut writes, Write::bytes);
+                self.send_writes(robot, packed);
+            }
+        }
+    }
+
+    /// Sends elements to all. Those of causal variables go by themselves.
+    fn send_writes(&self, robot: &mut Robot<'_>, writes: Vec<Write>) {
+        let (mut plain, mut causal) = (Vec::new(), Vec::new());
+        for mut write in writes {
+            match write.depends.take() {
+                Some(depends) => causal.push((write, depends)),
+                None => plain.push(write),
+            }
+        }
+        if !plain.is_empty() {
+            self.send(robot, Destination::All, Content::Elements(plain));
+        }
+        if !causal.is_empty() {
+            self.send(robot, Destination::All, Content::Causal(causal));
         }
     }
 
@@ -83,7 +105,7 @@ impl SharedMemory {
                     element.touched = now;
                 }
             }
-            self.send(robot, Destination::All, Content::Elements(writes));
+            self.send_writes(robot, writes);
         }
     }
 
@@ -172,5 +194,6 @@ fn write(element: &Element) -> Write {
         single_writer: element.address.owner.is_some(),
         stamp: element.stamp,
         value: element.value.clone(),
+        depends: element.depends.clone(),
     }
 }

@@ -7,10 +7,11 @@
 //! began as garbage. Elements lie in the order of 64-bit keys, hashes of their addresses, and every range
 //! of keys has a fingerprint, the sum of the hashes of its elements, by which copies are compared.
 
-use super::packet::Write;
+use super::packet::{Dependency, Write};
 use super::stamp::Stamp;
 use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
+use alloc::vec::Vec;
 use core::cmp::Ordering;
 use core::ops::RangeInclusive;
 use starl_core::random::hash_key;
@@ -45,6 +46,8 @@ pub(super) struct Element {
     pub address: Address,
     pub stamp: Stamp,
     pub value: Payload,
+    /// What it depends on; none for a variable that is not causal.
+    pub depends: Option<Vec<Dependency>>,
     /// Whether this robot wrote it since it started.
     pub mine: bool,
     /// When it last changed or was last seen on its way to all, by the robot's own clock.
@@ -158,13 +161,31 @@ impl Store {
     }
 
     /// Computes afresh what follows from the elements, and sets right what only a corruption leaves
-    /// behind: elements that are not valid, or were touched in the future.
+    /// behind: elements that are not valid, were touched in the future, or depend on what is not shown.
     pub fn refresh(&mut self, now: Time) {
         self.elements.retain(|_, element| element.is_valid());
+        let mut has_causal = false;
         for element in self.elements.values_mut() {
             element.touched = element.touched.min(now);
+            has_causal |= element.depends.is_some();
+        }
+        if has_causal {
+            self.drop_uncovered();
         }
         self.fingerprint = fingerprint(self.elements.values());
+    }
+
+    /// Forgets dependencies that are not covered by what is shown.
+    fn drop_uncovered(&mut self) {
+        let causal = self.elements.iter();
+        let causal = causal.filter(|(_, element)| element.depends.is_some());
+        let shown: BTreeMap<u64, Stamp> = causal.map(|(&key, e)| (key, e.stamp)).collect();
+        for depends in self.elements.values_mut().flat_map(|e| &mut e.depends) {
+            depends.retain(|needed| {
+                let shown = shown.get(&needed.key);
+                shown.is_some_and(|&stamp| stamp >= needed.stamp)
+            });
+        }
     }
 
     /// The fingerprint of all elements, to be overwritten.
@@ -189,6 +210,7 @@ impl Store {
             address: self.address(&write.variable, owner),
             stamp: write.stamp,
             value: write.value,
+            depends: write.depends,
             mine: false,
             touched: now,
         });

@@ -60,8 +60,10 @@ impl SharedMemory {
             count,
             writer: robot.id(),
         };
+        let is_causal = self.causal.contains(&*address.variable);
         let element = Element {
             key,
+            depends: is_causal.then(|| self.store.dependencies(key)),
             address,
             stamp,
             value,

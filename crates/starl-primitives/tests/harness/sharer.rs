@@ -9,13 +9,20 @@ use std::any::Any;
 #[derive(Clone)]
 pub struct Sharer {
     pub memory: SharedMemory,
+    /// So many variables are causal, from `x0` on.
+    causal: u16,
 }
 
 impl Sharer {
     pub fn boxed(options: Options) -> impl Fn() -> Box<dyn Program> {
+        Sharer::causal(options, 0)
+    }
+
+    /// One of whose variables so many are causal.
+    pub fn causal(options: Options, causal: u16) -> impl Fn() -> Box<dyn Program> {
         move || {
             let memory = SharedMemory::new("memory", options);
-            Box::new(Sharer { memory })
+            Box::new(Sharer { memory, causal })
         }
     }
 }
@@ -43,6 +50,12 @@ pub fn write_many(count: u32) -> TimerKey {
 }
 
 impl Program for Sharer {
+    fn start(&mut self, robot: &mut Robot<'_>) {
+        for variable in 0..self.causal {
+            self.memory.make_causal(robot, &format!("x{variable}"));
+        }
+    }
+
     fn activate(&mut self, _: &mut Robot<'_>) {}
 
     fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {

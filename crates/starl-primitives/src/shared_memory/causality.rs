@@ -1,0 +1,93 @@
+//! Causal variables: a robot shows no write before those that it may depend on.
+//!
+//! A write of a causal variable may depend on all writes of causal variables that its writer shows (Ahamad,
+//! Neiger, Burns, Kohli, Hutto 1995, "Causal Memory: Definitions, Implementation, and Programming"). It
+//! carries their stamps, and whoever receives it holds it back until it shows each of these writes or a
+//! later one of the same variable.
+//!
+//! Invariant: what an element that is shown depends on is covered by what is shown.
+//!
+//! Where ours differs from causal stores that send the nearest dependencies alone (Lloyd, Freedman, Kaminsky,
+//! Andersen 2011, "Don't Settle for Eventual: Scalable Causal Consistency for Wide-Area Storage with COPS"):
+//! here copies are compared, and a write that was overwritten is not delivered to all. One that depends on
+//! it would have no way to what the overwritten one depended on, so all dependencies are sent.
+
+use super::packet::{Dependency, Write};
+use super::stamp::Stamp;
+use super::store::{Store, key};
+use super::{SharedMemory, report};
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
+use starl_core::Robot;
+
+/// The writes that came before what they depend on, by the keys of their elements: the latest of each.
+pub(super) type Held = BTreeMap<u64, Write>;
+
+impl Store {
+    /// Whether all of these, or later ones, are shown.
+    pub fn covers(&self, depends: &[Dependency]) -> bool {
+        depends.iter().all(|dependency| {
+            let shown = self.at(dependency.key);
+            shown.is_some_and(|element| element.stamp >= dependency.stamp)
+        })
+    }
+
+    /// What a write that is made now may depend on, but for the element that it replaces.
+    pub fn dependencies(&self, but: u64) -> Vec<Dependency> {
+        let causal = self.range(0..=u64::MAX);
+        let causal = causal.filter(|(key, element)| *key != but && element.depends.is_some());
+        causal
+            .map(|(key, element)| Dependency {
+                key,
+                stamp: element.stamp,
+            })
+            .collect()
+    }
+}
+
+impl SharedMemory {
+    /// Makes a variable, or an array, causal: what this robot writes to it from now on is shown by others
+    /// only together with the writes to causal variables that this robot shows. All robots that write it
+    /// should say so.
+    pub fn make_causal(&mut self, robot: &mut Robot<'_>, variable: &str) {
+        if self.causal.insert(variable.into()) {
+            report::causal(robot, self.port, variable);
+        }
+    }
+
+    /// Holds a write back if it comes before what it depends on; otherwise gives it back.
+    pub(super) fn hold(&mut self, write: Write) -> Option<Write> {
+        let depends = write.depends.as_deref().unwrap_or_default();
+        if self.store.covers(depends) {
+            return Some(write);
+        }
+        for dependency in depends {
+            // So that what is written there next covers it, even if a corruption made it up.
+            self.clock.observe(dependency.stamp.clock());
+        }
+        let owner = write.single_writer.then_some(write.stamp.writer);
+        let key = key(&write.variable, owner);
+        let order = |write: &Write| -> (Stamp, usize) {
+            // Of two copies of a write the one with fewer dependencies is the one that was set right.
+            let count = write.depends.as_ref().map_or(0, Vec::len);
+            (write.stamp, usize::MAX - count)
+        };
+        let is_later = |held: &Write| order(held) < order(&write);
+        let has_room = self.held.len() < self.options.most_elements;
+        if self.held.get(&key).map_or(has_room, is_later) {
+            self.held.insert(key, write);
+        }
+        None
+    }
+
+    /// The next write that was held back and need not be any longer.
+    pub(super) fn next_released(&mut self) -> Option<Write> {
+        let mut held = self.held.iter();
+        let covered = |write: &Write| {
+            let depends = write.depends.as_deref().unwrap_or_default();
+            self.store.covers(depends)
+        };
+        let (&key, _) = held.find(|(_, write)| covered(write))?;
+        self.held.remove(&key)
+    }
+}
