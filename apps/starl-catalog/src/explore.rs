@@ -83,6 +83,7 @@ fn timeless(scenario: &Scenario) -> Scenario {
         election_bound,
         mutex: _,
         mutex_bound,
+        register: _,
         program: _,
     } = &mut scenario.properties;
     for bound in [

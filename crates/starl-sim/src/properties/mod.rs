@@ -14,6 +14,7 @@ mod no_collision;
 mod outstanding;
 mod parts;
 mod reach_avoid;
+mod register;
 mod report;
 mod shared_memory;
 mod track;
@@ -84,10 +85,14 @@ pub fn checkers(scenario: &Scenario, setting: &Setting) -> Vec<Box<dyn Checker>>
     if wanted.geocast {
         checkers.push(Box::new(geocast::Geocast::new(scenario, setting)));
     }
+    if wanted.register {
+        checkers.push(Box::new(register::Register::default()));
+    }
     if wanted.shared_memory {
         checkers.push(Box::new(shared_memory::SharedMemory::new(
             scenario, setting,
         )));
+        checkers.push(Box::new(shared_memory::Causality::new(scenario)));
     }
     if wanted.election {
         checkers.push(Box::new(election::Election::new(scenario, setting)));

@@ -126,6 +126,7 @@ fn properties(table: Section<'_>) -> Properties {
         election_bound: table.duration("election_bound"),
         mutex: table.flag("mutex"),
         mutex_bound: table.duration("mutex_bound"),
+        register: table.flag("register"),
         program: table.flag("program"),
     }
 }

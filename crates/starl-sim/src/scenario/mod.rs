@@ -134,6 +134,8 @@ pub struct Properties {
     pub mutex: bool,
     /// What is free is granted within this time; default 35 s.
     pub mutex_bound: Duration,
+    /// Linearizability of registers; default true.
+    pub register: bool,
     /// What programs in the StarL language say of themselves; default true.
     pub program: bool,
 }
@@ -192,6 +194,7 @@ impl Default for Properties {
             election_bound: Duration::from_seconds(35),
             mutex: true,
             mutex_bound: Duration::from_seconds(35),
+            register: true,
             program: true,
         }
     }

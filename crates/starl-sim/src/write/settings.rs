@@ -133,6 +133,7 @@ pub(super) fn properties(properties: &Properties) -> String {
         election_bound,
         mutex,
         mutex_bound,
+        register,
         program,
     });
     table.finish()

@@ -6,8 +6,11 @@
 //! something excused it. It is owed by those that have it: by each robot that shows the write to each
 //! robot that has the memory, as long as both are well and no partition can have kept them apart.
 
+mod causality;
 mod debt;
 mod element;
+
+pub(super) use causality::Causality;
 
 use super::health::{Health, Needs};
 use super::parts::Parts;

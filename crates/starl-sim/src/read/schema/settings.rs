@@ -191,7 +191,7 @@ const PROPERTIES: &[Field] = &[
         "shared_memory",
         Kind::Flag,
         Default::Value("true"),
-        "Integrity, order and convergence of shared memory.",
+        "Integrity, order, convergence and causality of shared memory.",
     ),
     field(
         "shared_memory_bound",
@@ -222,6 +222,12 @@ const PROPERTIES: &[Field] = &[
         SPAN,
         Default::Value("35s"),
         "Within this time what is free is granted.",
+    ),
+    field(
+        "register",
+        Kind::Flag,
+        Default::Value("true"),
+        "Linearizability of registers.",
     ),
     field(
         "program",

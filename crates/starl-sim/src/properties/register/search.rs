@@ -1,0 +1,348 @@
+//! Whether a history of one register is linearizable, decided as it happens.
+//!
+//! The search is that of Wing and Gong (1993, "Testing and Verifying Concurrent Objects"): it looks for an
+//! order of the operations that agrees with their times and in which each read gives what was written last.
+//! It goes forward in time and decides as late as possible, when an operation ends, what has taken effect by
+//! then (just-in-time linearization), and keeps what is possible so far as a set of configurations (Lowe
+//! 2017, "Testing for Linearizability").
+//!
+//! Where ours differs, since this is a register: reads change nothing, so that they are not ordered. Each
+//! configuration holds, for every read under way, the values that there were since it began. And a write that
+//! takes effect before another one that is under way, unseen but by such reads, can do so in any order.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+/// At most this many configurations are kept.
+const MOST_CONFIGURATIONS: usize = 4096;
+
+/// What a register holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Content {
+    /// Nothing was written.
+    Nothing,
+    /// A value, as a hash.
+    Value(i64),
+}
+
+/// Names an operation.
+pub(super) type Id = u64;
+
+/// What has become of a history so far.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Verdict {
+    /// It is linearizable.
+    Possible,
+    /// It is not.
+    Impossible,
+    /// So many operations were under way at once that it would take too long to say.
+    Unknown,
+}
+
+/// One way in which things may stand.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Configuration {
+    content: Content,
+    /// The writes under way that have taken effect.
+    effective: BTreeSet<Id>,
+    /// For each read under way what it may give.
+    possible: BTreeMap<Id, BTreeSet<Content>>,
+}
+
+/// A history of one register.
+#[derive(Clone, Debug)]
+pub(super) struct Search {
+    configurations: BTreeSet<Configuration>,
+    /// The writes under way, and whether their end is not to come.
+    writes: BTreeMap<Id, (i64, bool)>,
+    /// The reads under way.
+    reads: BTreeSet<Id>,
+    verdict: Verdict,
+}
+
+impl Configuration {
+    fn become_(&mut self, value: i64) {
+        self.content = Content::Value(value);
+        for possible in self.possible.values_mut() {
+            possible.insert(self.content);
+        }
+    }
+}
+
+impl Default for Search {
+    /// A register that nobody has written.
+    fn default() -> Search {
+        let first = Configuration {
+            content: Content::Nothing,
+            effective: BTreeSet::new(),
+            possible: BTreeMap::new(),
+        };
+        Search {
+            configurations: BTreeSet::from([first]),
+            writes: BTreeMap::new(),
+            reads: BTreeSet::new(),
+            verdict: Verdict::Possible,
+        }
+    }
+}
+
+impl Search {
+    /// What has become of it. Once it is not linearizable, or that cannot be said, it stays so.
+    pub fn verdict(&self) -> Verdict {
+        self.verdict
+    }
+
+    pub fn write_begins(&mut self, id: Id, value: i64) {
+        self.writes.insert(id, (value, false));
+    }
+
+    pub fn read_begins(&mut self, id: Id) {
+        self.reads.insert(id);
+        let configurations = core::mem::take(&mut self.configurations);
+        let with_read = configurations.into_iter().map(|mut configuration| {
+            let now = BTreeSet::from([configuration.content]);
+            configuration.possible.insert(id, now);
+            configuration
+        });
+        self.configurations = with_read.collect();
+    }
+
+    /// The operation will not end: its robot has crashed, or has withdrawn it. A write may still take
+    /// effect.
+    pub fn is_abandoned(&mut self, id: Id) {
+        if let Some((_, is_abandoned)) = self.writes.get_mut(&id) {
+            *is_abandoned = true;
+        }
+        if self.reads.remove(&id) {
+            let configurations = core::mem::take(&mut self.configurations);
+            let without = configurations.into_iter().map(|mut configuration| {
+                configuration.possible.remove(&id);
+                configuration
+            });
+            self.configurations = without.collect();
+        }
+    }
+
+    pub fn write_ends(&mut self, id: Id) {
+        let Some((value, _)) = self.writes.remove(&id) else {
+            return;
+        };
+        let mut next = BTreeSet::new();
+        for mut configuration in core::mem::take(&mut self.configurations) {
+            if configuration.effective.remove(&id) {
+                next.insert(configuration);
+            } else if !self.with_earlier(&configuration, value, &mut next) {
+                return;
+            }
+        }
+        self.keep(next);
+    }
+
+    pub fn read_ends(&mut self, id: Id, result: Content) {
+        if !self.reads.remove(&id) {
+            return;
+        }
+        let mut next = BTreeSet::new();
+        for mut configuration in core::mem::take(&mut self.configurations) {
+            let possible = configuration.possible.remove(&id).unwrap_or_default();
+            if possible.contains(&result) {
+                next.insert(configuration);
+                continue;
+            }
+            let can_take_effect = |(id, (value, _)): (&Id, &(i64, bool))| {
+                let is_it = Content::Value(*value) == result;
+                (is_it && !configuration.effective.contains(id)).then_some((*id, *value))
+            };
+            let candidates = self.writes.iter().filter_map(can_take_effect);
+            let candidates: Vec<(Id, i64)> = candidates.collect();
+            for (write, value) in candidates {
+                let mut effective = configuration.clone();
+                effective.effective.insert(write);
+                if !self.with_earlier(&effective, value, &mut next) {
+                    return;
+                }
+            }
+        }
+        self.keep(next);
+    }
+
+    /// A write takes effect, after any others of those that are under way. Whether it is not too much.
+    fn with_earlier(
+        &mut self,
+        configuration: &Configuration,
+        value: i64,
+        next: &mut BTreeSet<Configuration>,
+    ) -> bool {
+        // Whoever will not end need not be ordered, unless it is seen.
+        let others = self.writes.iter().filter(|(id, (_, is_abandoned))| {
+            !is_abandoned && !configuration.effective.contains(id)
+        });
+        let others: Vec<(Id, i64)> = others.map(|(&id, &(value, _))| (id, value)).collect();
+        let is_few = others.len() < MOST_CONFIGURATIONS.ilog2() as usize;
+        let subsets = if is_few { 1_u32 << others.len() } else { 0 };
+        for subset in 0..subsets {
+            let mut then = configuration.clone();
+            for (index, &(id, value)) in others.iter().enumerate() {
+                if subset >> index & 1 == 1 {
+                    then.effective.insert(id);
+                    then.become_(value);
+                }
+            }
+            then.become_(value);
+            next.insert(then);
+        }
+        let is_enough = is_few && next.len() <= MOST_CONFIGURATIONS;
+        if !is_enough {
+            self.give_up();
+        }
+        is_enough
+    }
+
+    fn give_up(&mut self) {
+        self.configurations.clear();
+        self.verdict = Verdict::Unknown;
+    }
+
+    fn keep(&mut self, next: BTreeSet<Configuration>) {
+        if next.is_empty() && self.verdict == Verdict::Possible {
+            self.verdict = Verdict::Impossible;
+        }
+        // Of writes that will not end, those that have taken effect everywhere are done with.
+        let is_effective = |id: &Id| next.iter().all(|c| c.effective.contains(id));
+        let done = self
+            .writes
+            .iter()
+            .filter(|(id, (_, abandoned))| *abandoned && is_effective(id));
+        let done: BTreeSet<Id> = done.map(|(&id, _)| id).collect();
+        self.writes.retain(|id, _| !done.contains(id));
+        let lean = next.into_iter().map(|mut configuration| {
+            configuration.effective.retain(|id| !done.contains(id));
+            configuration
+        });
+        self.configurations = lean.collect();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use starl_core::Random;
+
+    /// An operation of a history: when it begins and ends, if it does, and the value.
+    #[derive(Clone, Copy, Debug)]
+    struct Operation {
+        begin: u32,
+        end: Option<u32>,
+        is_write: bool,
+        value: i64,
+    }
+
+    fn judge(history: &[Operation]) -> Verdict {
+        let mut search = Search::default();
+        let begins = history
+            .iter()
+            .enumerate()
+            .map(|(id, o)| (o.begin, id, true));
+        let ends = history.iter().enumerate();
+        let ends = ends.filter_map(|(id, o)| Some((o.end?, id, false)));
+        let mut events: Vec<(u32, usize, bool)> = begins.chain(ends).collect();
+        events.sort_unstable();
+        for (_, id, is_begin) in events {
+            let operation = history[id];
+            let result = match operation.value {
+                0 => Content::Nothing,
+                value => Content::Value(value),
+            };
+            let id = id as Id;
+            match (operation.is_write, is_begin) {
+                (true, true) => search.write_begins(id, operation.value),
+                (true, false) => search.write_ends(id),
+                (false, true) => search.read_begins(id),
+                (false, false) => search.read_ends(id, result),
+            }
+        }
+        search.verdict()
+    }
+
+    /// Tries all orders.
+    fn is_linearizable(history: &[Operation], done: u32, value: i64) -> bool {
+        let left = |id: &usize| done >> id & 1 == 0;
+        let mut rest = (0..history.len()).filter(left);
+        if rest.all(|id| history[id].end.is_none()) {
+            return true;
+        }
+        (0..history.len()).filter(left).any(|id| {
+            let first = history[id];
+            let mut others = (0..history.len()).filter(left);
+            let is_next =
+                others.all(|other| history[other].end.is_none_or(|end| end > first.begin));
+            let fits = first.is_write || first.value == value || first.end.is_none();
+            let then = if first.is_write { first.value } else { value };
+            is_next && fits && is_linearizable(history, done | 1 << id, then)
+        })
+    }
+
+    #[test]
+    fn it_agrees_with_trying_all_orders() {
+        let (mut good, mut bad) = (0, 0);
+        for seed in 0..20_000 {
+            let mut random = Random::keyed(seed, &[]);
+            let count = 2 + random.below(5);
+            // All times differ.
+            let mut times: Vec<u32> = (0..2 * count).collect();
+            for index in (1..times.len()).rev() {
+                times.swap(index, random.below(index as u32 + 1) as usize);
+            }
+            let history: Vec<Operation> = times
+                .chunks(2)
+                .map(|pair| {
+                    let is_write = random.chance(0.5);
+                    Operation {
+                        begin: pair[0].min(pair[1]),
+                        end: random.chance(0.85).then(|| pair[0].max(pair[1])),
+                        is_write,
+                        // Values occur more than once.
+                        value: i64::from(random.below(3) + u32::from(is_write)),
+                    }
+                })
+                .collect();
+            let expected = match is_linearizable(&history, 0, 0) {
+                true => Verdict::Possible,
+                false => Verdict::Impossible,
+            };
+            assert_eq!(judge(&history), expected, "seed {seed}: {history:?}");
+            *(if expected == Verdict::Possible {
+                &mut good
+            } else {
+                &mut bad
+            }) += 1;
+        }
+        assert!(good > 3000 && bad > 3000, "{good} good, {bad} bad");
+    }
+
+    #[test]
+    fn it_says_so_when_it_would_take_too_long() {
+        let mut search = Search::default();
+        (0..40).for_each(|id| search.write_begins(id, id as i64));
+        search.write_ends(7);
+        assert_eq!(search.verdict(), Verdict::Unknown);
+    }
+
+    #[test]
+    fn writes_that_never_end_cost_nothing() {
+        let mut search = Search::default();
+        for id in 0..1000 {
+            search.write_begins(id, id as i64);
+            search.is_abandoned(id);
+        }
+        search.read_begins(5000);
+        search.read_ends(5000, Content::Value(600));
+        search.read_begins(5001);
+        search.read_ends(5001, Content::Value(3));
+        search.write_begins(5002, -1);
+        search.write_ends(5002);
+        assert_eq!(search.verdict(), Verdict::Possible);
+        search.read_begins(5003);
+        search.read_ends(5003, Content::Value(600));
+        assert_eq!(search.verdict(), Verdict::Impossible);
+    }
+}

@@ -1,0 +1,162 @@
+//! Causality: who shows a write of a causal variable shows all writes of causal variables that its writer
+//! showed when it wrote, or later ones.
+
+use super::element::Stamp;
+use super::{Address, content};
+use crate::properties::report::Report;
+use crate::properties::{Checker, Violation};
+use crate::scenario::Scenario;
+use starl_core::event::{Event, Value};
+use starl_core::{Duration, Port, Record, RobotId, Time};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::sync::Arc;
+
+const CAUSALITY: &str = "shared_memory.causality";
+
+/// So many writes of each element are remembered with what they depend on.
+const MOST_WRITES: usize = 256;
+
+/// An element: its variable, and its owner in an array.
+type Element = (Arc<str>, Option<RobotId>);
+
+/// What a robot shows of causal variables.
+type Shown = BTreeMap<Element, Stamp>;
+
+/// Watches the causal variables of all shared memories.
+#[derive(Clone, Debug, Default)]
+pub(in crate::properties) struct Causality {
+    memories: BTreeMap<Port, Memory>,
+    /// What was seen, as long as a corruption that excuses it may be on record later: faults take effect at
+    /// the beginning of the step in which they are recorded.
+    seen: VecDeque<Violation>,
+    /// How long that is.
+    step: Duration,
+    /// Whether some state was corrupted, so that memories may hold what was never written.
+    corrupted: bool,
+}
+
+/// One memory.
+#[derive(Clone, Debug, Default)]
+struct Memory {
+    /// The variables that are causal.
+    causal: BTreeSet<Arc<str>>,
+    /// What each robot shows.
+    shown: BTreeMap<RobotId, Shown>,
+    /// For each write what its writer showed besides.
+    past: BTreeMap<Element, BTreeMap<Stamp, Arc<Shown>>>,
+}
+
+impl Causality {
+    pub fn new(scenario: &Scenario) -> Causality {
+        Causality {
+            step: scenario.physics.step,
+            ..Causality::default()
+        }
+    }
+
+    fn reported(&mut self, report: &Report<'_>) {
+        let Report {
+            at, robot, port, ..
+        } = *report;
+        if report.name == "causal" {
+            if let Some(Value::Text(variable)) = report.get("variable") {
+                let memory = self.memories.entry(port).or_default();
+                memory.causal.insert(Arc::from(&**variable));
+            }
+            return;
+        }
+        let Some(memory) = self.memories.get_mut(&port) else {
+            return;
+        };
+        let Some((variable, owner, stamp, _)) = content(report) else {
+            return;
+        };
+        let Some(variable) = memory.causal.get(variable).cloned() else {
+            return;
+        };
+        let element = (variable, owner);
+        let shown = memory.shown.entry(robot).or_default();
+        if matches!(report.name, "write" | "write_again") {
+            let mut past = shown.clone();
+            past.remove(&element);
+            let writes = memory.past.entry(element.clone()).or_default();
+            writes.insert(stamp, Arc::new(past));
+            while writes.len() > MOST_WRITES {
+                writes.pop_first();
+            }
+        } else {
+            let past = memory.past.get(&element);
+            let past = past.and_then(|writes| writes.get(&stamp)).cloned();
+            let past = past.unwrap_or_default();
+            let is_missing =
+                |(element, needed): &(&Element, &Stamp)| shown.get(*element) < Some(*needed);
+            if let Some((missing, needed)) = past.iter().find(is_missing) {
+                let named = |(variable, owner): &Element| Address {
+                    port,
+                    variable: variable.clone(),
+                    owner: *owner,
+                };
+                self.seen.push_back(Violation {
+                    property: CAUSALITY.into(),
+                    at,
+                    robots: vec![robot, stamp.writer],
+                    text: format!(
+                        "robot {robot} shows what robot {} wrote to {} and not what robot {} had \
+                         written to {} before",
+                        stamp.writer,
+                        named(&element),
+                        needed.writer,
+                        named(missing)
+                    ),
+                });
+            }
+        }
+        shown.insert(element, stamp);
+    }
+
+    /// Reports what no fault can excuse any more.
+    fn pass(&mut self, now: Time, found: &mut Vec<Violation>) {
+        let step = self.step;
+        let is_over = |first: &Violation| first.at + step < now;
+        while self.seen.front().is_some_and(is_over) {
+            found.extend(self.seen.pop_front());
+        }
+    }
+}
+
+impl Checker for Causality {
+    fn properties(&self) -> &'static [&'static str] {
+        &[CAUSALITY]
+    }
+
+    fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
+        match &record.event {
+            Event::Primitive { .. } => {
+                if let Some(report) = Report::of(record, "shared_memory")
+                    && !self.corrupted
+                {
+                    self.pass(record.at, violations);
+                    self.reported(&report);
+                }
+            }
+            Event::Fault(fault) => match (record.robot, &**fault) {
+                (Some(robot), "crash") => {
+                    for memory in self.memories.values_mut() {
+                        memory.shown.remove(&robot);
+                    }
+                }
+                (_, "corrupt state") => {
+                    self.pass(record.at, violations);
+                    self.corrupted = true;
+                    self.seen.clear();
+                }
+                _ => {}
+            },
+            _ => {}
+        }
+    }
+
+    fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
+        self.pass(now, violations);
+    }
+}
