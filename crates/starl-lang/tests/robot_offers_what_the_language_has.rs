@@ -252,6 +252,7 @@ fn nothing_else_is_offered() {
     known.extend(shared.map(|name| format!("SingleWriter.{name}")));
     let shared = ["bind", "initialize", "write", "read"];
     known.extend(shared.map(|name| format!("MultiWriter.{name}")));
+    known.extend(shared.map(|name| format!("Linearizable.{name}")));
     let asked = ["all", "position", "heading", "velocity", "finished", "up"];
     known.extend(asked.map(|name| format!("robot.{name}")));
     assert_eq!(functions().collect::<BTreeSet<_>>(), known);

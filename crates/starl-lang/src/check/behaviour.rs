@@ -2,6 +2,7 @@
 
 use alloc::format;
 use alloc::string::ToString;
+use alloc::vec::Vec;
 
 use super::body::Where;
 use super::collect::{first_word, name_of};
@@ -12,7 +13,11 @@ use crate::syntax::ast::{self, AstNode, Documented, Item};
 
 impl Checker {
     pub fn check_init(&mut self, role: Option<u16>, node: &ast::InitDeclaration) {
-        let (body, locals) = self.in_body(Where::Effect, |checker| checker.block(node.body()));
+        let (body, locals) = self.in_body(Where::Effect, |checker| {
+            let body = checker.block(node.body());
+            checker.check_touched();
+            body
+        });
         let procedure = Procedure { locals, body };
         let roles = self.program.roles.as_mut();
         let place = match role {
@@ -44,7 +49,8 @@ impl Checker {
             let problem = problem.label(first.site.span, "the first one");
             self.report(problem);
         }
-        let ((guard, bindings, effect), locals) = self.in_body(Where::Guard, |checker| {
+        let ((guard, bindings, effect, atomic), locals) = self.in_body(Where::Guard, |checker| {
+            checker.body.is_action = true;
             let guard = match node.pre() {
                 Some(pre) => checker.expect(pre.condition(), &Type::Bool, "the guard"),
                 None => Expression {
@@ -56,7 +62,8 @@ impl Checker {
             let bindings = checker.body.names.iter().map(|(_, local)| *local).collect();
             checker.body.place = Where::Effect;
             let effect = checker.block(node.eff().and_then(|eff| eff.body()));
-            (guard, bindings, effect)
+            checker.check_touched();
+            (guard, bindings, effect, checker.linearizable())
         });
         let guard = match self.in_role(role, name.span) {
             Some(in_role) => Expression {
@@ -78,9 +85,21 @@ impl Checker {
             guard,
             bindings,
             effect,
+            atomic,
             site,
             documentation: Item::Action(node.clone()).documentation().to_string(),
         });
+    }
+
+    /// The linearizable variables that the body touches, in ascending order.
+    fn linearizable(&self) -> Vec<SharedId> {
+        let touched = self.body.touched.iter().map(|(id, _)| *id);
+        let is_linearizable =
+            |id: &SharedId| self.program[*id].consistency == Consistency::Linearizable;
+        let mut touched: Vec<SharedId> = touched.filter(is_linearizable).collect();
+        touched.sort_unstable();
+        touched.dedup();
+        touched
     }
 
     /// `role == ...`, for what belongs to a role.

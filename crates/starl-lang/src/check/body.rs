@@ -69,8 +69,12 @@ pub(super) struct Body {
     pub result: Option<Type>,
     /// In a property about each robot by itself: the robot.
     pub robot: Option<LocalId>,
-    /// The shared variables that were touched, in order.
-    pub touched: Vec<SharedId>,
+    /// The shared variables that were touched, in order, and where.
+    pub touched: Vec<(SharedId, Span)>,
+    /// Whether it belongs to an action, which can wait.
+    pub is_action: bool,
+    /// Whether there is an `atomic` in it.
+    pub is_atomic: bool,
 }
 
 impl Body {

@@ -4,6 +4,7 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use super::report::did_you_mean;
 use super::scope::{Declared, Entity};
 use super::state::{Behaviour, Checker, Progress, RecordNode};
 use super::tables::Primitive;
@@ -295,20 +296,11 @@ impl Checker {
         let Some(name) = name_of(&node) else { return };
         let id = SharedId(self.program.shared.len() as u32);
         self.declare(&name, Entity::Shared(id));
-        let consistency = node.consistency();
-        if let Some(word) = consistency
-            .as_ref()
-            .filter(|word| word.text() != "eventual")
-        {
-            let message = format!("there is no consistency `{}`", word.text());
-            let span = Span::from(word.text_range());
-            let problem = Diagnostic::new(Code::UnknownConsistency, span, message);
-            self.report(problem.note("all shared variables are `eventual`ly consistent"));
-        }
+        let consistency = self.consistency(&node);
         self.program.shared.push(Shared {
             name: name.text,
             is_single_writer: node.is_single_writer(),
-            consistency: consistency.map(|word| word.text().into()),
+            consistency,
             ty: Type::Error,
             initial: None,
             locals: Vec::new(),
@@ -316,6 +308,35 @@ impl Checker {
             documentation,
         });
         self.nodes.shared.push(node);
+    }
+
+    /// The consistency that a shared variable names.
+    fn consistency(&mut self, node: &ast::SharedDeclaration) -> Consistency {
+        let Some(word) = node.consistency() else {
+            return Consistency::default();
+        };
+        let (name, span) = (word.text(), Span::from(word.text_range()));
+        let mut known = Consistency::ALL.into_iter();
+        let Some(found) = known.find(|consistency| consistency.name() == name) else {
+            let message = format!("there is no consistency `{name}`");
+            let problem = Diagnostic::new(Code::UnknownConsistency, span, message);
+            let names = Consistency::ALL.map(Consistency::name);
+            let problem = did_you_mean(problem, span, name, names.iter().copied());
+            self.report(match problem.mend {
+                None => problem.note("there are `eventual`, `causal` and `linearizable`"),
+                Some(_) => problem,
+            });
+            return Consistency::default();
+        };
+        if found == Consistency::Linearizable && node.is_single_writer() {
+            let message = "an `allread` variable cannot be linearizable";
+            let problem = Diagnostic::new(Code::UnknownConsistency, span, message);
+            self.report(problem.note(
+                "it is as many variables as there are robots; one of all is an `allwrite` with a `Map`",
+            ));
+            return Consistency::default();
+        }
+        found
     }
 
     fn collect_binding(&mut self, node: ast::BindingDeclaration, documentation: String) {

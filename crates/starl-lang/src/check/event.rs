@@ -55,7 +55,9 @@ impl Checker {
                 }
                 parameters.push(local);
             }
-            (parameters, checker.block(node.body()))
+            let body = checker.block(node.body());
+            checker.check_touched();
+            (parameters, body)
         });
         let body = match self.in_role(role, span) {
             Some(condition) => {

@@ -147,7 +147,7 @@ impl Checker {
             return no_place(span);
         }
         self.usage.written.insert(Entity::Shared(id));
-        self.body.touched.push(id);
+        self.body.touched.push((id, span));
         if self.program[id].is_single_writer {
             let message = format!("each robot writes its own element of `{name}`");
             let problem = Diagnostic::new(Code::ForeignElement, span, message);
@@ -215,7 +215,7 @@ impl Checker {
             return no_place(span);
         }
         self.usage.written.insert(Entity::Shared(id));
-        self.body.touched.push(id);
+        self.body.touched.push((id, span));
         let index: Expression = self.expect(node.index(), &Type::Robot, "the index");
         let is_own = matches!(
             index.kind,

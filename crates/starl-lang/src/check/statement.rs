@@ -1,6 +1,7 @@
 //! Statements.
 
 use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::arithmetic::{resolve, result};
@@ -11,7 +12,9 @@ use super::returns::always_returns;
 use super::state::Checker;
 use super::tables::Purity;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::ir::{Expression, ExpressionKind, Root, Statement, StatementKind, Type};
+use crate::ir::{
+    Consistency, Expression, ExpressionKind, Root, SharedId, Statement, StatementKind, Type,
+};
 use crate::syntax::ast::{self, AssignOperator, AstNode, BinaryOperator, Named};
 
 impl Checker {
@@ -244,19 +247,71 @@ impl Checker {
             let message = format!("{} cannot be atomic", self.body.place.what());
             self.error(Code::Impure, word, message);
         }
+        if self.body.place == Where::Effect && !self.body.is_action {
+            let message = "only the effect of an action can be atomic";
+            let problem = Diagnostic::new(Code::MisplacedAtomic, word, message);
+            self.report(problem.note(
+                "`init` and handlers run at once; keep what is to be done in a variable, and do it in an \
+                 action",
+            ));
+        }
+        self.body.is_atomic = true;
         let before = self.body.touched.len();
         let body = self.block(node.body());
-        let mut shared = self.body.touched[before..].to_vec();
+        let mut shared: Vec<SharedId> = self.body.touched[before..].iter().map(|t| t.0).collect();
         shared.sort_unstable();
         shared.dedup();
-        if shared.is_empty() {
-            let message = "no shared variable is touched in this `atomic`";
-            let problem = Diagnostic::new(Code::NothingShared, word, message);
-            self.report(
-                problem.note("an effect runs as one in any case; `atomic` keeps other robots out"),
-            );
-        }
+        self.check_protected(&shared, word);
         StatementKind::Atomic { shared, body }
+    }
+
+    /// Warns if an `atomic` that touches these does not keep others out of one that all write.
+    fn check_protected(&mut self, shared: &[SharedId], word: Span) {
+        let problem = |message: String| Diagnostic::new(Code::NothingShared, word, message);
+        let is_open = |id: &&SharedId| {
+            let shared = &self.program[**id];
+            !shared.is_single_writer && shared.consistency != Consistency::Linearizable
+        };
+        if let Some(id) = shared.iter().find(is_open) {
+            let name = self.program[*id].name.clone();
+            let message = format!("this `atomic` does not keep other robots out of `{name}`");
+            let note = format!("it does if that is declared `allwrite[linearizable] {name}`");
+            self.report(problem(message).note(note));
+        } else if shared.iter().all(|id| self.program[*id].is_single_writer) {
+            let message = "this `atomic` touches no variable that all robots write";
+            let note = "an effect runs as one in any case; `atomic` keeps other robots out";
+            self.report(problem(message.into()).note(note));
+        }
+    }
+
+    /// Reports the linearizable variables that a body touches without waiting for them.
+    pub fn check_touched(&mut self) {
+        if self.body.is_atomic {
+            return; // Elsewhere than in an action that is reported.
+        }
+        let mut touched = self.body.touched.clone();
+        touched.sort_unstable_by_key(|&(id, span)| (id, span.start));
+        touched.dedup_by_key(|(id, _)| *id);
+        for (id, span) in touched {
+            let shared = &self.program[id];
+            if shared.consistency != Consistency::Linearizable {
+                continue;
+            }
+            let message = format!(
+                "`{}` is linearizable and used without `atomic`",
+                shared.name
+            );
+            let note = match self.body.is_action {
+                true => {
+                    "its latest value is at hand only while others are kept out: put what uses it under \
+                     `atomic`, for which the action then waits"
+                }
+                false => {
+                    "`init` and handlers cannot wait for it; use it in an action with `atomic`"
+                }
+            };
+            self.report(Diagnostic::new(Code::OutsideAtomic, span, message).note(note));
+        }
     }
 }
 

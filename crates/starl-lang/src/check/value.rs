@@ -193,7 +193,7 @@ impl Checker {
                 return broken(span);
             }
         }
-        self.body.touched.push(id);
+        self.body.touched.push((id, span));
         let shared = &self.program[id];
         let ty = shared.ty.clone();
         if shared.is_single_writer {

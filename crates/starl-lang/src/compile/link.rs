@@ -8,7 +8,7 @@ use super::problem::{Compiled, Problem};
 use super::unit::{Finished, Routine, Unit};
 use crate::check::CheckedFile;
 use crate::diagnostic::Span;
-use crate::ir::{FunctionId, Program, Type};
+use crate::ir::{FunctionId, Program, SharedId, Type};
 use crate::machine::{
     Action, Binding, Bytecode, Function, Handler, Parameter, SourceFile, Variable,
 };
@@ -93,6 +93,7 @@ fn behaviour<'p>(unit: &mut Unit<'p>, bytecode: &mut Bytecode) {
             name: unit.action_name(action),
             guard,
             effect,
+            atomic: instances(program, &action.atomic),
         });
     }
     for handler in &program.handlers {
@@ -114,6 +115,12 @@ fn behaviour<'p>(unit: &mut Unit<'p>, bytecode: &mut Bytecode) {
         let property = unit.property(property, name);
         unit.note(property, |property| bytecode.properties.push(property));
     }
+}
+
+/// The numbers of shared variables among the program's primitives, which they come after.
+fn instances(program: &Program, shared: &[SharedId]) -> Vec<u32> {
+    let numbers = shared.iter().map(|id| program.bindings.len() + id.index());
+    numbers.map(|number| number as u32).collect()
 }
 
 /// The variables of the state: those of the program, then the parameters.

@@ -196,6 +196,10 @@ codes! {
     SecondDeclaration = "E0252",
     /// A record or an enum with too many parts.
     TooLarge = "E0253",
+    /// A linearizable variable outside of an action with `atomic`.
+    OutsideAtomic = "E0254",
+    /// An `atomic` where nothing can wait.
+    MisplacedAtomic = "E0255",
     /// A primitive that robots do not have yet.
     UnavailablePrimitive = "E0301",
     /// More values at a time than the machine has registers.
@@ -234,7 +238,7 @@ codes! {
     Unreachable = "W0210",
     /// A condition that is always the same.
     ConstantCondition = "W0211",
-    /// An `atomic` that touches no shared variable.
+    /// An `atomic` that does not keep others out of what it touches.
     NothingShared = "W0212",
     /// A text whose `{}` do not match the values after it.
     FormatValues = "W0213",

@@ -3,7 +3,7 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::{Expression, LocalId, RecordId, Statement, Type, VariableId};
+use super::{Expression, LocalId, RecordId, SharedId, Statement, Type, VariableId};
 use crate::check::{Event as EventSignature, Primitive};
 use crate::diagnostic::Span;
 
@@ -72,6 +72,33 @@ pub struct Variable {
     pub documentation: String,
 }
 
+/// What robots may see of each other's writes to a shared variable.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Consistency {
+    /// Each write some time.
+    #[default]
+    Eventual,
+    /// No write before those that it may depend on.
+    Causal,
+    /// Each as if there were one variable, in actions with `atomic`.
+    Linearizable,
+}
+
+impl Consistency {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Eventual, Self::Causal, Self::Linearizable];
+
+    /// The word for it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Eventual => "eventual",
+            Self::Causal => "causal",
+            Self::Linearizable => "linearizable",
+        }
+    }
+}
+
 /// A shared variable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shared {
@@ -79,8 +106,8 @@ pub struct Shared {
     pub name: String,
     /// Whether each robot writes an element of its own (`allread`), rather than all the one value.
     pub is_single_writer: bool,
-    /// The consistency that is asked for by name; none for eventual consistency.
-    pub consistency: Option<String>,
+    /// What robots may see of each other's writes.
+    pub consistency: Consistency,
     /// The type of the value, or of an element.
     pub ty: Type,
     /// The value that all robots read before any was written; without it they read none.
@@ -189,6 +216,9 @@ pub struct Action {
     pub bindings: Vec<LocalId>,
     /// What it does.
     pub effect: Vec<Statement>,
+    /// The linearizable variables that it uses, in ascending order: with any, it waits until no other robot
+    /// does.
+    pub atomic: Vec<SharedId>,
     /// Where it is declared.
     pub site: Site,
     /// What the comments above it say.

@@ -161,6 +161,8 @@ pub struct Action {
     pub guard: u32,
     /// The procedure that it runs when the guard holds; its arguments are the guard's bindings.
     pub effect: u32,
+    /// The primitives that it must have for itself while it runs: linearizable variables.
+    pub atomic: Vec<u32>,
 }
 
 /// What is done about an event. Arguments of its procedure: for a message the sender, a robot, then

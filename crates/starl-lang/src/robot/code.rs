@@ -1,5 +1,6 @@
 //! A program that robots can run: bytecode that was verified and joined to what robots offer.
 
+use super::atomic::join_groups;
 use super::joint::{Joiner, Joint};
 use super::messages::Inbox;
 use super::parameter;
@@ -37,6 +38,8 @@ pub struct Instance {
     pub kind: u16,
     /// For each of the kind's events that is handled its number and the handler's.
     pub handlers: Vec<(usize, u32)>,
+    /// The group of a linearizable variable, by the name of the first of it; else its own name.
+    pub group: String,
 }
 
 impl Code {
@@ -44,7 +47,8 @@ impl Code {
     pub fn load(bytecode: Bytecode) -> Result<Code, LoadError> {
         let joiner = Joiner::new(Declared::of(&bytecode));
         let program = Program::load(bytecode, &|import: &Import| joiner.join(import))?;
-        let instances = instances(program.bytecode(), joiner.declared())?;
+        let mut instances = instances(program.bytecode(), joiner.declared())?;
+        group(program.bytecode(), &mut instances)?;
         let inbox = Inbox::of(program.bytecode(), joiner.declared());
         let inbox = inbox.ok_or(LoadError::Invalid {
             position: None,
@@ -79,6 +83,19 @@ impl Code {
     /// The primitives that the program binds.
     pub(super) fn instances(&self) -> &[Instance] {
         &self.0.instances
+    }
+
+    /// The group of variables that an action must have for itself; none if it needs none.
+    pub(super) fn group(&self, action: u32) -> Option<&str> {
+        let action = self.program().bytecode().actions.get(action as usize)?;
+        let instance = self.0.instances.get(*action.atomic.first()? as usize)?;
+        Some(&instance.group)
+    }
+
+    /// All groups of variables that some action must have for itself.
+    pub(super) fn groups(&self) -> impl Iterator<Item = &str> {
+        let count = self.program().bytecode().actions.len() as u32;
+        (0..count).filter_map(|action| self.group(action))
     }
 
     /// What the program's primitives have in common.
@@ -134,11 +151,36 @@ fn instances(bytecode: &Bytecode, declared: &Declared) -> Result<Vec<Instance>, 
         instances.push(Instance {
             name: format!("{}/{}", bytecode.name, binding.name),
             variable: binding.name.clone(),
+            group: binding.name.clone(),
             kind: kind as u16,
             handlers,
         });
     }
     Ok(instances)
+}
+
+/// Gives each linearizable variable the name of its group.
+fn group(bytecode: &Bytecode, instances: &mut [Instance]) -> Result<(), LoadError> {
+    let actions = bytecode.actions.iter();
+    let actions: Vec<Vec<u32>> = actions.map(|action| action.atomic.clone()).collect();
+    for instance in actions.iter().flatten() {
+        let kind = bytecode.primitives.get(*instance as usize);
+        if kind.is_none_or(|binding| binding.kind != "Linearizable") {
+            return Err(LoadError::Invalid {
+                position: None,
+                reason: "an action waits for something else than a linearizable variable",
+            });
+        }
+    }
+    for (number, first) in join_groups(instances.len(), &actions)
+        .into_iter()
+        .enumerate()
+    {
+        if let Some(name) = bytecode.primitives.get(first as usize) {
+            instances[number].group = name.name.clone();
+        }
+    }
+    Ok(())
 }
 
 fn needs(instances: &[Instance]) -> Needs {

@@ -98,7 +98,7 @@ impl RobotHost<'_, '_> {
     /// Whether another primitive than this instance listens at the port.
     fn is_taken(&mut self, port: Port, instance: usize) -> bool {
         let mut others = self.bound.iter_mut().enumerate();
-        self.context.services.listen_at(port)
+        self.context.services.listen_at(self.context.code, port)
             || others.any(|(other, slot)| {
                 let primitive = slot.as_mut().and_then(|bound| bound.primitive());
                 other != instance && primitive.is_some_and(|primitive| primitive.port() == port)

@@ -10,6 +10,7 @@
 //! is ignored. A run-time error stops the program of this one robot and names the place in its source.
 
 mod arguments;
+mod atomic;
 mod builtins;
 mod code;
 mod corruption;

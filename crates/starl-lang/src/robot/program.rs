@@ -1,5 +1,6 @@
 //! The program of one robot: its variables and its primitives, run by the machine.
 
+use super::atomic::Turn;
 use super::code::{Code, Instance};
 use super::corruption;
 use super::host::{Context, RobotHost};
@@ -9,6 +10,7 @@ use super::services::Services;
 use super::workbench::Workbench;
 use crate::machine::{Limits, Machine, RuntimeError, State, Value};
 use alloc::boxed::Box;
+use alloc::format;
 use alloc::vec::Vec;
 use core::any::Any;
 use core::{fmt, mem};
@@ -95,7 +97,7 @@ impl RobotProgram {
             failure: None,
             has_fired: false,
         };
-        let is_told = !reports.is_empty() || !matches!(part, Part::Actions);
+        let is_told = !reports.is_empty() || !matches!(part, Part::Actions(_));
         let (program, limits) = (code.program(), Limits::default());
         let mut machine = Machine::new(program, &mut self.state, workspace, &mut host, limits);
         let result = handle_reports(code.instances(), &reports, &mut machine)
@@ -108,9 +110,38 @@ impl RobotProgram {
             robot.halt();
             robot.fail(failure.unwrap_or_else(|| code.describe(&error)));
             self.phase = Phase::Failed;
+            // Others need not wait for it.
+            if let Some(atomic) = &mut self.services.atomic {
+                atomic.release(robot, code);
+            }
         }
         bench.workspace.trim();
         robot.return_scratch(bench);
+    }
+}
+
+impl RobotProgram {
+    /// Runs the actions that have what they waited for.
+    fn go_on(&mut self, robot: &mut Robot<'_>) {
+        while self.phase == Phase::Running {
+            let code = self.code.clone();
+            let atomic = self.services.atomic.as_mut();
+            let Some(action) = atomic.and_then(|atomic| atomic.go_on(robot, &code)) else {
+                return;
+            };
+            self.run(robot, Part::Atomic(action));
+            let Some(atomic) = &mut self.services.atomic else {
+                return;
+            };
+            if let Err(error) = atomic.close(robot, &code) {
+                atomic.release(robot, &code);
+                robot.halt();
+                robot.fail(format!(
+                    "what an atomic action wrote is not stored: {error}"
+                ));
+                self.phase = Phase::Failed;
+            }
+        }
     }
 }
 
@@ -118,8 +149,10 @@ impl RobotProgram {
 enum Part<'a> {
     /// The first values of variables, bindings of primitives, and `init`.
     Start,
-    /// All actions, one after the other.
-    Actions,
+    /// All actions, one after the other; of those that wait for variables it is found out which is next.
+    Actions(&'a mut Turn),
+    /// An action that has what it waited for.
+    Atomic(u32),
     /// All handlers of a message; nothing, if it is no message of the program.
     Message(&'a Message),
 }
@@ -129,10 +162,18 @@ impl Part<'_> {
         let program = code.program();
         match self {
             Part::Start => machine.start(),
-            Part::Actions => {
+            Part::Actions(turn) => {
                 let count = program.bytecode().actions.len() as u32;
-                (0..count).try_for_each(|action| machine.action(action).map(|_| ()))
+                (0..count).try_for_each(|action| {
+                    if code.group(action).is_none() {
+                        machine.action(action)?;
+                    } else if turn.asks(action) {
+                        turn.note(action, machine.guard(action)?);
+                    }
+                    Ok(())
+                })
             }
+            Part::Atomic(action) => machine.action(action).map(|_| ()),
             Part::Message(message) => {
                 let Some(arrival) = code.inbox().decode(program, &message.payload) else {
                     return Ok(());
@@ -176,10 +217,24 @@ impl Program for RobotProgram {
     }
 
     fn activate(&mut self, robot: &mut Robot<'_>) {
-        self.run(robot, Part::Actions);
+        let mut turn = Turn::default();
+        if let Some(atomic) = &mut self.services.atomic {
+            turn = atomic.turn(robot, &self.code);
+        }
+        self.run(robot, Part::Actions(&mut turn));
+        if let Some(atomic) = &mut self.services.atomic
+            && self.phase == Phase::Running
+        {
+            atomic.take_turn(robot, &self.code, turn);
+        }
+        self.go_on(robot);
     }
 
     fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
+        let atomic = self.services.atomic.as_ref();
+        if atomic.is_some_and(|atomic| atomic.listens_at(message.port)) {
+            return self.go_on(robot);
+        }
         // Programs talk through primitives; nothing else is heard.
         if message.port != Port::PROGRAM {
             self.run(robot, Part::Message(message));
@@ -201,13 +256,13 @@ impl Program for RobotProgram {
                 reports: &mut self.reports,
             });
         }
-        self.services.primitives(visit);
+        self.services.primitives(&self.code, visit);
     }
 
     fn corrupt(&mut self, random: &mut Random) {
         self.version += 1;
         corruption::corrupt(self.code.program(), &mut self.state, random);
-        self.services.corrupt(random);
+        self.services.corrupt(&self.code, random);
     }
 
     fn write_state(&self, text: &mut dyn fmt::Write) -> bool {

@@ -1,6 +1,7 @@
-//! What the primitives of a program have in common, once for all of them: the memory that its shared
-//! variables lie in, and the detector of failed robots. A program has what its primitives need.
+//! What the primitives of a program have in common, once for all of them: what its shared variables lie in,
+//! and the detector of failed robots. A program has what its primitives need.
 
+use super::atomic::Atomic;
 use super::code::Code;
 use super::primitives::Needs;
 use alloc::boxed::Box;
@@ -14,6 +15,8 @@ use starl_primitives::{FailureDetector, SharedMemory, failure_detector, shared_m
 pub struct Services {
     /// The shared variables.
     pub memory: Option<Box<SharedMemory>>,
+    /// The linearizable variables.
+    pub atomic: Option<Box<Atomic>>,
     /// Who is believed to have failed.
     pub detector: Option<Box<FailureDetector>>,
 }
@@ -21,7 +24,11 @@ pub struct Services {
 impl Services {
     /// What a program needs, started.
     pub fn start(code: &Code, robot: &mut Robot<'_>) -> Services {
-        let Needs { memory, detector } = code.needs();
+        let Needs {
+            memory,
+            detector,
+            atomic,
+        } = code.needs();
         let program = &code.program().bytecode().name;
         let memory = memory.then(|| {
             let options = shared_memory::Options::default();
@@ -31,22 +38,32 @@ impl Services {
             let options = failure_detector::Options::default();
             Box::new(FailureDetector::new(&detector_name(program), options))
         });
-        let mut services = Services { memory, detector };
-        services.primitives(&mut |primitive| primitive.handle(robot, &Input::Start));
+        let atomic = atomic.then(|| Box::new(Atomic::new(program)));
+        let mut services = Services {
+            memory,
+            atomic,
+            detector,
+        };
+        services.primitives(code, &mut |primitive| {
+            primitive.handle(robot, &Input::Start)
+        });
         services
     }
 
     /// Whether one of them listens at the port.
-    pub fn listen_at(&mut self, port: Port) -> bool {
+    pub fn listen_at(&mut self, code: &Code, port: Port) -> bool {
         let mut found = false;
-        self.primitives(&mut |primitive| found |= primitive.port() == port);
+        self.primitives(code, &mut |primitive| found |= primitive.port() == port);
         found
     }
 
     /// Shows each to `visit`, always in the same order.
-    pub fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
+    pub fn primitives(&mut self, code: &Code, visit: &mut dyn FnMut(&mut dyn Primitive)) {
         if let Some(memory) = &mut self.memory {
             visit(&mut **memory);
+        }
+        if let Some(atomic) = &mut self.atomic {
+            atomic.primitives(code, visit);
         }
         if let Some(detector) = &mut self.detector {
             visit(&mut **detector);
@@ -54,9 +71,12 @@ impl Services {
     }
 
     /// Overwrites their states at random.
-    pub fn corrupt(&mut self, random: &mut Random) {
+    pub fn corrupt(&mut self, code: &Code, random: &mut Random) {
         if let Some(memory) = &mut self.memory {
             memory.corrupt(random);
+        }
+        if let Some(atomic) = &mut self.atomic {
+            atomic.corrupt(code, random);
         }
         if let Some(detector) = &mut self.detector {
             detector.corrupt(random);

@@ -33,16 +33,6 @@ fn primitives_that_robots_do_not_have() {
 }
 
 #[test]
-fn atomic() {
-    let source =
-        "program Test\nallwrite x: Int = 0\ngo()\n    eff\n        atomic\n            x = x + 1\n";
-    assert_eq!(
-        problems(source),
-        [(Code::UnavailablePrimitive, "atomic".to_string())]
-    );
-}
-
-#[test]
 fn too_many_locals() {
     let lets: String = (0..300)
         .map(|k| format!("        let v{k} = n + {k}\n"))

@@ -14,7 +14,7 @@ use starl_core::{
 };
 use starl_lang::machine::{self, assemble};
 use starl_lang::robot::{Code, RobotProgram};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A program in the machine's text form, joined to robots.
 pub fn load(text: &str) -> Code {
@@ -48,6 +48,14 @@ pub struct World {
     pub records: Vec<(Time, RobotId, Event)>,
     /// Whether what is sent from the first robot to the second gets lost.
     pub loses: fn(u32, u32) -> bool,
+    /// Nothing passes between robots of which these are the numbers.
+    pub cut: BTreeSet<(u32, u32)>,
+    /// How often datagrams are lost, and how often they arrive twice; both at random.
+    pub loss: f64,
+    pub duplication: f64,
+    /// How long datagrams take, milliseconds; unequal ones reorder.
+    pub delay_ms: (f64, f64),
+    pub random: Random,
     /// Everything that was handed to the network.
     pub sent: Vec<(RobotId, Destination, Port, Payload)>,
     fleet: Vec<RobotId>,
@@ -94,6 +102,11 @@ impl World {
             obstacles: [].into(),
             records: Vec::new(),
             loses: |_, _| false,
+            cut: BTreeSet::new(),
+            loss: 0.0,
+            duplication: 0.0,
+            delay_ms: (1.0, 1.0),
+            random: Random::keyed(1, &[]),
             sent: Vec::new(),
             fleet,
             wire: BTreeMap::new(),
@@ -255,14 +268,25 @@ impl World {
                 Destination::All => to != from,
                 Destination::Robot(robot) => to == robot,
             };
-            if is_meant && !(self.loses)(from.0, to.0) {
+            let is_lost = (self.loses)(from.0, to.0)
+                || self.cut.contains(&(from.0, to.0))
+                || self.cut.contains(&(to.0, from.0));
+            if !is_meant || is_lost {
+                continue;
+            }
+            let copies = 1 + u32::from(self.random.chance(self.duplication));
+            for _ in 0..copies {
+                if self.random.chance(self.loss) {
+                    continue;
+                }
                 let message = Message {
                     from,
                     port,
                     payload: payload.clone(),
                 };
                 self.posted += 1;
-                let at = self.now + Duration::from_millis(1);
+                let delay = self.random.between(self.delay_ms.0, self.delay_ms.1);
+                let at = self.now + Duration::from_seconds_f64(delay / 1000.0);
                 self.wire.insert((at, self.posted), (to, message));
             }
         }

@@ -74,7 +74,7 @@ impl World {
         let maybe =
             |held: Option<Value>| held.map_or(Value::None, |value| Value::Some(Box::new(value)));
         Some(match (kind, member, rest) {
-            ("MultiWriter", "read", _) => Some(maybe(held)),
+            ("MultiWriter" | "Linearizable", "read", _) => Some(maybe(held)),
             ("SingleWriter", "element", [Value::Robot(robot)]) => {
                 Some(maybe(held.filter(|_| *robot == ME)))
             }
@@ -82,7 +82,7 @@ impl World {
                 let entries = held.map(|value| (Value::Robot(ME), value));
                 Some(Value::Map(entries.into_iter().collect()))
             }
-            ("MultiWriter" | "SingleWriter", "write" | "initialize", [value]) => {
+            ("MultiWriter" | "SingleWriter" | "Linearizable", "write" | "initialize", [value]) => {
                 self.shared.insert(*instance, value.clone());
                 None
             }

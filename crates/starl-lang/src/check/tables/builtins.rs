@@ -55,6 +55,8 @@ builtins! {
     Ranges = "ranges: List[Float]" Query "What the proximity sensors measure, metres, from right to left."
     Detected = "detected: List[Detection]" Query "The things and robots in sight, nearest first."
 
+    AtomicBlocked = "atomic_blocked: Bool" Query "Whether the action with `atomic` that this robot waits for, or has run, cannot go on: a robot whose permission is missing seems to have failed, or no majority of the robots answers."
+
     // Input.
     WayPoints = "way_points() -> List[Point]" Query "The way-points of the scenario, in their order."
     WayPoint = "way_point(name: String) -> Point?" Query "The way-point with this name."

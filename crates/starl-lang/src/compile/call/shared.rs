@@ -1,4 +1,4 @@
-//! Shared variables: instances of two kinds of primitive, after those of the program.
+//! Shared variables: instances of three kinds of primitive, after those of the program.
 
 use alloc::boxed::Box;
 use alloc::format;
@@ -8,16 +8,17 @@ use crate::compile::body::{Body, Slot};
 use crate::compile::call::{Argument, HostFunction};
 use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
-use crate::ir::{Expression, SharedId, Type};
+use crate::ir::{Consistency, Expression, SharedId, Type};
 use crate::machine::operand::ImportIndex;
 use crate::machine::{Import, Instruction};
 use crate::{ir, machine};
 
 /// The kind of primitive that a shared variable is.
 pub(in crate::compile) fn shared_kind(shared: &ir::Shared) -> &'static str {
-    match shared.is_single_writer {
-        true => "SingleWriter",
-        false => "MultiWriter",
+    match (shared.is_single_writer, shared.consistency) {
+        (true, _) => "SingleWriter",
+        (false, Consistency::Linearizable) => "Linearizable",
+        (false, _) => "MultiWriter",
     }
 }
 

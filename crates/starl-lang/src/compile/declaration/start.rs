@@ -10,7 +10,7 @@ use crate::compile::problem::{Compiled, Problem};
 use crate::compile::size::Size;
 use crate::compile::unit::{Finished, Routine, Unit};
 use crate::diagnostic::Span;
-use crate::ir::{Site, Type};
+use crate::ir::{Consistency, Site, Type};
 use crate::machine::FunctionKind;
 use crate::{diagnostic, ir};
 
@@ -116,7 +116,10 @@ impl<'p> Body<'_, 'p> {
             let import = HostFunction::effect(&format!("{}.bind", shared_kind(shared)));
             let arguments = [
                 Argument::Int(number),
-                Argument::MaybeText(shared.consistency.as_deref()),
+                Argument::MaybeText(match shared.consistency {
+                    Consistency::Eventual => None,
+                    named => Some(named.name()),
+                }),
             ];
             let nowhere = body.take(Size::NONE)?;
             body.host(import, &arguments, &Type::Nothing, nowhere, false)?;

@@ -8,11 +8,10 @@ mod way;
 
 use crate::compile::body::{Body, Location, Slot};
 use crate::compile::expression::is_located;
-use crate::compile::problem::{Compiled, Problem};
+use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
 use crate::compile::statement::changes::may_change;
 use crate::compile::unit::Routine;
-use crate::diagnostic;
 use crate::ir::{Expression, ExpressionKind, Statement, StatementKind};
 use crate::machine::operand::{Count, FunctionIndex, Slot as StateSlot};
 use crate::machine::{FunctionKind, Instruction};
@@ -67,16 +66,8 @@ impl<'p> Body<'_, 'p> {
                 self.release(mark);
                 Ok(())
             }
-            StatementKind::Atomic { .. } => {
-                let message = "robots cannot run anything as one with others yet";
-                let code = diagnostic::Code::UnavailablePrimitive;
-                let word = diagnostic::Span::new(
-                    statement.span.start,
-                    statement.span.start + "atomic".len() as u32,
-                );
-                let problem = Problem::new(code, self.file, word, message);
-                Err(problem.note("`atomic` needs shared variables that are never read late"))
-            }
+            // The action waits as a whole.
+            StatementKind::Atomic { body, .. } => self.block(body),
         }
     }
 

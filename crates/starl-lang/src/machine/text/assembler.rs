@@ -20,6 +20,7 @@
 //! defaults f9
 //! start f0
 //! action pick f1 f2
+//! action count f10 f11 atomic 1
 //! handler Reached f3
 //! handler done primitive 0 f4
 //! property in_order 1 always f5
@@ -233,10 +234,16 @@ impl Assembler {
         let name = cursor.word()?.into();
         let guard = cursor.numbered("f")?;
         let effect = cursor.numbered("f")?;
+        let is_atomic = cursor.eat("atomic");
+        let words = words(cursor)
+            .into_iter()
+            .take(if is_atomic { usize::MAX } else { 0 });
+        let atomic: Option<Vec<u32>> = words.map(|word| word.parse().ok()).collect();
         self.bytecode.actions.push(Action {
             name,
             guard,
             effect,
+            atomic: atomic?,
         });
         Some(())
     }

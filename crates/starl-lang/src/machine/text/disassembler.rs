@@ -81,7 +81,15 @@ fn entry_points(out: &mut String, bytecode: &Bytecode) -> fmt::Result {
     }
     for action in &bytecode.actions {
         let (name, guard, effect) = (&action.name, action.guard, action.effect);
-        writeln!(out, "action {name} f{guard} f{effect}")?;
+        write!(out, "action {name} f{guard} f{effect}")?;
+        for (number, instance) in action.atomic.iter().enumerate() {
+            write!(
+                out,
+                "{} {instance}",
+                if number == 0 { " atomic" } else { "" }
+            )?;
+        }
+        writeln!(out)?;
     }
     for handler in &bytecode.handlers {
         write!(out, "handler {}", handler.event)?;

@@ -204,6 +204,11 @@ fn entry_points(bytecode: &Bytecode) -> Result<(), LoadError> {
             guard.results.split_first() == Some((&Type::Bool, &effect.arguments[..])),
             "a guard's bindings are not the effect's arguments",
         )?;
+        let mut atomic = action.atomic.iter();
+        check(
+            atomic.all(|&instance| (instance as usize) < bytecode.primitives.len()),
+            "an action waits for a primitive that there is not",
+        )?;
     }
     for handler in &bytecode.handlers {
         function(bytecode, handler.function, FunctionKind::Procedure)?;

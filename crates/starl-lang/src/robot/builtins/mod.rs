@@ -102,6 +102,11 @@ pub static BUILTINS: &[Builtin] = &[
         Shape::List(&Shape::Detection),
         sensing::detected,
     ),
+    query("atomic_blocked", &[], Shape::Bool, |host, call| {
+        let atomic = host.context.services.atomic.as_ref();
+        call.set_bool(0, atomic.is_some_and(|atomic| atomic.is_blocked()));
+        Ok(0)
+    }),
     query(
         "way_points",
         &[],

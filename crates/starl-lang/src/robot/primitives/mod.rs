@@ -7,6 +7,7 @@
 
 mod attended;
 mod election;
+mod linearizable;
 mod messaging;
 mod mutex;
 mod reach_avoid;
@@ -66,6 +67,8 @@ pub struct Needs {
     pub memory: bool,
     /// The detector of failed robots.
     pub detector: bool,
+    /// What actions with `atomic` need.
+    pub atomic: bool,
 }
 
 impl Needs {
@@ -73,6 +76,7 @@ impl Needs {
     pub const NOTHING: Needs = Needs {
         memory: false,
         detector: false,
+        atomic: false,
     };
 
     /// What one of two needs.
@@ -80,6 +84,7 @@ impl Needs {
         Needs {
             memory: self.memory || other.memory,
             detector: self.detector || other.detector,
+            atomic: self.atomic || other.atomic,
         }
     }
 }
@@ -217,6 +222,7 @@ pub static KINDS: &[Entry] = &[
     Entry::of::<starl_primitives::LeaderElection>(),
     Entry::of::<shared::SingleWriter>(),
     Entry::of::<shared::MultiWriter>(),
+    Entry::of::<linearizable::Linearizable>(),
 ];
 
 /// A method: it may change something.

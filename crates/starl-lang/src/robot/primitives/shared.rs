@@ -29,11 +29,20 @@ pub struct MultiWriter {
 }
 
 /// The consistency, none for the memory's own.
-const CONSISTENCY: &[Shape] = &[Shape::Optional(&Shape::Text)];
+pub(super) const CONSISTENCY: &[Shape] = &[Shape::Optional(&Shape::Text)];
 
-fn check_consistency(arguments: &mut Arguments<'_>) -> Result<(), Cow<'static, str>> {
+/// Has the memory do what the consistency asks for.
+fn set_consistency(
+    context: &mut Context<'_, '_>,
+    arguments: &mut Arguments<'_>,
+) -> Result<(), Cow<'static, str>> {
     match arguments.optional(Arguments::text) {
         None | Some("eventual") => Ok(()),
+        Some("causal") => {
+            let (memory, robot, variable) = memory(context)?;
+            memory.make_causal(robot, variable);
+            Ok(())
+        }
         Some(other) => Err(alloc::format!("shared variables have no consistency `{other}`").into()),
     }
 }
@@ -49,7 +58,10 @@ fn memory<'c, 'r>(
 }
 
 /// The last argument, a value of the variable's type, as bytes.
-fn value(context: &Context<'_, '_>, call: &HostCall<'_>) -> Result<Payload, Cow<'static, str>> {
+pub(super) fn value(
+    context: &Context<'_, '_>,
+    call: &HostCall<'_>,
+) -> Result<Payload, Cow<'static, str>> {
     let kinds = call.import.arguments.get(1..).unwrap_or_default();
     let (scalars, objects) = Arguments::after_instance(call).rest();
     let bytes = context.code.program().encode(kinds, scalars, objects);
@@ -64,7 +76,7 @@ fn written<T>(result: Result<T, WriteError>) -> Called {
 }
 
 /// Gives a value that was read, which is an optional: its scalars and objects.
-fn give(program: &Program, call: &mut HostCall<'_>, bytes: &[Option<&[u8]>]) -> Called {
+pub(super) fn give(program: &Program, call: &mut HostCall<'_>, bytes: &[Option<&[u8]>]) -> Called {
     let [Type::Optional(kind)] = &call.import.results[..] else {
         return Err("a shared variable is read as an optional".into());
     };
@@ -162,10 +174,10 @@ impl Kind for SingleWriter {
 
     fn bind(
         _: &Instance,
-        _: &mut Context<'_, '_>,
+        context: &mut Context<'_, '_>,
         arguments: &mut Arguments<'_>,
     ) -> Result<SingleWriter, Cow<'static, str>> {
-        check_consistency(arguments)?;
+        set_consistency(context, arguments)?;
         Ok(SingleWriter)
     }
 
@@ -210,10 +222,10 @@ impl Kind for MultiWriter {
 
     fn bind(
         _: &Instance,
-        _: &mut Context<'_, '_>,
+        context: &mut Context<'_, '_>,
         arguments: &mut Arguments<'_>,
     ) -> Result<MultiWriter, Cow<'static, str>> {
-        check_consistency(arguments)?;
+        set_consistency(context, arguments)?;
         Ok(MultiWriter { initial: None })
     }
 

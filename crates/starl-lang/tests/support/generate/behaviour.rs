@@ -20,8 +20,10 @@ impl Generator<'_> {
                 self.line(&guard);
             }
             self.place = Place::Effect;
+            self.is_action = true;
             self.line("eff");
             self.block(3);
+            self.is_action = false;
             self.locals.clear();
             self.level -= 1;
         }

@@ -230,13 +230,16 @@ impl Generator<'_> {
 
     pub(super) fn shared(&mut self) {
         self.place = Place::Constant;
+        if self.has_atomic {
+            self.line("allwrite[linearizable] counted: Int = 0");
+        }
         for number in 0..self.choices.below(3) {
             let name = format!("shared{number}");
             let is_single_writer = self.choices.below(2) == 1;
             let ty = self.shared_type();
             let written = self.model.written(&ty);
             let has_initial = !is_single_writer && self.can_make(&ty) && self.choices.below(2) == 1;
-            let consistency = ["", "", "[eventual]"][self.choices.below(3)];
+            let consistency = ["", "[causal]", "[eventual]"][self.choices.below(3)];
             let line = if is_single_writer {
                 format!("allread{consistency} {name}[RobotId]: {written}")
             } else if has_initial {

@@ -40,6 +40,7 @@ fn generate(bytes: &[u8], all_parentheses: bool) -> String {
         result: None,
         all_parentheses,
         has_atomic: false,
+        is_action: false,
         text: String::new(),
         level: 0,
         budget: 500,
@@ -57,8 +58,10 @@ struct Generator<'a> {
     /// What the function gives whose body is made.
     result: Option<Type>,
     all_parentheses: bool,
-    /// Whether there may be `atomic`, which needs primitives that robots do not have yet.
+    /// Whether there may be `atomic`.
     has_atomic: bool,
+    /// Whether the effect of an action is made.
+    is_action: bool,
     text: String,
     /// How deep the block is that is made.
     level: usize,

@@ -45,11 +45,11 @@ impl Generator<'_> {
                 let (first, second) = (self.simple(), self.simple());
                 self.line(&format!("{first}; {second}"));
             }
-            _ if self.place == Place::Effect
-                && self.has_atomic
-                && !self.model.shared.is_empty() =>
-            {
+            _ if self.is_action && self.has_atomic => {
                 self.line("atomic");
+                self.level += 1;
+                self.line("counted += 1");
+                self.level -= 1;
                 self.block(depth - 1);
             }
             _ => self.local(),

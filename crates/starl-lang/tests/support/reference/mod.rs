@@ -10,7 +10,7 @@ mod statement;
 pub mod value;
 
 use super::world::World;
-use starl_lang::ir::{Action, Claim, Handler, Program, RobotMember, Type};
+use starl_lang::ir::{Action, Claim, Consistency, Handler, Program, RobotMember, Type};
 use starl_lang::machine::{self, Bytecode, Fault};
 use value::{Value, default, read, shown, weight};
 
@@ -120,10 +120,10 @@ impl<'a> Reference<'a> {
         for (number, shared) in program.shared.iter().enumerate() {
             let instance = machine::Value::Int((program.bindings.len() + number) as i64);
             let kind = shared_kind(shared);
-            let consistency = shared.consistency.clone().map(machine::Value::Text);
-            let consistency = consistency.map_or(machine::Value::None, |text| {
-                machine::Value::Some(Box::new(text))
-            });
+            let consistency = match shared.consistency {
+                Consistency::Eventual => machine::Value::None,
+                named => machine::Value::Some(Box::new(machine::Value::Text(named.name().into()))),
+            };
             self.host(&format!("{kind}.bind"), vec![instance.clone(), consistency])?;
             if let Some(initial) = &shared.initial {
                 self.locals = vec![None; shared.locals.len()];
@@ -249,9 +249,9 @@ impl<'a> Reference<'a> {
 }
 
 fn shared_kind(shared: &starl_lang::ir::Shared) -> &'static str {
-    if shared.is_single_writer {
-        "SingleWriter"
-    } else {
-        "MultiWriter"
+    match (shared.is_single_writer, shared.consistency) {
+        (true, _) => "SingleWriter",
+        (false, Consistency::Linearizable) => "Linearizable",
+        (false, _) => "MultiWriter",
     }
 }
