@@ -127,6 +127,20 @@ pub const EXAMPLES: &[Example] = &[
             file!("search", "worlds/building.wpt"),
         ],
     },
+    Example {
+        name: "register",
+        summary: "robots draw tickets from one roll, each ticket once",
+        path: "examples/primitives/register.toml",
+        text: include_str!("../../../examples/primitives/register.toml"),
+        files: &[file!("primitives", "register.starl")],
+    },
+    Example {
+        name: "memory",
+        summary: "robots tell what came of their rounds before that they are done",
+        path: "examples/primitives/memory.toml",
+        text: include_str!("../../../examples/primitives/memory.toml"),
+        files: &[file!("primitives", "memory.starl")],
+    },
 ];
 
 impl Example {
