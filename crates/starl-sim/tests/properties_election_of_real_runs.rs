@@ -97,10 +97,12 @@ impl Program for Elector {
     }
 }
 
-/// Votes of a majority as in the primitive, and nothing else: no epochs but a count, no leases, no memory over
+/// Votes as in the primitive, and nothing else: a count for an epoch, no leases, no memory over
 /// a restart. The leader is lost sight of when it has been silent for two seconds.
 #[derive(Clone)]
 struct Naive {
+    /// So many votes of others make a leader.
+    needed: usize,
     count: i64,
     votes: Vec<RobotId>,
     leader: Option<RobotId>,
@@ -124,11 +126,15 @@ impl Naive {
             Some((count, 0)) if count > self.count => {
                 self.count = count;
                 self.votes.clear();
+                if self.leader == Some(robot.id()) {
+                    self.leader = None;
+                    robot.emit_primitive("election", NAIVE, "lost", []);
+                }
                 robot.transmit(Destination::Robot(message.from), NAIVE, &(count, 1u8));
             }
             Some((count, 1)) if count == self.count && !self.votes.contains(&message.from) => {
                 self.votes.push(message.from);
-                if self.votes.len() >= robot.fleet().len() / 2 {
+                if self.votes.len() >= self.needed {
                     self.show(robot, robot.id());
                 }
             }
@@ -191,8 +197,9 @@ impl Program for NaiveElector {
     }
 }
 
-fn naive() -> NaiveElector {
+fn naive(needed: usize) -> NaiveElector {
     NaiveElector(Naive {
+        needed,
         count: 0,
         votes: Vec::new(),
         leader: None,
@@ -227,30 +234,39 @@ fn the_primitive_keeps_its_promises_under_every_fault() {
             for make in [five_robots, lossy, chaotic, corrupting] {
                 let (found, changes) = violated(make(seed), Elector::by(algorithm));
                 assert_eq!(found, [] as [&str; 0], "{algorithm:?}, seed {seed}");
-                assert!(changes > 20, "{changes}");
+                assert!(changes >= 10, "{changes}");
             }
         }
     }
 }
 
+/// The network falls apart again and again.
+fn parted(seed: u64) -> Scenario {
+    let mut scenario = five_robots(seed);
+    scenario.faults.rates.partition = 0.1;
+    scenario.faults.rates.heal_after = Duration::from_seconds(10);
+    scenario
+}
+
+/// In how many of ten runs in which the network falls apart a property is violated.
+fn often(property: &str, program: &NaiveElector) -> usize {
+    let is_violated = |&seed: &u64| {
+        let (found, _) = violated(parted(seed), program.clone());
+        found.iter().any(|found| found == property)
+    };
+    (0..10).filter(is_violated).count()
+}
+
 #[test]
-fn one_without_leases_leads_twice_at_once_where_the_network_parts() {
-    let mut found_by = [0; 3];
-    for seed in 0..10 {
-        let (calm, _) = violated(five_robots(seed), naive());
-        assert_eq!(calm, [] as [&str; 0], "seed {seed}");
-        let (found, _) = violated(chaotic(seed), naive());
-        let names = [
-            "election.uniqueness",
-            "election.order",
-            "election.exclusion",
-        ];
-        for (count, name) in found_by.iter_mut().zip(names) {
-            *count += usize::from(found.iter().any(|found| found == name));
-        }
-    }
-    assert!(found_by[2] >= 9, "{found_by:?}");
-    assert!(found_by[0] + found_by[1] >= 3, "{found_by:?}");
+fn one_without_leases_has_two_leaders_at_once() {
+    let times = often("election.exclusion", &naive(2));
+    assert!(times >= 5, "{times}");
+}
+
+#[test]
+fn one_without_majorities_has_two_leaders_in_one_epoch() {
+    let times = often("election.uniqueness", &naive(1));
+    assert!(times >= 1, "{times}");
 }
 
 #[test]

@@ -124,11 +124,14 @@ impl Leases {
         no_later(&mut self.promise.until, now + options.lease);
         let spread = options.timeout(0) * (scene.others.len() as u64 + 1);
         no_later(&mut self.stand_at, now + spread);
-        self.shown.take_if(|shown| !shown.epoch.is_plausible(now));
+        let me = scene.me();
+        self.shown.take_if(|shown| {
+            let leader = shown.epoch.leader();
+            !shown.epoch.is_plausible(now) || leader != me && !scene.others.contains(&leader)
+        });
         if let Some(shown) = &mut self.shown {
             no_later(&mut shown.until, now + options.term());
         }
-        let me = scene.me();
         self.claim.take_if(|claim| {
             no_later(&mut claim.repeat_at, now + options.timeout(u32::MAX));
             !claim.epoch.is_plausible(now) || claim.epoch.leader() != me || !scene.stands

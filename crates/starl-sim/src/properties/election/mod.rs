@@ -16,7 +16,7 @@ use crate::scenario::Scenario;
 use instance::{Instance, Member, Shown};
 use starl_core::event::{Event, Value};
 use starl_core::{Duration, Port, Record, RobotId, Time};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 const UNIQUENESS: &str = "election.uniqueness";
 const ORDER: &str = "election.order";
@@ -36,6 +36,11 @@ pub(super) struct Election {
     due: BTreeSet<(Time, Port, RobotId)>,
     /// When some state was corrupted last.
     corrupted: Option<Time>,
+    /// What was found, as long as a corruption that excuses it may be on record later: faults take effect at
+    /// the beginning of the step in which they are recorded.
+    recent: VecDeque<Violation>,
+    /// How long that is.
+    step: Duration,
 }
 
 impl Election {
@@ -49,6 +54,8 @@ impl Election {
             instances: BTreeMap::new(),
             due: BTreeSet::new(),
             corrupted: None,
+            recent: VecDeque::new(),
+            step: scenario.physics.step,
         }
     }
 
@@ -57,7 +64,8 @@ impl Election {
         self.corrupted.is_some_and(|at| now < at + self.bound)
     }
 
-    fn reported(&mut self, report: &Report<'_>, found: &mut Vec<Violation>) {
+    fn reported(&mut self, report: &Report<'_>) {
+        let mut found = Vec::new();
         let Report {
             at, robot, port, ..
         } = *report;
@@ -90,13 +98,23 @@ impl Election {
                         Some(&Value::Int(epoch)) => Some(epoch),
                         _ => None,
                     };
-                    instance.shows(robot, leader, epoch, at, is_disturbed, found);
+                    instance.shows(robot, leader, epoch, at, is_disturbed, &mut found);
                 }
             }
             "lost" => instance.shows_none(robot, at),
             _ => return,
         }
         self.due.insert((at + self.bound, port, robot));
+        self.recent.extend(found);
+    }
+
+    /// Time has come to `now`.
+    fn pass(&mut self, now: Time, found: &mut Vec<Violation>) {
+        self.check_bounds(now, found);
+        let is_settled = |found: &Violation| found.at + self.step < now;
+        while self.recent.front().is_some_and(is_settled) {
+            found.extend(self.recent.pop_front());
+        }
     }
 
     /// A robot has lost all it knew.
@@ -110,6 +128,9 @@ impl Election {
 
     fn corrupt(&mut self, at: Time) {
         self.corrupted = Some(at);
+        // Two robots that share an epoch have no excuse.
+        self.recent
+            .retain(|found| found.property == UNIQUENESS && found.robots.len() > 1);
         for instance in self.instances.values_mut() {
             instance.highest = None;
         }
@@ -131,12 +152,12 @@ impl Checker for Election {
             }
             Event::Primitive { .. } => {
                 if let Some(report) = Report::of(record, "election") {
-                    self.check_bounds(record.at, violations);
-                    self.reported(&report, violations);
+                    self.pass(record.at, violations);
+                    self.reported(&report);
                 }
             }
             Event::Fault(fault) => {
-                self.check_bounds(record.at, violations);
+                self.pass(record.at, violations);
                 self.health.observe(record);
                 self.parts.observe(record);
                 match (record.robot, &**fault) {
@@ -146,7 +167,7 @@ impl Checker for Election {
                 }
             }
             Event::Failed(_) => {
-                self.check_bounds(record.at, violations);
+                self.pass(record.at, violations);
                 self.health.observe(record);
             }
             _ => {}
@@ -154,7 +175,7 @@ impl Checker for Election {
     }
 
     fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
-        self.check_bounds(now, violations);
+        self.pass(now, violations);
     }
 }
 
