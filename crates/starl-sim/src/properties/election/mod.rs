@@ -144,11 +144,9 @@ impl Checker for Election {
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
         match &record.event {
-            Event::Sent { .. } | Event::Delivered { .. } => {
-                // Before anyone elects nobody is to agree.
-                if !self.instances.is_empty() {
-                    self.parts.observe(record);
-                }
+            // Before anyone elects nobody is to agree.
+            Event::Sent { .. } | Event::Delivered { .. } if !self.instances.is_empty() => {
+                self.parts.observe(record);
             }
             Event::Primitive { .. } => {
                 if let Some(report) = Report::of(record, "election") {
