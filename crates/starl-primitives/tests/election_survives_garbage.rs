@@ -97,11 +97,11 @@ fn a_long_run_takes_no_more_memory_than_a_short_one() {
         let make = Elector::eager(by(algorithm));
         let mut world = World::new(10, 1, Wire::bad(), None, make);
         let mut largest = [0; 2];
-        for half in 0..2 {
+        for largest in &mut largest {
             for _ in 0..600 {
                 world.run_for(SECOND);
                 let sizes = (0..10).map(|robot| size(&world, robot));
-                largest[half] = sizes.max().unwrap_or(0).max(largest[half]);
+                *largest = sizes.max().unwrap_or(0).max(*largest);
             }
         }
         let [before, after] = largest;

@@ -8,8 +8,7 @@
 //! may be wrong; questions are repeated; a leader goes on saying that it leads, and one that hears a lesser
 //! robot say so contradicts it. So robots that were led by different ones agree when they hear each other.
 
-use super::ballots::random_bits;
-use super::options::no_later;
+use super::options::{no_later, random_bits};
 use super::packet::Packet;
 use super::rules::{Leadership, Rules, Scene};
 use alloc::vec::Vec;

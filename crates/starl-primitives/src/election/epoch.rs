@@ -5,6 +5,7 @@
 //! So two leaders cannot share an epoch even if every vote is forgotten, as long as no robot's clock goes
 //! back while it is down; and an epoch that a corruption made up is no other robot's either.
 
+use super::options::random_bits;
 use serde::{Deserialize, Serialize};
 use starl_core::{Random, RobotId, Time};
 
@@ -42,8 +43,7 @@ impl Epoch {
 
     /// Any number at all.
     pub fn random(random: &mut Random) -> Epoch {
-        let bits = u64::from(random.bits()) << 32 | u64::from(random.bits());
-        Epoch(bits >> random.below(64))
+        Epoch(random_bits(random))
     }
 
     fn moment(self) -> u64 {

@@ -1,6 +1,6 @@
 //! Which algorithm elects, and how patiently.
 
-use starl_core::{Duration, Time};
+use starl_core::{Duration, Random, Time};
 
 /// How a leader is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -92,4 +92,10 @@ impl Options {
 /// The earlier of a moment and the latest that makes sense. A corruption may have left any.
 pub(super) fn no_later(moment: &mut Time, latest: Time) {
     *moment = (*moment).min(latest);
+}
+
+/// A number of any size.
+pub(super) fn random_bits(random: &mut Random) -> u64 {
+    let bits = u64::from(random.bits()) << 32 | u64::from(random.bits());
+    bits >> random.below(64)
 }

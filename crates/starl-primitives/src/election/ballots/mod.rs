@@ -8,11 +8,12 @@
 //! greater robot), so robots that did not wait for the same ballots agree as soon as they hear of each
 //! other's winner, who goes on saying that it leads.
 
-use super::options::no_later;
+mod draw;
+
+use super::options::{no_later, random_bits};
 use super::packet::{Outcome, Packet};
 use super::rules::{Leadership, Rules, Scene};
-use alloc::collections::BTreeMap;
-use alloc::vec::Vec;
+use draw::Draw;
 use starl_core::{Random, RobotId, Time};
 
 /// Rounds beyond this come from a corruption.
@@ -29,69 +30,12 @@ pub(super) struct Ballots {
     due: Time,
 }
 
-/// An election under way.
-#[derive(Clone, Debug)]
-struct Draw {
-    own: u32,
-    /// The others'.
-    ballots: BTreeMap<RobotId, u32>,
-    /// When those that are missing are no longer waited for.
-    until: Time,
-    repeat_at: Time,
-    repetitions: u32,
-}
-
 impl Ballots {
-    fn begin(&mut self, scene: &mut Scene<'_, '_>, round: u64) {
-        self.round = round;
-        self.outcome = None;
-        let now = scene.now();
-        let own = scene.robot.random().below(scene.options.ballots.max(2));
-        self.draw = Some(Draw {
-            own,
-            ballots: BTreeMap::new(),
-            until: now + scene.options.patience,
-            repeat_at: now + scene.options.timeout(0),
-            repetitions: 0,
-        });
-        scene.tell_all(Packet::Ballot { round, ballot: own });
-        self.decide(scene);
-    }
-
     /// There is no leader any more, or none that this robot can believe in.
     fn lose(&mut self, scene: &mut Scene<'_, '_>) {
         self.outcome = None;
         if scene.stands {
             self.begin(scene, self.round + 1);
-        }
-    }
-
-    /// Ends the election if nobody is waited for any more.
-    fn decide(&mut self, scene: &mut Scene<'_, '_>) {
-        let Some(draw) = &self.draw else { return };
-        let is_missing = |peer: &&RobotId| draw.is_missing(scene, **peer);
-        if scene.others.iter().any(|peer| is_missing(&peer)) && scene.now() < draw.until {
-            return;
-        }
-        let (me, round) = (scene.me(), self.round);
-        let drawn = draw.ballots.iter().map(|(&peer, &ballot)| (ballot, peer));
-        let drawn = drawn.filter(|&(_, peer)| !scene.is_suspected(peer));
-        let drawn = drawn.chain([(draw.own, me)]);
-        let (ballot, leader) = drawn.clone().max().unwrap_or((draw.own, me));
-        if drawn.filter(|&(other, _)| other == ballot).count() > 1 {
-            self.begin(scene, round + 1);
-            return;
-        }
-        self.believe(
-            scene,
-            Outcome {
-                round,
-                ballot,
-                leader,
-            },
-        );
-        if leader == me {
-            self.announce(scene);
         }
     }
 
@@ -166,23 +110,6 @@ impl Ballots {
         }
     }
 
-    /// The draw goes on: those that have not been heard are asked again.
-    fn repeat(&mut self, scene: &mut Scene<'_, '_>) {
-        let (now, round) = (scene.now(), self.round);
-        let Some(draw) = &mut self.draw else { return };
-        if now >= draw.repeat_at {
-            draw.repetitions = draw.repetitions.saturating_add(1);
-            draw.repeat_at = now + scene.options.timeout(draw.repetitions);
-            let others = scene.others.iter().copied();
-            let missing: Vec<RobotId> = others
-                .filter(|&peer| draw.is_missing(scene, peer))
-                .collect();
-            let ballot = draw.own;
-            scene.tell(&missing, Packet::Ballot { round, ballot });
-        }
-        self.decide(scene);
-    }
-
     /// Makes sense of what a corruption may have left.
     fn make_plausible(&mut self, scene: &Scene<'_, '_>) {
         let (now, options) = (scene.now(), scene.options);
@@ -203,18 +130,9 @@ impl Ballots {
             self.draw = None;
         }
         if let Some(draw) = &mut self.draw {
-            let others = scene.others;
-            draw.ballots.retain(|peer, _| others.contains(peer));
-            no_later(&mut draw.until, now + options.patience);
-            no_later(&mut draw.repeat_at, now + options.timeout(u32::MAX));
+            draw.make_plausible(scene);
         }
         no_later(&mut self.due, now + options.patience.max(options.period()));
-    }
-}
-
-impl Draw {
-    fn is_missing(&self, scene: &Scene<'_, '_>, peer: RobotId) -> bool {
-        !self.ballots.contains_key(&peer) && !scene.is_suspected(peer)
     }
 }
 
@@ -291,14 +209,7 @@ impl Rules for Ballots {
         self.round = random_bits(random);
         self.due = Time(random_bits(random));
         if let Some(draw) = &mut self.draw {
-            draw.own = random.bits();
-            draw.ballots.retain(|_, _| random.chance(0.5));
-            for ballot in draw.ballots.values_mut() {
-                *ballot = random.bits();
-            }
-            draw.until = Time(random_bits(random));
-            draw.repeat_at = Time(random_bits(random));
-            draw.repetitions = random.bits();
+            draw.corrupt(random);
         }
         self.outcome = random.chance(0.5).then(|| Outcome {
             round: self.round,
@@ -306,10 +217,4 @@ impl Rules for Ballots {
             leader: RobotId(random.below(8)),
         });
     }
-}
-
-/// A number of any size.
-pub(super) fn random_bits(random: &mut Random) -> u64 {
-    let bits = u64::from(random.bits()) << 32 | u64::from(random.bits());
-    bits >> random.below(64)
 }
