@@ -45,6 +45,7 @@ fn over_a_bad_network() {
         "network.loss=0.2",
         "network.duplication=0.2",
         "network.reordering=0.2",
+        "network.delay=100ms",
     ];
     all_see_leaders(&bad, 50);
 }

@@ -1,9 +1,10 @@
 //! The primitives of StarL: pure state machines that programs own and call (thesis, chapter 3).
 //!
 //! Communication: [`Broadcast`], [`Geocast`] and [`Unicast`], all built on one acknowledged protocol,
-//! [`reliable::Reliable`]; [`SharedMemory`] and [`Register`]. Motion: [`ReachAvoid`]. A program keeps
-//! primitives as fields, shows them in [`starl_core::Program::primitives`], calls their methods with its
-//! [`starl_core::Robot`] and reads their flags. No primitive waits for ever on a robot that is gone.
+//! [`reliable::Reliable`]; [`SharedMemory`] and [`Register`]. Motion: [`ReachAvoid`]. Agreement: [`Mutex`],
+//! [`Registration`], [`LeaderElection`]. A program keeps primitives as fields, shows them in
+//! [`starl_core::Program::primitives`], calls their methods with its [`starl_core::Robot`] and reads their
+//! flags. No primitive waits for ever on a robot that is gone.
 
 #![no_std]
 extern crate alloc;
