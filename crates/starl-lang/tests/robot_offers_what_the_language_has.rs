@@ -55,6 +55,9 @@ impl Types {
             Shape::Named("MutexAlgorithm") => {
                 self.variants("MutexAlgorithm", &["permission", "quorum", "lease"])
             }
+            Shape::Named("Order") => {
+                self.variants("Order", &["unordered", "fifo", "causal", "total"])
+            }
             Shape::Named("Detection") => {
                 let optional = |kind| Type::Optional(Box::new(kind));
                 let fields = [

@@ -6,6 +6,7 @@ use crate::machine::{Bytecode, Enum, Import, ObjectType, Type};
 use alloc::string::String;
 use alloc::vec::Vec;
 use starl_core::motion::Planner;
+use starl_primitives::broadcast::Order;
 use starl_primitives::{election, mutex};
 
 /// A type that a function of the host takes or gives.
@@ -39,6 +40,8 @@ pub enum Shape {
     ElectionAlgorithm,
     /// The enum `MutexAlgorithm` of the prelude.
     MutexAlgorithm,
+    /// The enum `Order` of the prelude.
+    Order,
     /// The record `Detection` of the prelude.
     Detection,
     /// A list.
@@ -93,6 +96,14 @@ pub const MUTEX_ALGORITHMS: [(&str, mutex::Algorithm); 3] = [
     ("permission", mutex::Algorithm::Permission),
     ("quorum", mutex::Algorithm::Quorum),
     ("lease", mutex::Algorithm::Lease),
+];
+
+/// The orders of broadcasts, as the prelude has them.
+pub const ORDERS: [(&str, Order); 4] = [
+    ("unordered", Order::Unordered),
+    ("fifo", Order::Fifo),
+    ("causal", Order::Causal),
+    ("total", Order::Total),
 ];
 
 /// The types that bytecode declares.
@@ -171,6 +182,9 @@ impl Declared {
             }
             (Shape::MutexAlgorithm, Type::Enum(index)) => {
                 self.variants(*index) == MUTEX_ALGORITHMS.map(|(name, _)| name)
+            }
+            (Shape::Order, Type::Enum(index)) => {
+                self.variants(*index) == ORDERS.map(|(name, _)| name)
             }
             (Shape::Detection, Type::Record(fields)) => {
                 let kinds: Vec<Type> = fields.iter().map(|(_, kind)| kind.clone()).collect();

@@ -5,6 +5,7 @@
 
 mod bodies;
 mod broadcast;
+mod broadcast_order;
 mod election;
 mod geocast;
 mod health;
@@ -81,6 +82,9 @@ pub fn checkers(scenario: &Scenario, setting: &Setting) -> Vec<Box<dyn Checker>>
     }
     if wanted.broadcast {
         checkers.push(Box::new(broadcast::Broadcast::new(scenario, setting)));
+        checkers.push(Box::new(broadcast_order::BroadcastOrder::new(
+            scenario, setting,
+        )));
     }
     if wanted.geocast {
         checkers.push(Box::new(geocast::Geocast::new(scenario, setting)));

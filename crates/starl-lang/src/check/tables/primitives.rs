@@ -87,22 +87,36 @@ pub const PRIMITIVES: &[Primitive] = &[
         documentation: "Goes to targets, around unsafe sets (thesis, section 3.2).",
     },
     Primitive {
-        constructor: "Broadcast(name?: String)",
+        constructor: "Broadcast(name?: String, order?: Order)",
         members: &[
             member(
                 "broadcast(message: Message) -> Int",
                 Effect,
-                "Sends a message to every other robot; gives the message's number.",
+                "Sends a message to every other robot, in total order to this one too; gives the message's number.",
             ),
             member(
                 "outstanding(number: Int) -> Bool",
                 Query,
-                "Whether some robot has neither acknowledged the message nor been given up.",
+                "Whether some robot has neither acknowledged the message nor been given up; in total order, whether it has no place yet.",
+            ),
+            member(
+                "failed: Bool",
+                Query,
+                "Whether nothing can be ordered at present: in total order, without a majority of the fleet in reach.",
             ),
         ],
-        events: FAILED,
+        events: &[
+            Event {
+                text: "failed(number: Int, unreached: List[RobotId])",
+                documentation: "Some robots did not acknowledge the message with this number; in total order, it has waited too long for its place.",
+            },
+            Event {
+                text: "gap(from: RobotId?)",
+                documentation: "Messages that others may have received, of this robot if it is known, will not reach this one.",
+            },
+        ],
         is_available: true,
-        documentation: "Messages to all other robots (thesis, section 3.3.1).",
+        documentation: "Messages to all other robots, in any order or in a certain one (thesis, section 3.3.1).",
     },
     Primitive {
         constructor: "Geocast(name?: String)",

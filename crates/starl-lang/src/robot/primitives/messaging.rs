@@ -6,13 +6,14 @@
 use super::{Arguments, Context, Event, Instance, Kind, Member, Report, method, query};
 use crate::machine::HostCall;
 use crate::robot::arguments::Called;
-use crate::robot::shape::Shape;
+use crate::robot::shape::{ORDERS, Shape};
 use crate::robot::workbench::robots;
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
 use core::fmt;
 use serde::ser::{Serialize, SerializeTuple, Serializer};
-use starl_core::{Payload, Primitive};
+use starl_core::{Input, Payload, Primitive, Robot};
+use starl_primitives::broadcast::{Gap, Order};
 use starl_primitives::reliable::{MessageId, Options};
 use starl_primitives::{Broadcast, Failure, Geocast, Unicast};
 
@@ -28,6 +29,16 @@ pub struct Sender<C> {
     outstanding: Vec<(u32, MessageId)>,
 }
 
+const FAILED: Event = Event {
+    name: "failed",
+    parameters: &[Shape::Int, Shape::List(&Shape::Robot)],
+};
+
+const GAP: Event = Event {
+    name: "gap",
+    parameters: &[Shape::Optional(&Shape::Robot)],
+};
+
 /// So many messages are remembered before it is seen which of them are settled.
 const FEW: u32 = 8;
 
@@ -40,12 +51,26 @@ pub trait Channel: Primitive + Clone + fmt::Debug + Send + Sync + Sized + 'stati
     /// All members.
     const MEMBERS: &'static [Member<Sender<Self>>];
 
-    /// An instance with this name.
-    fn named(name: &str) -> Self;
+    /// What it is bound with: a name by which instances find each other instead of the one that the
+    /// program gives, and what is its own.
+    const CONSTRUCTOR: &'static [Shape] = &[Shape::Optional(&Shape::Text)];
+    /// What it reports.
+    const EVENTS: &'static [Event] = &[FAILED];
+
+    /// An instance with this name, and with what the constructor has besides.
+    fn bind(
+        name: &str,
+        robot: &mut Robot<'_>,
+        arguments: &mut Arguments<'_>,
+    ) -> Result<Self, Cow<'static, str>>;
     /// Whether the message is on its way to someone.
     fn is_outstanding(&self, message: MessageId) -> bool;
     /// The messages that were given up since the last call.
     fn take_failures(&mut self) -> Vec<Failure>;
+    /// What was passed over since the last call.
+    fn take_gaps(&mut self) -> Vec<Gap> {
+        Vec::new()
+    }
 }
 
 impl<C: Channel> Sender<C> {
@@ -77,24 +102,20 @@ impl<C: Channel> Sender<C> {
 impl<C: Channel> Kind for Sender<C> {
     const NAME: &'static str = C::NAME;
 
-    /// A name by which instances find each other instead of the one that the program gives.
-    const CONSTRUCTOR: &'static [Shape] = &[Shape::Optional(&Shape::Text)];
+    const CONSTRUCTOR: &'static [Shape] = C::CONSTRUCTOR;
 
     const MEMBERS: &'static [Member<Sender<C>>] = C::MEMBERS;
 
-    const EVENTS: &'static [Event] = &[Event {
-        name: "failed",
-        parameters: &[Shape::Int, Shape::List(&Shape::Robot)],
-    }];
+    const EVENTS: &'static [Event] = C::EVENTS;
 
     fn bind(
         instance: &Instance,
-        _: &mut Context<'_, '_>,
+        context: &mut Context<'_, '_>,
         arguments: &mut Arguments<'_>,
     ) -> Result<Sender<C>, Cow<'static, str>> {
         let name = arguments.optional(Arguments::text);
         Ok(Sender {
-            channel: C::named(name.unwrap_or(&instance.name)),
+            channel: C::bind(name.unwrap_or(&instance.name), context.robot, arguments)?,
             last: 0,
             most: FEW,
             outstanding: Vec::new(),
@@ -116,6 +137,14 @@ impl<C: Channel> Kind for Sender<C> {
                 event: 0,
                 scalars: Vec::from([u64::from(number)]),
                 objects: Vec::from([robots(failure.unreached)]),
+            });
+        }
+        for gap in self.channel.take_gaps() {
+            let (present, from) = gap.from.map_or((0, 0), |from| (1, u64::from(from.0)));
+            take(Report {
+                event: 1,
+                scalars: Vec::from([present, from]),
+                objects: Vec::new(),
             });
         }
         if self.outstanding.len() >= self.most as usize {
@@ -141,15 +170,7 @@ impl Serialize for Raw<'_> {
 
 /// The part of a [`Channel`] that is written alike for all three.
 macro_rules! channel {
-    ($name:literal) => {
-        const NAME: &'static str = $name;
-        const MEMBERS: &'static [Member<Sender<Self>>] =
-            &[<Self as Channel>::SEND, Sender::<Self>::OUTSTANDING];
-
-        fn named(name: &str) -> Self {
-            Self::new(name, Options::default())
-        }
-
+    () => {
         fn is_outstanding(&self, message: MessageId) -> bool {
             Self::is_outstanding(self, message)
         }
@@ -160,8 +181,61 @@ macro_rules! channel {
     };
 }
 
+/// The part of a [`Channel`] that is written alike for those that have no order.
+macro_rules! unordered {
+    ($name:literal) => {
+        const NAME: &'static str = $name;
+        const MEMBERS: &'static [Member<Sender<Self>>] =
+            &[<Self as Channel>::SEND, Sender::<Self>::OUTSTANDING];
+
+        fn bind(
+            name: &str,
+            _: &mut Robot<'_>,
+            _: &mut Arguments<'_>,
+        ) -> Result<Self, Cow<'static, str>> {
+            Ok(Self::new(name, Options::default()))
+        }
+    };
+}
+
 impl Channel for Broadcast {
-    channel!("Broadcast");
+    channel!();
+
+    const NAME: &'static str = "Broadcast";
+    const CONSTRUCTOR: &'static [Shape] = &[
+        Shape::Optional(&Shape::Text),
+        Shape::Optional(&Shape::Order),
+    ];
+    const EVENTS: &'static [Event] = &[FAILED, GAP];
+    const MEMBERS: &'static [Member<Sender<Self>>] = &[
+        <Self as Channel>::SEND,
+        Sender::<Self>::OUTSTANDING,
+        query("failed", &[], Shape::Bool, |sender, _, call| {
+            call.set_bool(0, sender.channel.failed());
+            Ok(0)
+        }),
+    ];
+
+    fn bind(
+        name: &str,
+        robot: &mut Robot<'_>,
+        arguments: &mut Arguments<'_>,
+    ) -> Result<Self, Cow<'static, str>> {
+        let order = match arguments.optional(Arguments::int) {
+            None => Order::Unordered,
+            Some(variant) => {
+                let order = ORDERS.get(variant as usize);
+                order.ok_or("there is no such order")?.1
+            }
+        };
+        let mut broadcast = Broadcast::in_order(name, order, Options::default());
+        broadcast.handle(robot, &Input::Start);
+        Ok(broadcast)
+    }
+
+    fn take_gaps(&mut self) -> Vec<Gap> {
+        Broadcast::take_gaps(self)
+    }
 
     const SEND: Member<Sender<Broadcast>> = method(
         "broadcast",
@@ -176,7 +250,8 @@ impl Channel for Broadcast {
 }
 
 impl Channel for Geocast {
-    channel!("Geocast");
+    channel!();
+    unordered!("Geocast");
 
     const SEND: Member<Sender<Geocast>> = method(
         "geocast",
@@ -193,7 +268,8 @@ impl Channel for Geocast {
 }
 
 impl Channel for Unicast {
-    channel!("Unicast");
+    channel!();
+    unordered!("Unicast");
 
     const SEND: Member<Sender<Unicast>> = method(
         "send",

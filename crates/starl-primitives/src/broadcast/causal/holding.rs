@@ -2,7 +2,7 @@
 
 use super::super::{Gap, KIND};
 use super::vector::After;
-use super::{Causal, LEAST_LOOKS};
+use super::{Causal, LEAST_LOOKS, LONGEST_SILENCE};
 use crate::channel::report_arrival;
 use crate::reliable::Arrival;
 use alloc::vec::Vec;
@@ -44,7 +44,12 @@ impl Causal {
         let known = self.vector.get(after.process);
         let is_known = known.is_some_and(|known| known.taken.max(known.settled) >= after.number);
         // A suspicion alone may be wrong: the sender is asked as well, which settles it if it is up.
-        let is_lost = held.looks >= LEAST_LOOKS && self.suspects.contains(&after.process.robot);
+        let sender = after.process.robot;
+        let heard = self.heard.get(&sender);
+        let is_silent =
+            heard.is_none_or(|&heard| self.looks.wrapping_sub(heard) >= LONGEST_SILENCE);
+        let is_lost = held.looks >= LEAST_LOOKS && self.suspects.contains(&sender)
+            || held.looks >= LONGEST_SILENCE && is_silent;
         let is_forgotten = self.vector.is_forgotten(after.process);
         after.number == 0 || is_known || is_forgotten || is_lost
     }

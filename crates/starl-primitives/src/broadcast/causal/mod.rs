@@ -19,7 +19,7 @@ mod vector;
 use super::{Gap, Gaps, KIND};
 use crate::channel::{Channel, report_arrival};
 use crate::reliable::{Arrival, MessageId, Notice, encode};
-use alloc::collections::BTreeSet;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 use holding::Held;
 use serde::{Deserialize, Serialize};
@@ -35,6 +35,9 @@ const LOOK: Duration = Duration::from_millis(250);
 /// A suspected sender's messages are waited for at least this many looks.
 const LEAST_LOOKS: u32 = 8;
 
+/// Those of a sender that says nothing, though it is asked, this many.
+const LONGEST_SILENCE: u32 = 40;
+
 /// Messages are held back up to this number; with more, the oldest waits no longer.
 const MOST_HELD: usize = 1024;
 
@@ -49,6 +52,10 @@ pub(super) struct Causal {
     /// What is held back, in the order in which it came.
     held: Vec<Held>,
     suspects: BTreeSet<RobotId>,
+    /// Counts looks.
+    looks: u32,
+    /// That count when each sender was last heard.
+    heard: BTreeMap<RobotId, u32>,
     gaps: Gaps,
 }
 
@@ -66,6 +73,8 @@ impl Causal {
             vector: Vector::default(),
             held: Vec::new(),
             suspects: BTreeSet::new(),
+            looks: 0,
+            heard: BTreeMap::new(),
             gaps: Gaps::default(),
         }
     }
@@ -95,7 +104,10 @@ impl Causal {
         }
         for notice in self.channel.hear(robot, input) {
             match notice {
-                Notice::Arrived(arrival) => self.arrive(robot, arrival),
+                Notice::Arrived(arrival) => {
+                    self.heard.insert(arrival.from, self.looks);
+                    self.arrive(robot, arrival);
+                }
                 Notice::Settled {
                     from,
                     incarnation,
@@ -105,6 +117,7 @@ impl Causal {
                         robot: from,
                         incarnation,
                     };
+                    self.heard.insert(from, self.looks);
                     // Its other lives are over, those included that were only heard of.
                     let after = self.held.iter().flat_map(|held| &held.after);
                     for other in after.map(|after| after.process) {
@@ -176,13 +189,14 @@ impl Causal {
         let patience = self.channel.reliable.options().failure_bound();
         let most_looks = (patience.seconds() / LOOK.seconds()) as u32;
         let mut asked = BTreeSet::new();
+        self.looks = self.looks.wrapping_add(1);
         for held in &mut self.held {
             held.looks = held.looks.saturating_add(1);
         }
         for held in &self.held {
             let missing = self.missing(held);
             if let Some(after) = missing
-                && held.looks.is_power_of_two()
+                && (held.looks.is_power_of_two() || held.looks % 4 == 0)
                 && asked.insert(after.process.robot)
             {
                 self.channel.reliable.ask(robot, after.process.robot);
@@ -212,6 +226,7 @@ impl Causal {
             held.after.retain(|_| random.chance(0.5));
         }
         self.suspects.retain(|_| random.chance(0.5));
+        self.looks = random.bits();
     }
 
     fn timer(&self) -> TimerKey {

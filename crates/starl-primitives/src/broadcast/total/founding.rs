@@ -167,6 +167,7 @@ impl Total {
         let is_next = self
             .position
             .is_some_and(|position| position < (member.generation, member.commit));
+        self.report(robot, "join", [("group", member.generation.counter.into())]);
         self.member = Some(member);
         self.idle = Idle::default();
         if is_next {
