@@ -70,6 +70,13 @@ pub const EXAMPLES: &[Example] = &[
         files: &[file!("primitives", "election.starl")],
     },
     Example {
+        name: "broadcast",
+        summary: "robots tell each other numbers in an order that is the same for all",
+        path: "examples/primitives/broadcast.toml",
+        text: include_str!("../../../examples/primitives/broadcast.toml"),
+        files: &[file!("primitives", "broadcast.starl")],
+    },
+    Example {
         name: "flocking",
         summary: "groups of robots travel in lines abreast",
         path: "examples/flocking/flocking.toml",

@@ -4,6 +4,7 @@ mod properties_support;
 
 use properties_support::{Story, assert_none, assert_only, seconds};
 use starl_core::RobotId;
+use starl_sim::properties::Violation;
 
 /// Three robots, whose broadcasts have 5 s.
 fn story() -> Story {
@@ -56,8 +57,7 @@ fn nothing_is_handed_out_twice_unless_the_robot_has_started_again() {
     }
     let mut again = twice.clone();
     handed(&mut twice, 2000, 1, (0, 1));
-    let violations = twice.verdict(9000);
-    assert_eq!(violations[0].property, "broadcast.integrity");
+    assert_only(&twice.verdict(9000), "broadcast.integrity", 2000, &[1, 0]);
     again.fault(1500, Some(1), "crash");
     again.fault(1600, Some(1), "restart");
     handed(&mut again, 2000, 1, (0, 1));
@@ -95,7 +95,7 @@ fn an_answer_comes_after_what_it_answers() {
         &before.verdict(9000),
         "broadcast.causal_order",
         1300,
-        &[2, 0],
+        &[2, 1],
     );
     let mut after = answer();
     handed(&mut after, 1300, 2, (0, 1));
@@ -183,7 +183,8 @@ fn nothing_is_left_out_between_two_messages_unless_it_is_said() {
             assert_none(&story.verdict(9000));
         } else {
             let violations = story.verdict(9000);
-            assert_eq!(violations[0].property, "broadcast.total_order");
+            let total = |violation: &&Violation| violation.property == "broadcast.total_order";
+            assert_eq!(violations.iter().filter(total).count(), 1);
         }
     }
 }

@@ -178,7 +178,7 @@ impl Instance {
         let last = self.handed.entry(robot).or_default();
         match last.insert(process, number) {
             Some(before) if before == number => {
-                finding.add(INTEGRITY, key.from, format!("was handed {name} twice"));
+                return finding.add(INTEGRITY, key.from, format!("was handed {name} twice"));
             }
             Some(before) if before > number => {
                 let text = format!("was handed {name} after message {before}");
