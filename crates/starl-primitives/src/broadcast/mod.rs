@@ -6,7 +6,7 @@
 //! acknowledge it is named by [`Broadcast::take_failures`].
 //!
 //! "This can be easily expanded to enforce message ordering, such as FIFO ordering, causal ordering, and
-//! total ordering", says the thesis: see [`Order`], [`causal`] and [`total`].
+//! total ordering", says the thesis: see [`Order`].
 
 mod causal;
 mod order;

@@ -147,11 +147,22 @@ impl Reliable {
                         content,
                     }) => self.take(robot, message.from, key, oldest_back, content),
                     Some(Packet::Acknowledge(key)) => self.acknowledged(robot, message.from, key),
-                    Some(Packet::Ask) => self.answer(robot, message.from),
+                    Some(Packet::Ask { ticket }) => self.answer(robot, message.from, ticket),
                     Some(Packet::Oldest {
                         incarnation,
                         number,
-                    }) => self.settled(robot, message.from, incarnation, number),
+                        next,
+                        ticket,
+                    }) => {
+                        let notice = Notice::Settled {
+                            from: message.from,
+                            incarnation,
+                            before: number,
+                            next,
+                            ticket,
+                        };
+                        self.settled(robot, notice)
+                    }
                     None => Notices::new(),
                 }
             }
@@ -218,28 +229,35 @@ impl Reliable {
     }
 
     /// Asks a robot which of its messages to all may still come; the answer is a
-    /// [`Notice::Settled`], if it comes.
-    pub fn ask(&self, robot: &mut Robot<'_>, peer: RobotId) {
-        robot.transmit(Destination::Robot(peer), self.port, &Packet::<Payload>::Ask);
+    /// [`Notice::Settled`] with this ticket, if it comes.
+    pub fn ask(&self, robot: &mut Robot<'_>, peer: RobotId, ticket: u32) {
+        let question = Packet::<Payload>::Ask { ticket };
+        robot.transmit(Destination::Robot(peer), self.port, &question);
     }
 
-    fn answer(&mut self, robot: &mut Robot<'_>, to: RobotId) -> Notices {
+    fn answer(&mut self, robot: &mut Robot<'_>, to: RobotId, ticket: u32) -> Notices {
         let next = self.last_multicast.wrapping_add(1);
         let answer = Packet::<Payload>::Oldest {
             incarnation: self.incarnation.of(robot),
             number: self.outbox.oldest_outstanding(to).unwrap_or(next),
+            next,
+            ticket,
         };
         robot.transmit(Destination::Robot(to), self.port, &answer);
         Notices::new()
     }
 
-    fn settled(
-        &mut self,
-        robot: &mut Robot<'_>,
-        from: RobotId,
-        incarnation: u32,
-        before: u32,
-    ) -> Notices {
+    /// Releases what was held for messages that will not come.
+    fn settled(&mut self, robot: &mut Robot<'_>, notice: Notice) -> Notices {
+        let Notice::Settled {
+            from,
+            incarnation,
+            before,
+            ..
+        } = notice
+        else {
+            return Notices::new();
+        };
         if !is_peer(robot, from) {
             return Notices::new();
         }
@@ -253,11 +271,7 @@ impl Reliable {
             number: before,
         };
         let mut notices = self.hand_out(robot, from, key, taken, None);
-        notices.push(Notice::Settled {
-            from,
-            incarnation,
-            before,
-        });
+        notices.push(notice);
         notices
     }
 

@@ -43,6 +43,10 @@ pub enum Notice {
         incarnation: u32,
         /// Messages of that incarnation with lower numbers have arrived or never will.
         before: u32,
+        /// The number that its next message would have had then.
+        next: u32,
+        /// What it was asked with.
+        ticket: u32,
     },
     /// A message of this robot was sent again to each of these receivers.
     Repeated {

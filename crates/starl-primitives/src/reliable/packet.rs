@@ -18,7 +18,10 @@ pub(super) enum Packet<C> {
     /// The receiver has taken the message.
     Acknowledge(Key),
     /// Which messages to all may still come?
-    Ask,
+    Ask {
+        /// For the answer.
+        ticket: u32,
+    },
     /// Of the sender's present incarnation, messages to all before this number will not come to the
     /// robot that asked, or not again.
     Oldest {
@@ -26,6 +29,10 @@ pub(super) enum Packet<C> {
         incarnation: u32,
         /// The number.
         number: u32,
+        /// The number that its next message to all will have.
+        next: u32,
+        /// That of the question.
+        ticket: u32,
     },
 }
 

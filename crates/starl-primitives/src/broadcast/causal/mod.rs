@@ -13,6 +13,7 @@
 //! others come after is passed over if its sender says that it will not come, has started anew, or is
 //! suspected of having failed and does not answer, and in any case when its sender must have given it up.
 
+mod asking;
 mod holding;
 mod vector;
 
@@ -21,6 +22,7 @@ use crate::channel::{Channel, report_arrival};
 use crate::reliable::{Arrival, MessageId, Notice, encode};
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
+use asking::Doubt;
 use holding::Held;
 use serde::{Deserialize, Serialize};
 use starl_core::{Duration, Input, Payload, Random, Robot, RobotId, TimerKey, message};
@@ -41,9 +43,6 @@ const LONGEST_SILENCE: u32 = 40;
 /// Messages are held back up to this number; with more, the oldest waits no longer.
 const MOST_HELD: usize = 1024;
 
-/// A sender has fewer messages than this on their way: numbers that differ by more cannot both be true.
-const FURTHEST: u32 = 1 << 16;
-
 /// One end of a causally ordered broadcast.
 #[derive(Clone, Debug)]
 pub(super) struct Causal {
@@ -56,6 +55,10 @@ pub(super) struct Causal {
     looks: u32,
     /// That count when each sender was last heard.
     heard: BTreeMap<RobotId, u32>,
+    /// Counts what was asked.
+    last_ticket: u32,
+    /// The last question to each robot.
+    doubts: BTreeMap<RobotId, Doubt>,
     gaps: Gaps,
 }
 
@@ -75,6 +78,8 @@ impl Causal {
             suspects: BTreeSet::new(),
             looks: 0,
             heard: BTreeMap::new(),
+            last_ticket: 0,
+            doubts: BTreeMap::new(),
             gaps: Gaps::default(),
         }
     }
@@ -112,22 +117,16 @@ impl Causal {
                     from,
                     incarnation,
                     before,
+                    next,
+                    ticket,
                 } => {
+                    self.heard.insert(from, self.looks);
                     let process = Process {
                         robot: from,
                         incarnation,
                     };
-                    self.heard.insert(from, self.looks);
-                    // Its other lives are over, those included that were only heard of.
-                    let after = self.held.iter().flat_map(|held| &held.after);
-                    for other in after.map(|after| after.process) {
-                        if other.robot == from && other != process {
-                            let known = self.vector.note(other);
-                            known.into_iter().for_each(|known| known.settled = u32::MAX);
-                        }
-                    }
-                    let known = self.vector.hear(process);
-                    known.settled = known.settled.max(before.saturating_sub(1));
+                    self.settle(process, before);
+                    self.clear_doubt(process, next, ticket);
                     self.hand_out_ready(robot);
                 }
                 _ => {}
@@ -146,11 +145,8 @@ impl Causal {
             incarnation: arrival.incarnation,
         };
         let known = self.vector.hear(process);
-        if known.taken > arrival.number.saturating_add(FURTHEST) {
-            // Only a corruption can have left this.
-            known.taken = arrival.number - 1;
-        }
         if arrival.number <= known.taken {
+            self.ask(robot, process);
             return report_arrival(robot, KIND, self.channel.port, "late", &arrival);
         }
         // In FIFO order those before it have arrived or never will; and this life is not over.
@@ -193,13 +189,15 @@ impl Causal {
         for held in &mut self.held {
             held.looks = held.looks.saturating_add(1);
         }
-        for held in &self.held {
-            let missing = self.missing(held);
-            if let Some(after) = missing
-                && (held.looks.is_power_of_two() || held.looks % 4 == 0)
+        for place in 0..self.held.len() {
+            let Some(held) = self.held.get(place) else {
+                break;
+            };
+            if (held.looks.is_power_of_two() || held.looks % 4 == 0)
+                && let Some(after) = self.missing(held)
                 && asked.insert(after.process.robot)
             {
-                self.channel.reliable.ask(robot, after.process.robot);
+                self.ask(robot, after.process);
             }
         }
         self.hand_out_ready(robot);

@@ -1,6 +1,6 @@
 //! What a robot knows as a member of a group.
 
-use super::leading::Leading;
+use super::followers::Leading;
 use super::log::Log;
 use super::packet::{Generation, Life, Sender};
 use alloc::collections::{BTreeMap, BTreeSet};
