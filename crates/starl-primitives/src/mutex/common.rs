@@ -12,7 +12,7 @@ use starl_core::{Port, Random, Robot, RobotId, TimerKey, Value};
 const KIND: &str = "mutex";
 
 /// A clock this far ahead is none that robots' requests could have driven it to.
-const FURTHEST: u64 = 1 << 40;
+const FURTHEST: u64 = 1 << 45;
 
 /// Names a request among all that its robot ever makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -62,9 +62,11 @@ impl Common {
         }
     }
 
-    /// The time of the next request on Lamport's clock.
-    pub fn tick(&mut self) -> u64 {
-        self.clock = self.clock.saturating_add(1);
+    /// The time of the next request on Lamport's clock. It never falls behind the robot's own clock, in some
+    /// milliseconds: one who has heard of nobody yet would else ask before all who wait already, and where
+    /// ever new robots come these would wait for ever.
+    pub fn tick(&mut self, robot: &Robot<'_>) -> u64 {
+        self.clock = self.clock.saturating_add(1).max(robot.now().0 >> 20);
         self.clock
     }
 

@@ -49,7 +49,7 @@ pub(super) struct Arbitration {
 impl Arbitration {
     pub fn acquire(&mut self, common: &mut Common, robot: &mut Robot<'_>, resources: Resources) {
         self.look(common, robot);
-        let clock = common.tick();
+        let clock = common.tick(robot);
         self.make_request(common, robot, clock, resources);
     }
 

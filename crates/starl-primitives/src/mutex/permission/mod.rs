@@ -44,7 +44,7 @@ struct Waiting {
 
 impl Permission {
     pub fn acquire(&mut self, common: &mut Common, robot: &mut Robot<'_>, resources: Resources) {
-        let (clock, id) = (common.tick(), common.next_id(robot));
+        let (clock, id) = (common.tick(robot), common.next_id(robot));
         self.waiting = Some(Waiting {
             missing: common.others(robot).into_iter().map(|p| (p, 0)).collect(),
             wish: Wish {
