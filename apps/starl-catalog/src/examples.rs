@@ -34,6 +34,12 @@ macro_rules! file {
     };
 }
 
+const INTERSECTION: &[(&str, &[u8])] = &[
+    file!("intersection", "intersection.starl"),
+    file!("intersection", "junction.starl"),
+    file!("intersection", "traffic.starl"),
+];
+
 /// All examples.
 pub const EXAMPLES: &[Example] = &[
     Example {
@@ -54,6 +60,20 @@ pub const EXAMPLES: &[Example] = &[
         path: "examples/formation/formation.toml",
         text: include_str!("../../../examples/formation/formation.toml"),
         files: &[file!("formation", "formation.starl")],
+    },
+    Example {
+        name: "intersection",
+        summary: "four cars agree on who crosses which part of an intersection when",
+        path: "examples/intersection/intersection.toml",
+        text: include_str!("../../../examples/intersection/intersection.toml"),
+        files: INTERSECTION,
+    },
+    Example {
+        name: "intersection-stream",
+        summary: "a hundred cars come to the intersection at random",
+        path: "examples/intersection/stream.toml",
+        text: include_str!("../../../examples/intersection/stream.toml"),
+        files: INTERSECTION,
     },
     Example {
         name: "mutex",

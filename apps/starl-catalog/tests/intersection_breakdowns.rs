@@ -1,0 +1,54 @@
+//! A car that breaks down on the intersection is not run into. Those whose ways are free go on, and those whose
+//! ways are not know that they are stuck.
+
+mod intersection_support;
+
+use intersection_support::{Traffic, drive};
+use starl_sim::Outcome;
+
+/// Robot1, which comes from the south, breaks down in this manner at this time, and the others go on for 90 s.
+fn break_down(kind: &str, at: &str) -> Traffic {
+    let faults = format!("[[fault]]\nat = \"{at}\"\nkind = \"{kind}\"\nrobots = [\"Robot1\"]\n");
+    let traffic = drive("intersection", &["duration=90s"], &faults);
+    assert!(
+        traffic.violations.is_empty(),
+        "{kind} {at} {:?}",
+        traffic.violations
+    );
+    traffic
+}
+
+#[test]
+fn where_it_crashes_the_others_go_round_it_or_know_that_they_cannot() {
+    for at in ["4.5s", "5s", "5.5s", "6s", "6.5s", "7s", "7.5s"] {
+        let traffic = break_down("crash", at);
+        let passed = traffic.passed();
+        let stuck = traffic.stuck_at_the_end();
+        assert!(!passed.contains(&1), "{at}");
+        for car in [0, 2, 3] {
+            assert_ne!(passed.contains(&car), stuck.contains(&car), "{at}: {car}");
+        }
+        // Neither needs a zone of Robot1's.
+        assert!(
+            passed.contains(&0) && passed.contains(&3),
+            "{at}: {passed:?}"
+        );
+    }
+}
+
+/// In the zone B, which Robot2 needs.
+#[test]
+fn where_its_wheels_stop_it_keeps_what_it_holds_and_knows() {
+    let traffic = break_down("stuck_motor", "6s");
+    assert_eq!(traffic.outcome, Some(Outcome::TimedOut));
+    assert_eq!(traffic.passed(), [0, 3]);
+    assert_eq!(traffic.stuck_at_the_end(), [1, 2]);
+}
+
+/// Its zones are asked for again once it has been silent for long, and given to those that can pass it.
+#[test]
+fn where_it_crashes_beyond_them_its_zones_are_used_again() {
+    let traffic = break_down("crash", "8s");
+    assert_eq!(traffic.passed(), [0, 2, 3]);
+    assert!(traffic.stuck_at_the_end().is_empty());
+}
