@@ -18,6 +18,11 @@ impl Incarnation {
         })
     }
 
+    /// From now on this life counts as another one.
+    pub fn renew(&mut self) {
+        self.0 = None;
+    }
+
     /// This life's number, if it was needed before.
     pub fn known(self) -> Option<u32> {
         self.0

@@ -9,6 +9,7 @@
 #![no_std]
 extern crate alloc;
 
+pub mod barrier;
 pub mod broadcast;
 mod channel;
 pub mod election;
@@ -23,6 +24,7 @@ pub mod reliable;
 pub mod shared_memory;
 pub mod unicast;
 
+pub use barrier::Barrier;
 pub use broadcast::Broadcast;
 pub use channel::Failure;
 pub use election::LeaderElection;

@@ -26,13 +26,6 @@ fn problems(source: &str) -> Vec<(Code, String)> {
 }
 
 #[test]
-fn primitives_that_robots_do_not_have() {
-    let source = "program Test\nbar = Barrier(\"0\")\nlead = LeaderElection(\"1\")\ngo()\n    pre bar.passed and lead.failed\n    eff bar.arrive()\n";
-    let expected = ["bar", "lead"].map(|name| (Code::UnavailablePrimitive, name.to_string()));
-    assert_eq!(problems(source), expected);
-}
-
-#[test]
 fn too_many_locals() {
     let lets: String = (0..300)
         .map(|k| format!("        let v{k} = n + {k}\n"))

@@ -37,11 +37,13 @@
 //! comes later to n - 1 others, n + 2; when one of n leaves, n + 1, when one crashes, n. While nothing
 //! changes one of them announces the list in each [`Options::longest_interval`].
 
-mod agreement;
+mod accepting;
 mod announcing;
 mod corrupt;
 mod options;
 mod packet;
+mod proposing;
+mod repairing;
 mod roster;
 
 pub use options::Options;
@@ -172,11 +174,12 @@ impl Registration {
             }
             return;
         }
+        let apart = ("apart", self.options.settle.seconds().into());
         match &area {
-            None => robot.emit_primitive(KIND, self.port, "register", []),
+            None => robot.emit_primitive(KIND, self.port, "register", [apart]),
             Some(area) => {
                 let area = ("area", area.clone().into());
-                robot.emit_primitive(KIND, self.port, "register", [area]);
+                robot.emit_primitive(KIND, self.port, "register", [apart, area]);
             }
         }
         self.leaving = None;

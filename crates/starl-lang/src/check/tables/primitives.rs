@@ -303,7 +303,7 @@ pub const PRIMITIVES: &[Primitive] = &[
             member("failed: Bool", Query, "Whether some robot cannot come."),
         ],
         events: &[],
-        is_available: false,
+        is_available: true,
         documentation: "Waits until all robots have come to the same point.",
     },
 ];

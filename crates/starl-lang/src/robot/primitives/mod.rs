@@ -6,6 +6,7 @@
 //! to the checker.
 
 mod attended;
+mod barrier;
 mod election;
 mod linearizable;
 mod messaging;
@@ -218,6 +219,7 @@ pub static KINDS: &[Entry] = &[
     Entry::of::<messaging::Sender<starl_primitives::Unicast>>(),
     Entry::of::<starl_primitives::Mutex>(),
     Entry::of::<starl_primitives::Registration>(),
+    Entry::of::<starl_primitives::Barrier>(),
     Entry::of::<watch::Watch>(),
     Entry::of::<starl_primitives::LeaderElection>(),
     Entry::of::<shared::SingleWriter>(),

@@ -1,0 +1,51 @@
+//! Barrier in programs.
+
+use super::{Arguments, Context, Instance, Kind, Member, Needs, method, query};
+use crate::robot::shape::Shape;
+use alloc::borrow::Cow;
+use alloc::format;
+use starl_core::Primitive;
+use starl_primitives::Barrier;
+use starl_primitives::barrier::Options;
+
+impl Kind for Barrier {
+    const NAME: &'static str = "Barrier";
+
+    /// The name of the barrier, and who has to come: all, if none are given.
+    const CONSTRUCTOR: &'static [Shape] =
+        &[Shape::Text, Shape::Optional(&Shape::Set(&Shape::Robot))];
+
+    const MEMBERS: &'static [Member<Barrier>] = &[
+        method("arrive", &[], None, |barrier, context, _| {
+            barrier.arrive(context.robot);
+            Ok(10)
+        }),
+        query("passed", &[], Shape::Bool, |barrier, _, call| {
+            call.set_bool(0, barrier.passed());
+            Ok(0)
+        }),
+        query("failed", &[], Shape::Bool, |barrier, _, call| {
+            call.set_bool(0, barrier.failed());
+            Ok(0)
+        }),
+    ];
+
+    const NEEDS: Needs = Needs {
+        detector: true,
+        ..Needs::NOTHING
+    };
+
+    fn bind(
+        _: &Instance,
+        _: &mut Context<'_, '_>,
+        arguments: &mut Arguments<'_>,
+    ) -> Result<Barrier, Cow<'static, str>> {
+        let name = format!("barrier/{}", arguments.text());
+        let participants = arguments.optional(Arguments::robots);
+        Ok(Barrier::new(&name, participants, Options::default()))
+    }
+
+    fn primitive(&mut self) -> Option<&mut dyn Primitive> {
+        Some(self)
+    }
+}

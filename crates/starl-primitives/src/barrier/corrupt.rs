@@ -1,0 +1,39 @@
+//! Overwriting the state at random, as a transient fault would.
+
+use super::Barrier;
+use starl_core::{Random, Time};
+
+impl Barrier {
+    /// Overwrites the state at random, within its types: for a program's
+    /// [`starl_core::Program::corrupt`].
+    pub fn corrupt(&mut self, random: &mut Random) {
+        self.generation = word(random);
+        self.knows = random.chance(0.5);
+        if self.has_come {
+            self.waits = random.chance(0.5);
+        }
+        self.peers.retain(|_, _| random.chance(0.7));
+        for peer in self.peers.values_mut() {
+            if random.chance(0.5) {
+                peer.incarnation = random.bits();
+            }
+            peer.generation = word(random);
+            peer.waits = random.chance(0.5);
+            peer.knows = random.chance(0.5);
+            peer.met_at = word(random);
+            peer.answer = random.chance(0.5).then(|| word(random));
+            peer.is_told = random.chance(0.5);
+        }
+        self.owed.retain(|_| random.chance(0.5));
+        self.suspects
+            .extend(self.peers.keys().filter(|_| random.chance(0.5)));
+        self.repetitions = random.bits();
+        self.due = random.chance(0.5).then(|| Time(word(random)));
+    }
+}
+
+/// A number of any order of magnitude.
+fn word(random: &mut Random) -> u64 {
+    let bits = u64::from(random.bits()) << 32 | u64::from(random.bits());
+    bits >> random.below(64)
+}

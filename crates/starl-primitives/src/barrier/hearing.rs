@@ -1,0 +1,188 @@
+//! How a robot learns which generation comes next, and that all have come to it.
+//!
+//! Invariant: of robots that know their generation, none is more than one ahead of another that keeps its
+//! memory; and what counts of a robot's words was said after it had heard of this robot's present life.
+
+use super::packet::Packet;
+use super::{Barrier, GREATEST, KIND, Peer};
+use alloc::vec::Vec;
+use starl_core::{Message, Robot, RobotId, Value};
+
+impl Barrier {
+    pub(super) fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
+        let from = message.from;
+        let is_peer = from != robot.id() && robot.fleet().binary_search(&from).is_ok();
+        let Some(said) = message.read::<Packet>().filter(|_| is_peer) else {
+            return;
+        };
+        if said.generation == 0 || said.generation > GREATEST {
+            return;
+        }
+        self.hear(robot, from, &said);
+        self.learn_generation(robot);
+        self.pass_if_all_have_come(robot);
+        self.answer(robot);
+    }
+
+    /// Takes down what another robot says; never back within one life of it.
+    fn hear(&mut self, robot: &mut Robot<'_>, from: RobotId, said: &Packet) {
+        let me = robot.id();
+        let mine = self.incarnation.of(robot);
+        let answer = said.heard.get(&me).filter(|(heard, _)| *heard == mine);
+        let answer = answer.map(|(_, met_at)| *met_at);
+        let is_same = |known: &&mut Peer| known.incarnation == said.incarnation;
+        let known = match self.peers.get_mut(&from).filter(is_same) {
+            Some(known) => known,
+            None => {
+                let new = Peer {
+                    incarnation: said.incarnation,
+                    met_at: self.generation,
+                    generation: 0,
+                    waits: false,
+                    knows: false,
+                    answer: None,
+                    is_told: false,
+                };
+                self.peers.insert(from, new);
+                match self.peers.get_mut(&from) {
+                    Some(known) => known,
+                    None => return,
+                }
+            }
+        };
+        known.answer = answer.or(known.answer);
+        // This robot never goes back.
+        known.met_at = known.met_at.min(self.generation);
+        let generation = match said.knows {
+            true => said.generation,
+            false => said.generation.max(known.met_at),
+        };
+        // Once it knows it speaks no longer as one that does not: such a message is late.
+        let is_later = match (known.knows, said.knows) {
+            (true, false) => false,
+            (false, true) => true,
+            _ => (generation, said.waits) > (known.generation, known.waits),
+        };
+        // A number that is far too great does not stay, e.g. after a corruption.
+        if is_later || known.generation > self.generation + 1 {
+            known.generation = generation;
+            known.waits = said.waits;
+            known.knows = said.knows;
+        }
+        if !said.missing.contains(&me) {
+            self.owed.remove(&from);
+        } else if said.again || !known.is_told {
+            self.owed.insert(from);
+        }
+        // Who speaks has not failed, unless the message was long under way.
+        self.suspects.remove(&from);
+    }
+
+    /// The generation is certain when all have answered.
+    pub(super) fn learn_generation(&mut self, robot: &mut Robot<'_>) {
+        if self.knows {
+            // Nobody is two ahead of this robot, which they would have waited for.
+            let next = self.generation + 1;
+            let mut counted = self.peers.values().filter(|peer| peer.answer.is_some());
+            if counted.any(|peer| peer.knows && peer.generation > next) {
+                self.ask_all(robot);
+            }
+            return;
+        }
+        if !self.waits {
+            return;
+        }
+        let mut greatest = self.generation;
+        for peer in self.others(robot) {
+            match self.answer_of(peer) {
+                Some(answer) => greatest = greatest.max(answer),
+                None => return,
+            }
+        }
+        self.knows = true;
+        if self.generation != greatest {
+            self.generation = greatest;
+            self.move_on(robot);
+        }
+        self.report_waiting(robot);
+    }
+
+    /// Forgets what was heard, and asks anew.
+    pub(super) fn ask_all(&mut self, robot: &mut Robot<'_>) {
+        self.knows = false;
+        self.peers.clear();
+        self.owed.clear();
+        self.incarnation.renew();
+        self.repetitions = 0;
+        if self.waits {
+            self.say(robot, None);
+        }
+    }
+
+    /// This robot is farther than it has told anyone.
+    pub(super) fn move_on(&mut self, robot: &Robot<'_>) {
+        let fleet = robot.fleet();
+        self.peers
+            .retain(|peer, _| fleet.binary_search(peer).is_ok());
+        self.suspects
+            .retain(|peer| fleet.binary_search(peer).is_ok());
+        for peer in self.peers.values_mut() {
+            peer.is_told = false;
+        }
+    }
+
+    /// Whether a robot is known to have come to this robot's generation.
+    pub(super) fn has_arrived(&self, peer: RobotId) -> bool {
+        self.peers.get(&peer).is_some_and(|known| {
+            let place = (known.generation, known.waits);
+            known.answer.is_some() && place >= (self.generation, true)
+        })
+    }
+
+    /// The other participants.
+    pub(super) fn others(&self, robot: &Robot<'_>) -> impl Iterator<Item = RobotId> + use<> {
+        let me = robot.id();
+        let all = self.all(robot).into_iter();
+        all.filter(move |peer| *peer != me)
+    }
+
+    /// Those from whom this robot needs to hear before it can pass.
+    pub(super) fn missing(&self, robot: &Robot<'_>) -> Vec<RobotId> {
+        let others = self.others(robot);
+        let is_missing = |peer: &RobotId| {
+            !self.has_arrived(*peer) || !self.knows && self.answer_of(*peer).is_none()
+        };
+        others.filter(is_missing).collect()
+    }
+
+    /// The generation that a robot named in answer to this one.
+    fn answer_of(&self, peer: RobotId) -> Option<u64> {
+        let answer = self.peers.get(&peer)?.answer;
+        answer.filter(|generation| *generation <= GREATEST)
+    }
+
+    pub(super) fn pass_if_all_have_come(&mut self, robot: &mut Robot<'_>) {
+        if !self.waits || !self.knows {
+            return;
+        }
+        let next = self.generation + 1;
+        // Who has passed has seen that all have come.
+        let has_passed = |peer: RobotId| {
+            let known = self.peers.get(&peer);
+            known.is_some_and(|known| {
+                known.answer.is_some() && known.knows && known.generation == next
+            })
+        };
+        if !self.others(robot).any(has_passed) && !self.missing(robot).is_empty() {
+            return;
+        }
+        let generation = ("generation", Value::Int(self.generation as i64));
+        let all: Vec<RobotId> = self.all(robot).into_iter().collect();
+        let fields = [generation, ("participants", all.into())];
+        robot.emit_primitive(KIND, self.port, "pass", fields);
+        self.waits = false;
+        self.generation = next;
+        self.due = None;
+        robot.cancel_timer(self.timer());
+    }
+}

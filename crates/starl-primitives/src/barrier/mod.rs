@@ -1,0 +1,202 @@
+//! Barrier: nobody goes on before all have come to the same point (of the original StarL; the thesis
+//! mentions it among the synchronisation primitives).
+//!
+//! A barrier is used again and again; its crossings are numbered, 1, 2, 3, ... (generations). A robot that
+//! has come says to all which generation it waits for, and passes when it knows that all others have come
+//! to that generation, or that one of them has passed it (a dissemination of counters, as in the
+//! sense-reversing barriers of Hensgen, Finkel and Manber 1988, with numbers for senses).
+//!
+//! A robot that has just started, or restarted without memory, does not know which generation comes next.
+//! It asks all others, naming its life, and takes the greatest number in their answers; answers to an
+//! earlier life do not count. Until all have answered it passes nothing, which costs nothing, as it needs
+//! all of them to pass.
+//!
+//! What holds, whatever the network does and whichever robots crash and restart, as long as state is not
+//! corrupted and one participant at least keeps its memory:
+//! - safety: nobody passes a generation before every participant has come to it, or to a later one;
+//! - order: the generations that a robot passes in one life rise.
+//!
+//! If all have crashed since they last passed, generations begin anew with 1, and the same holds from there.
+//!
+//! What holds where datagrams are not always lost:
+//! - progress: when all participants have come and are up, all pass;
+//! - nobody waits unaware: while a participant that is waited for is believed to have failed,
+//!   [`Barrier::failed`] says so. Should it come back and arrive, all pass.
+//!
+//! What a robot said before it crashed still counts: one that had come and crashed is waited for no longer
+//! in that generation.
+//!
+//! Messages for n robots: n datagrams to all for each generation; 2n - 1 for the first, and where somebody
+//! has restarted up to n - 1 more; and those that repeat what was lost.
+//!
+//! Self-stabilising: numbers that do not fit each other make robots ask all others again, and they agree on
+//! the greatest. After a corruption of state robots may pass one generation too early.
+
+mod corrupt;
+mod hearing;
+mod options;
+mod packet;
+mod saying;
+
+pub use options::Options;
+
+use crate::incarnation::Incarnation;
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::vec::Vec;
+use starl_core::{Input, Port, Primitive, Robot, RobotId, Time, TimerKey};
+
+const KIND: &str = "barrier";
+
+/// Greater numbers are none that robots could have counted to.
+const GREATEST: u64 = 1 << 62;
+
+/// A point that all come to before anyone goes on. See the [module](self).
+#[derive(Clone, Debug)]
+pub struct Barrier {
+    port: Port,
+    options: Options,
+    /// Who has to come; none for all of the fleet.
+    participants: Option<BTreeSet<RobotId>>,
+    incarnation: Incarnation,
+    /// What it waits for, or will wait for next.
+    generation: u64,
+    /// Whether this is certain: all others have answered since this robot began to ask.
+    knows: bool,
+    /// Whether it ever arrived.
+    has_come: bool,
+    waits: bool,
+    /// The others, as far as they were heard.
+    peers: BTreeMap<RobotId, Peer>,
+    /// Those that need to hear from this robot.
+    owed: BTreeSet<RobotId>,
+    suspects: BTreeSet<RobotId>,
+    /// How often it was said that this robot waits.
+    repetitions: u32,
+    /// When it is to be said again.
+    due: Option<Time>,
+}
+
+/// What another robot has said of itself.
+#[derive(Clone, Copy, Debug)]
+struct Peer {
+    /// Which life it is that has said so.
+    incarnation: u32,
+    /// This robot's generation when it first heard that life.
+    met_at: u64,
+    /// What it waits for, or will wait for next; at least `met_at` if it does not know.
+    generation: u64,
+    waits: bool,
+    knows: bool,
+    /// The generation that it named in answer to this robot, which shows that it has heard this life.
+    answer: Option<u64>,
+    /// Whether it was told how far this robot is.
+    is_told: bool,
+}
+
+impl Barrier {
+    /// An instance; those of the same name on all robots are the same barrier. `participants` have to come,
+    /// all of the fleet if none are given; they are to be the same everywhere.
+    pub fn new(name: &str, participants: Option<BTreeSet<RobotId>>, options: Options) -> Barrier {
+        Barrier {
+            port: Port::named(name),
+            options,
+            participants,
+            incarnation: Incarnation::default(),
+            generation: 1,
+            knows: false,
+            has_come: false,
+            waits: false,
+            peers: BTreeMap::new(),
+            owed: BTreeSet::new(),
+            suspects: BTreeSet::new(),
+            repetitions: 0,
+            due: None,
+        }
+    }
+
+    /// Says that this robot has come. It waits from now on; if it waits already nothing happens. A robot
+    /// that is no participant waits for them all the same, and nobody waits for it.
+    pub fn arrive(&mut self, robot: &mut Robot<'_>) {
+        if self.waits {
+            return;
+        }
+        let all: Vec<RobotId> = self.all(robot).into_iter().collect();
+        robot.emit_primitive(KIND, self.port, "arrive", [("participants", all.into())]);
+        (self.waits, self.has_come) = (true, true);
+        self.repetitions = 0;
+        self.move_on(robot);
+        if self.knows {
+            self.report_waiting(robot);
+        }
+        self.say(robot, None);
+        self.learn_generation(robot);
+        self.pass_if_all_have_come(robot);
+    }
+
+    /// Whether all have come since this robot last arrived; false before it ever does.
+    pub fn passed(&self) -> bool {
+        self.has_come && !self.waits
+    }
+
+    /// Whether this robot has arrived and not passed.
+    pub fn is_waiting(&self) -> bool {
+        self.waits
+    }
+
+    /// Whether this robot waits for one that is believed to have failed. It waits on, and passes should
+    /// that robot come back and arrive.
+    pub fn failed(&self) -> bool {
+        // Who has come by now is waited for no longer, dead or alive.
+        self.waits
+            && self
+                .suspects
+                .iter()
+                .any(|suspect| self.takes_part(*suspect) && !self.has_arrived(*suspect))
+    }
+
+    /// The number of the crossing that this robot waits for, or will wait for next. Not certain before the
+    /// first crossing in its present life.
+    pub fn generation(&self) -> u64 {
+        self.generation
+    }
+
+    fn takes_part(&self, robot: RobotId) -> bool {
+        let participants = self.participants.as_ref();
+        participants.is_none_or(|participants| participants.contains(&robot))
+    }
+
+    /// Who has to come, in the order of their numbers.
+    fn all(&self, robot: &Robot<'_>) -> BTreeSet<RobotId> {
+        let fleet = robot.fleet().iter().copied();
+        fleet.filter(|peer| self.takes_part(*peer)).collect()
+    }
+
+    fn timer(&self) -> TimerKey {
+        TimerKey {
+            port: self.port,
+            kind: 0,
+            number: 0,
+        }
+    }
+}
+
+impl Primitive for Barrier {
+    fn port(&self) -> Port {
+        self.port
+    }
+
+    fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
+        match input {
+            Input::Message(message) if message.port == self.port => self.receive(robot, message),
+            Input::Timer(key) if *key == self.timer() => self.say_again(robot),
+            Input::Activate => self.set_right(robot),
+            Input::Suspected(peer) => {
+                self.suspects.insert(*peer);
+            }
+            Input::Trusted(peer) => {
+                self.suspects.remove(peer);
+            }
+            _ => {}
+        }
+    }
+}

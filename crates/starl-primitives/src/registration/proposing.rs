@@ -1,0 +1,184 @@
+//! The coordinator's part of an agreement: proposing a list, hearing who accepts it, telling all.
+//!
+//! Invariant: a list is committed only when all in it have accepted it.
+
+use super::packet::{Packet, Roll, View, ViewId};
+use super::{Alarm, KIND, Registration, Stage};
+use alloc::collections::BTreeSet;
+use alloc::vec::Vec;
+use starl_core::event::Value;
+use starl_core::{Destination, Duration, Robot, RobotId};
+
+impl Registration {
+    /// Computes a list, if there is to be another one and this robot is to do it.
+    pub(super) fn look(&mut self, robot: &mut Robot<'_>) {
+        let Some(own) = &self.own else { return };
+        let left = own.gathers_until.since(robot.now());
+        if matches!(self.stage, Stage::Open) && !left.is_zero() {
+            let left = left.min(self.options.gather);
+            return self.look_within(robot, left);
+        }
+        if self.leader(robot.id()) != robot.id() {
+            return;
+        }
+        let wanted = self.wanted(robot);
+        match &self.stage {
+            Stage::Agreed { view, .. } if view.roll == wanted => {}
+            _ => self.propose(robot, wanted),
+        }
+    }
+
+    fn propose(&mut self, robot: &mut Robot<'_>, roll: Roll) {
+        self.hear_time(self.promised.time);
+        let id = ViewId {
+            time: robot.now().max(self.latest + self.apart()),
+            coordinator: robot.id(),
+            incarnation: self.incarnation.of(robot),
+        };
+        self.promise(robot, id);
+        let members: Vec<RobotId> = roll.keys().copied().collect();
+        self.report(robot, "propose", id, Some(members));
+        let missing = roll.keys().copied().filter(|&peer| peer != robot.id());
+        let missing: BTreeSet<RobotId> = missing.collect();
+        let view = View { id, roll };
+        if missing.is_empty() {
+            return self.show(robot, view);
+        }
+        self.stage = Stage::Proposed {
+            view,
+            missing,
+            repetitions: 0,
+        };
+        self.send_proposal(robot);
+    }
+
+    /// From now on no list before this one is shown.
+    pub(super) fn promise(&mut self, robot: &mut Robot<'_>, id: ViewId) {
+        self.promised = id;
+        self.hear_time(id.time);
+        self.rest(robot);
+        if self.members().is_some() {
+            self.stage = Stage::Open;
+            self.set(robot, Alarm::Patience, self.options.patience);
+            self.begin_announcing(robot, false);
+        }
+    }
+
+    fn send_proposal(&mut self, robot: &mut Robot<'_>) {
+        let Stage::Proposed {
+            view,
+            missing,
+            repetitions,
+        } = &mut self.stage
+        else {
+            return;
+        };
+        let timeout = self.options.timeout(*repetitions);
+        *repetitions = repetitions.saturating_add(1);
+        let proposal = Packet::Propose(view.clone());
+        let missing: Vec<RobotId> = missing.iter().copied().collect();
+        self.send(robot, &missing, &proposal);
+        self.look_within(robot, timeout);
+    }
+
+    /// To all at once where that takes fewer datagrams; it means something to those alone.
+    fn send(&self, robot: &mut Robot<'_>, to: &[RobotId], packet: &Packet) {
+        if 2 * to.len() >= robot.peers().count() {
+            robot.transmit(Destination::All, self.port, packet);
+        } else {
+            for &peer in to {
+                robot.transmit(Destination::Robot(peer), self.port, packet);
+            }
+        }
+    }
+
+    pub(super) fn propose_again(&mut self, robot: &mut Robot<'_>) {
+        let Stage::Proposed {
+            missing,
+            repetitions,
+            ..
+        } = &self.stage
+        else {
+            return;
+        };
+        if *repetitions <= self.options.repetitions {
+            return self.send_proposal(robot);
+        }
+        for peer in missing.clone() {
+            self.shun(robot, peer);
+        }
+        self.open(robot, Duration::ZERO);
+    }
+
+    /// A robot has accepted a list of this one.
+    pub(super) fn accepted(
+        &mut self,
+        robot: &mut Robot<'_>,
+        from: RobotId,
+        id: ViewId,
+        also: &Roll,
+    ) {
+        let is_news = self.hear_of(robot, also);
+        self.shunned.remove(&from);
+        match &mut self.stage {
+            Stage::Proposed { view, missing, .. } if view.id == id => {
+                missing.remove(&from);
+                if missing.is_empty() {
+                    let view = view.clone();
+                    let others: Vec<RobotId> = view.roll.keys().copied().collect();
+                    let others: Vec<RobotId> = others
+                        .into_iter()
+                        .filter(|&peer| peer != robot.id())
+                        .collect();
+                    self.send(robot, &others, &Packet::Commit(view.id));
+                    self.show(robot, view);
+                }
+            }
+            Stage::Agreed { view, .. } if view.id == id => {
+                if is_news {
+                    self.look_within(robot, self.options.settle);
+                } else if id.coordinator == robot.id() && view.roll.contains_key(&from) {
+                    robot.transmit(Destination::Robot(from), self.port, &Packet::Commit(id));
+                }
+            }
+            // It has given that list up.
+            _ if id.coordinator == robot.id() => {
+                let refusal = Packet::Refuse {
+                    id,
+                    promised: self.promised,
+                    also: Roll::new(),
+                };
+                robot.transmit(Destination::Robot(from), self.port, &refusal);
+            }
+            _ => {}
+        }
+    }
+
+    /// How far the times of lists are apart at least.
+    pub(super) fn apart(&self) -> Duration {
+        self.options.settle.max(Duration(1))
+    }
+
+    pub(super) fn report(
+        &self,
+        robot: &mut Robot<'_>,
+        event: &'static str,
+        id: ViewId,
+        members: Option<Vec<RobotId>>,
+    ) {
+        let time = ("time", Value::Time(id.time));
+        let coordinator = ("coordinator", id.coordinator.into());
+        let incarnation = ("incarnation", id.incarnation.into());
+        match members {
+            None => {
+                let fields = [time, coordinator, incarnation];
+                robot.emit_primitive(KIND, self.port, event, fields);
+            }
+            Some(members) => {
+                let members = ("members", members.into());
+                let fields = [time, coordinator, incarnation, members];
+                robot.emit_primitive(KIND, self.port, event, fields);
+            }
+        }
+    }
+}
