@@ -168,6 +168,20 @@ pub const EXAMPLES: &[Example] = &[
         text: include_str!("../../../examples/primitives/memory.toml"),
         files: &[file!("primitives", "memory.starl")],
     },
+    Example {
+        name: "registration",
+        summary: "robots come and go, and agree on who takes part",
+        path: "examples/primitives/registration.toml",
+        text: include_str!("../../../examples/primitives/registration.toml"),
+        files: &[file!("primitives", "registration.starl")],
+    },
+    Example {
+        name: "barrier",
+        summary: "robots begin each round together",
+        path: "examples/primitives/barrier.toml",
+        text: include_str!("../../../examples/primitives/barrier.toml"),
+        files: &[file!("primitives", "barrier.starl")],
+    },
 ];
 
 impl Example {

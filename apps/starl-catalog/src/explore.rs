@@ -84,6 +84,10 @@ fn timeless(scenario: &Scenario) -> Scenario {
         mutex: _,
         mutex_bound,
         register: _,
+        registration: _,
+        registration_bound,
+        barrier: _,
+        barrier_bound,
         program: _,
     } = &mut scenario.properties;
     for bound in [
@@ -93,6 +97,8 @@ fn timeless(scenario: &Scenario) -> Scenario {
         shared_memory_bound,
         election_bound,
         mutex_bound,
+        registration_bound,
+        barrier_bound,
     ] {
         *bound = FOREVER;
     }

@@ -142,10 +142,6 @@ pub struct World {
     pub sent: usize,
     /// By port: how many datagrams, and to how many robots these went in all.
     pub traffic: BTreeMap<Port, (usize, usize)>,
-    /// To how many robots these went, in all.
-    pub addressed: usize,
-    /// The same by endpoint.
-    pub sent_by_port: BTreeMap<Port, usize>,
     /// How long these were in all, and the longest, bytes.
     pub sent_bytes: usize,
     pub longest_sent: usize,
@@ -180,8 +176,6 @@ impl World {
             clocks_drift: BTreeMap::new(),
             sent: 0,
             traffic: BTreeMap::new(),
-            addressed: 0,
-            sent_by_port: BTreeMap::new(),
             sent_bytes: 0,
             longest_sent: 0,
             payloads: Vec::new(),
@@ -303,8 +297,8 @@ impl World {
 
     /// How many datagrams the instances of this name have sent.
     pub fn sent_on(&self, name: &str) -> usize {
-        let count = self.sent_by_port.get(&Port::named(name));
-        count.copied().unwrap_or_default()
+        let traffic = self.traffic.get(&Port::named(name));
+        traffic.map_or(0, |(datagrams, _)| *datagrams)
     }
 
     /// The number of timers that are armed on a robot.
@@ -387,7 +381,6 @@ impl World {
                 payload,
             } => {
                 self.sent += 1;
-                *self.sent_by_port.entry(port).or_default() += 1;
                 self.sent_bytes += payload.len();
                 self.longest_sent = self.longest_sent.max(payload.len());
                 if self.keep_payloads {

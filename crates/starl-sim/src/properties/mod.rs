@@ -3,6 +3,7 @@
 //! A checker sees the stream of records and nothing else, so it judges a live run and a trace from a
 //! file alike. A [`Monitor`] sees the simulation itself.
 
+mod barrier;
 mod bodies;
 mod broadcast;
 mod broadcast_order;
@@ -16,6 +17,7 @@ mod outstanding;
 mod parts;
 mod reach_avoid;
 mod register;
+mod registration;
 mod report;
 mod shared_memory;
 mod track;
@@ -103,6 +105,12 @@ pub fn checkers(scenario: &Scenario, setting: &Setting) -> Vec<Box<dyn Checker>>
     }
     if wanted.mutex {
         checkers.push(Box::new(mutex::Mutex::new(scenario, setting)));
+    }
+    if wanted.registration {
+        checkers.push(Box::new(registration::Registration::new(scenario, setting)));
+    }
+    if wanted.barrier {
+        checkers.push(Box::new(barrier::Barrier::new(scenario, setting)));
     }
     checkers
 }

@@ -127,6 +127,10 @@ fn properties(table: Section<'_>) -> Properties {
         mutex: table.flag("mutex"),
         mutex_bound: table.duration("mutex_bound"),
         register: table.flag("register"),
+        registration: table.flag("registration"),
+        registration_bound: table.duration("registration_bound"),
+        barrier: table.flag("barrier"),
+        barrier_bound: table.duration("barrier_bound"),
         program: table.flag("program"),
     }
 }

@@ -136,6 +136,14 @@ pub struct Properties {
     pub mutex_bound: Duration,
     /// Linearizability of registers; default true.
     pub register: bool,
+    /// Registration: agreement, exclusion, soundness, progress and convergence; default true.
+    pub registration: bool,
+    /// Robots agree on who takes part within this time, the thesis's d2; default 35 s.
+    pub registration_bound: Duration,
+    /// Barrier: safety and progress; default true.
+    pub barrier: bool,
+    /// Robots pass within this time of the arrival of the last; default 35 s.
+    pub barrier_bound: Duration,
     /// What programs in the StarL language say of themselves; default true.
     pub program: bool,
 }
@@ -195,6 +203,10 @@ impl Default for Properties {
             mutex: true,
             mutex_bound: Duration::from_seconds(35),
             register: true,
+            registration: true,
+            registration_bound: Duration::from_seconds(35),
+            barrier: true,
+            barrier_bound: Duration::from_seconds(35),
             program: true,
         }
     }

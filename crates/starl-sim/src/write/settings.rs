@@ -134,6 +134,10 @@ pub(super) fn properties(properties: &Properties) -> String {
         mutex,
         mutex_bound,
         register,
+        registration,
+        registration_bound,
+        barrier,
+        barrier_bound,
         program,
     });
     table.finish()

@@ -230,6 +230,30 @@ const PROPERTIES: &[Field] = &[
         "Linearizability of registers.",
     ),
     field(
+        "registration",
+        Kind::Flag,
+        Default::Value("true"),
+        "What registrations promise.",
+    ),
+    field(
+        "registration_bound",
+        SPAN,
+        Default::Value("35s"),
+        "Within this time, the thesis's d2, robots agree on who takes part.",
+    ),
+    field(
+        "barrier",
+        Kind::Flag,
+        Default::Value("true"),
+        "What barriers promise.",
+    ),
+    field(
+        "barrier_bound",
+        SPAN,
+        Default::Value("35s"),
+        "Within this time of the arrival of the last robots pass a barrier.",
+    ),
+    field(
         "program",
         Kind::Flag,
         Default::Value("true"),

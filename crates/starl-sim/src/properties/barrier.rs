@@ -1,0 +1,280 @@
+//! Barrier: nobody passes before all have come, and all pass when all have come.
+//!
+//! A robot that has come reports so, and to which generation once it knows; one that restarts has to ask. It
+//! has come to a generation if it has waited for that or a later one in any of its lives, or if it has come
+//! and does not know yet to which. When all that take part have crashed, generations begin anew.
+
+use super::health::{Health, Needs};
+use super::report::Report;
+use super::{Checker, Setting, Violation, robot_list};
+use crate::scenario::Scenario;
+use starl_core::event::{Event, Value};
+use starl_core::{Duration, Port, Record, RobotId, Time};
+use std::collections::{BTreeMap, BTreeSet};
+
+const SAFETY: &str = "barrier.safety";
+const PROGRESS: &str = "barrier.progress";
+
+/// Watches all barriers.
+#[derive(Clone, Debug)]
+pub(super) struct Barrier {
+    bound: Duration,
+    health: Health,
+    instances: BTreeMap<Port, Instance>,
+    /// When something is to be judged.
+    due: BTreeSet<(Time, Port)>,
+    /// When a fault was on record last.
+    disturbed: Time,
+    corrupted: Option<Time>,
+    is_parted: bool,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Instance {
+    robots: BTreeMap<RobotId, Place>,
+    /// Those that have not crashed since they last came.
+    rememberers: BTreeSet<RobotId>,
+    participants: Vec<RobotId>,
+}
+
+/// Where a robot is.
+#[derive(Clone, Copy, Debug, Default)]
+struct Place {
+    /// The latest generation that it has waited for, in any life.
+    come_to: i64,
+    /// It has come, and does not know to which generation.
+    is_unsure: bool,
+    /// Since when it waits.
+    waits: Option<Time>,
+    /// The latest generation that it has passed in its present life.
+    passed: Option<i64>,
+    passed_at: Time,
+    /// Whether it was reported that it does not pass.
+    is_reported: bool,
+}
+
+impl Barrier {
+    pub fn new(scenario: &Scenario, setting: &Setting) -> Barrier {
+        let bound = scenario.properties.barrier_bound;
+        Barrier {
+            bound,
+            health: Health::new(setting.bodies.len(), Needs::Computing, bound),
+            instances: BTreeMap::new(),
+            due: BTreeSet::new(),
+            disturbed: Time::ZERO,
+            corrupted: None,
+            is_parted: false,
+        }
+    }
+
+    fn reported(&mut self, report: &Report<'_>, found: &mut Vec<Violation>) {
+        let Report {
+            at, robot, port, ..
+        } = *report;
+        let is_disturbed = self.corrupted.is_some_and(|since| at < since + self.bound);
+        let instance = self.instances.entry(port).or_default();
+        let generation = match report.get("generation") {
+            Some(&Value::Int(generation)) => generation,
+            _ => 0,
+        };
+        if let Some(Value::Robots(all)) = report.get("participants") {
+            instance.participants.clone_from(all);
+        }
+        let place = instance.robots.entry(robot).or_default();
+        match report.name {
+            "arrive" => {
+                place.is_unsure = true;
+                place.waits = Some(at);
+                place.is_reported = false;
+                instance.rememberers.insert(robot);
+            }
+            "wait" => {
+                place.is_unsure = false;
+                place.come_to = place.come_to.max(generation);
+            }
+            "pass" => {
+                let before = place.passed.replace(generation);
+                place.waits = None;
+                place.passed_at = at;
+                if is_disturbed {
+                    // As far as can be told, all are where this robot is.
+                    instance.begin_anew(generation);
+                } else {
+                    instance.check_passing(robot, generation, before, at, found);
+                }
+            }
+            _ => return,
+        }
+        self.due.insert((at + self.bound, port));
+    }
+
+    fn fault(&mut self, at: Time, robot: Option<RobotId>, fault: &str) {
+        self.disturbed = at;
+        match (robot, fault) {
+            (Some(robot), "crash" | "failed") => {
+                for instance in self.instances.values_mut() {
+                    instance.crashes(robot);
+                }
+            }
+            (Some(_), "corrupt state") => self.corrupted = Some(at),
+            (None, "partition") => self.is_parted = true,
+            (None, "heal") => self.is_parted = false,
+            _ => {}
+        }
+        for &port in self.instances.keys() {
+            self.due.insert((at + self.bound, port));
+        }
+    }
+
+    /// Judges what is due before `now`.
+    fn check_bounds(&mut self, now: Time, found: &mut Vec<Violation>) {
+        while let Some(&(due, port)) = self.due.first().filter(|(due, _)| *due < now) {
+            self.due.remove(&(due, port));
+            let Some(instance) = self.instances.get_mut(&port) else {
+                continue;
+            };
+            let bound = self.bound;
+            if self.is_parted || self.disturbed + bound > due {
+                continue;
+            }
+            let late = instance.late(&self.health, due - bound);
+            if !late.is_empty() {
+                let text = format!(
+                    "{} did not pass within {bound} of the arrival of the last",
+                    robot_list(&late)
+                );
+                found.push(Violation {
+                    property: PROGRESS.into(),
+                    at: due,
+                    robots: late,
+                    text,
+                });
+            }
+        }
+    }
+}
+
+impl Instance {
+    fn check_passing(
+        &self,
+        robot: RobotId,
+        generation: i64,
+        before: Option<i64>,
+        at: Time,
+        found: &mut Vec<Violation>,
+    ) {
+        let mut report = |robots: Vec<RobotId>, text: String| {
+            found.push(Violation {
+                property: SAFETY.into(),
+                at,
+                robots,
+                text,
+            });
+        };
+        if before.is_some_and(|before| before >= generation) {
+            let text = format!("robot {robot} passes generation {generation} again");
+            report(vec![robot], text);
+        }
+        let has_come = |peer: &RobotId| {
+            let place = self.robots.get(peer);
+            place.is_some_and(|place| place.is_unsure || place.come_to >= generation)
+        };
+        let all = self.participants.iter().copied();
+        let absent: Vec<RobotId> = all.filter(|peer| !has_come(peer)).collect();
+        if !absent.is_empty() {
+            let text = format!(
+                "robot {robot} passes generation {generation} before {} has come to it",
+                robot_list(&absent)
+            );
+            report([robot].into_iter().chain(absent).collect(), text);
+        }
+    }
+
+    /// A robot has lost all it knew. What it said before may still be known to others.
+    fn crashes(&mut self, robot: RobotId) {
+        self.rememberers.remove(&robot);
+        if let Some(place) = self.robots.get_mut(&robot) {
+            place.waits = None;
+            place.passed = None;
+        }
+        if self.rememberers.is_empty() {
+            self.begin_anew(0);
+        }
+    }
+
+    /// All have come to this generation, as far as can be told.
+    fn begin_anew(&mut self, generation: i64) {
+        for place in self.robots.values_mut() {
+            place.come_to = generation;
+            place.passed = None;
+        }
+    }
+
+    /// Those that wait although all had come by then, and were not reported before.
+    fn late(&mut self, health: &Health, by: Time) -> Vec<RobotId> {
+        let robots = self.robots.iter();
+        let waiting = robots.filter(|(_, place)| place.waits.is_some() && !place.is_reported);
+        let late: Vec<RobotId> = waiting
+            .filter(|(robot, place)| {
+                let mut others = self.participants.iter().filter(|other| other != robot);
+                health.well_from(**robot) <= by
+                    && place.waits.is_some_and(|arrived| arrived <= by)
+                    && others.all(|other| {
+                        health.well_from(*other) <= by && self.had_come(*other, place, by)
+                    })
+            })
+            .map(|(robot, _)| *robot)
+            .collect();
+        for robot in &late {
+            if let Some(place) = self.robots.get_mut(robot) {
+                place.is_reported = true;
+            }
+        }
+        late
+    }
+
+    /// Whether a robot had come to where another waits, or passed it, by then.
+    fn had_come(&self, other: RobotId, waiting: &Place, by: Time) -> bool {
+        let Some(place) = self.robots.get(&other) else {
+            return false;
+        };
+        let is_ahead = match waiting.is_unsure {
+            true => waiting.waits.is_some_and(|since| place.passed_at >= since),
+            false => place.passed >= Some(waiting.come_to),
+        };
+        place.waits.is_some_and(|arrived| arrived <= by)
+            || is_ahead && place.passed_at <= by && place.passed.is_some()
+    }
+}
+
+impl Checker for Barrier {
+    fn properties(&self) -> &'static [&'static str] {
+        &[SAFETY, PROGRESS]
+    }
+
+    fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
+        match &record.event {
+            Event::Primitive { .. } => {
+                if let Some(report) = Report::of(record, "barrier") {
+                    self.check_bounds(record.at, violations);
+                    self.reported(&report, violations);
+                }
+            }
+            Event::Fault(fault) => {
+                self.check_bounds(record.at, violations);
+                self.health.observe(record);
+                self.fault(record.at, record.robot, fault);
+            }
+            Event::Failed(_) => {
+                self.check_bounds(record.at, violations);
+                self.health.observe(record);
+                self.fault(record.at, record.robot, "failed");
+            }
+            _ => {}
+        }
+    }
+
+    fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
+        self.check_bounds(now, violations);
+    }
+}

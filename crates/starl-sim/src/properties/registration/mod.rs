@@ -1,0 +1,211 @@
+//! Registration (thesis, section 3.4.1): agreement, soundness and progress, and what lists exclude.
+//!
+//! Agreement, exclusion and soundness are judged at each moment, by what robots report of their own part:
+//! that they register and leave, accept a list, show it, show none. Progress and convergence are judged with
+//! a bound that runs from the last moment at which somebody came or left or a fault was on record, as each
+//! of these makes for another agreement.
+
+mod instance;
+
+use super::health::{Health, Needs};
+use super::report::Report;
+use super::{Checker, Setting, Violation, robot_list};
+use crate::scenario::Scenario;
+use instance::{Id, Instance};
+use starl_core::event::{Event, Value};
+use starl_core::{Duration, Port, Record, RobotId, Time};
+use std::collections::{BTreeMap, BTreeSet};
+
+const AGREEMENT: &str = "registration.agreement";
+const EXCLUSION: &str = "registration.exclusion";
+const SOUNDNESS: &str = "registration.soundness";
+const PROGRESS: &str = "registration.progress";
+const CONVERGENCE: &str = "registration.convergence";
+
+/// Watches all registrations.
+#[derive(Clone, Debug)]
+pub(super) struct Registration {
+    bound: Duration,
+    health: Health,
+    instances: BTreeMap<Port, Instance>,
+    /// When something is to be judged.
+    due: BTreeSet<(Time, Port)>,
+    /// When a fault was on record last.
+    disturbed: Time,
+    /// When some state was corrupted last.
+    corrupted: Option<Time>,
+    is_parted: bool,
+}
+
+impl Registration {
+    pub fn new(scenario: &Scenario, setting: &Setting) -> Registration {
+        let bound = scenario.properties.registration_bound;
+        Registration {
+            bound,
+            health: Health::new(setting.bodies.len(), Needs::Computing, bound),
+            instances: BTreeMap::new(),
+            due: BTreeSet::new(),
+            disturbed: Time::ZERO,
+            corrupted: None,
+            is_parted: false,
+        }
+    }
+
+    fn reported(&mut self, report: &Report<'_>, found: &mut Vec<Violation>) {
+        let Report {
+            at, robot, port, ..
+        } = *report;
+        // What a corruption made up is gone by then.
+        let is_disturbed = self.corrupted.is_some_and(|since| at < since + self.bound);
+        let instance = self.instances.entry(port).or_default();
+        match (report.name, id(report)) {
+            ("register", _) => {
+                let apart = match report.get("apart") {
+                    Some(&Value::Float(apart)) => apart,
+                    _ => 0.0,
+                };
+                instance.registers(robot, at, report.get("area").is_none(), apart);
+            }
+            ("unregister", _) => instance.leaves(robot, at),
+            ("lose", _) => instance.shows_none(robot, at),
+            ("propose" | "accept", Some(id)) => {
+                instance.accepts(robot, id, at, is_disturbed, found);
+            }
+            ("agree", Some(id)) => {
+                if let Some(Value::Robots(members)) = report.get("members") {
+                    instance.shows(robot, id, members, at, is_disturbed, found);
+                }
+            }
+            _ => return,
+        }
+        if instance.apart().is_empty() {
+            instance.in_common = at;
+            instance.is_reported = false;
+        }
+        self.due.insert((at + self.bound, port));
+    }
+
+    fn fault(&mut self, at: Time, robot: Option<RobotId>, fault: &str) {
+        self.disturbed = at;
+        match (robot, fault) {
+            (Some(robot), "crash" | "failed") => {
+                for instance in self.instances.values_mut() {
+                    instance.crashes(robot, at);
+                }
+            }
+            (Some(_), "corrupt state") => {
+                self.corrupted = Some(at);
+                self.instances.values_mut().for_each(Instance::doubts);
+            }
+            (None, "partition") => self.is_parted = true,
+            (None, "heal") => self.is_parted = false,
+            _ => {}
+        }
+        for &port in self.instances.keys() {
+            self.due.insert((at + self.bound, port));
+        }
+    }
+
+    /// Judges what is due before `now`.
+    fn check_bounds(&mut self, now: Time, found: &mut Vec<Violation>) {
+        while let Some(&(due, port)) = self.due.first().filter(|(due, _)| *due < now) {
+            self.due.remove(&(due, port));
+            let Some(instance) = self.instances.get_mut(&port) else {
+                continue;
+            };
+            let (bound, disturbed) = (self.bound, self.disturbed);
+            let mut late = Vec::new();
+            for (&robot, life) in &mut instance.robots {
+                if life.registered.is_none() || life.shown.is_some() || life.is_reported {
+                    continue;
+                }
+                let since = life
+                    .without
+                    .max(disturbed)
+                    .max(self.health.well_from(robot));
+                if since + bound <= due {
+                    life.is_reported = true;
+                    late.push(robot);
+                }
+            }
+            if !late.is_empty() {
+                let text = format!(
+                    "{} did not come to show a list within {bound}",
+                    robot_list(&late)
+                );
+                found.push(violation(PROGRESS, due, late, text));
+            }
+            let since = instance.changed.max(instance.in_common).max(disturbed);
+            if self.is_parted || instance.is_reported || since + bound > due {
+                continue;
+            }
+            let apart = instance.apart();
+            if !apart.is_empty() {
+                instance.is_reported = true;
+                let text = format!(
+                    "{} did not come to show the list of the others within {bound}",
+                    robot_list(&apart)
+                );
+                found.push(violation(CONVERGENCE, due, apart, text));
+            }
+        }
+    }
+}
+
+impl Checker for Registration {
+    fn properties(&self) -> &'static [&'static str] {
+        &[AGREEMENT, EXCLUSION, SOUNDNESS, PROGRESS, CONVERGENCE]
+    }
+
+    fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
+        match &record.event {
+            Event::Primitive { .. } => {
+                if let Some(report) = Report::of(record, "registration") {
+                    self.check_bounds(record.at, violations);
+                    self.reported(&report, violations);
+                }
+            }
+            Event::Fault(fault) => {
+                self.check_bounds(record.at, violations);
+                self.health.observe(record);
+                self.fault(record.at, record.robot, fault);
+            }
+            Event::Failed(_) => {
+                self.check_bounds(record.at, violations);
+                self.health.observe(record);
+                self.fault(record.at, record.robot, "failed");
+            }
+            _ => {}
+        }
+    }
+
+    fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
+        self.check_bounds(now, violations);
+    }
+}
+
+/// The list that an event is about.
+fn id(report: &Report<'_>) -> Option<Id> {
+    match ["time", "coordinator", "incarnation"].map(|field| report.get(field)) {
+        [
+            Some(&Value::Time(time)),
+            Some(&Value::Robot(coordinator)),
+            Some(&Value::Int(incarnation)),
+        ] => Some((time, coordinator, incarnation)),
+        _ => None,
+    }
+}
+
+fn violation(
+    property: &'static str,
+    at: Time,
+    robots: impl Into<Vec<RobotId>>,
+    text: String,
+) -> Violation {
+    Violation {
+        property: property.into(),
+        at,
+        robots: robots.into(),
+        text,
+    }
+}
