@@ -1,8 +1,8 @@
 //! The number that tells a robot's lives apart: what it said before a crash is not taken for what it says
 //! afterwards.
 
-use starl_core::random::hash_key;
 use starl_core::Robot;
+use starl_core::random::hash_key;
 
 /// Drawn when it is first needed, and kept until the robot starts again.
 #[derive(Clone, Copy, Debug, Default)]

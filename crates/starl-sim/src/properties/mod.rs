@@ -91,9 +91,6 @@ pub fn checkers(scenario: &Scenario, setting: &Setting) -> Vec<Box<dyn Checker>>
     if wanted.geocast {
         checkers.push(Box::new(geocast::Geocast::new(scenario, setting)));
     }
-    if wanted.register {
-        checkers.push(Box::new(register::Register::default()));
-    }
     if wanted.shared_memory {
         checkers.push(Box::new(shared_memory::SharedMemory::new(
             scenario, setting,
@@ -102,6 +99,9 @@ pub fn checkers(scenario: &Scenario, setting: &Setting) -> Vec<Box<dyn Checker>>
     }
     if wanted.election {
         checkers.push(Box::new(election::Election::new(scenario, setting)));
+    }
+    if wanted.register {
+        checkers.push(Box::new(register::Register::default()));
     }
     if wanted.mutex {
         checkers.push(Box::new(mutex::Mutex::new(scenario, setting)));
