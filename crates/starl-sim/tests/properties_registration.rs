@@ -165,7 +165,7 @@ fn who_waits_too_long() {
     agree(&mut story, 400, (400, 0, &[0]));
     let found = story.verdict(15_000);
     let found: Vec<&str> = found.iter().map(|violation| &*violation.property).collect();
-    assert_eq!(found, ["registration.progress", "registration.convergence"]);
+    assert_eq!(found, ["registration.convergence", "registration.progress"]);
 }
 
 #[test]

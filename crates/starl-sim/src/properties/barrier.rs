@@ -10,7 +10,7 @@ use super::{Checker, Setting, Violation, robot_list};
 use crate::scenario::Scenario;
 use starl_core::event::{Event, Value};
 use starl_core::{Duration, Port, Record, RobotId, Time};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 const SAFETY: &str = "barrier.safety";
 const PROGRESS: &str = "barrier.progress";
@@ -27,6 +27,11 @@ pub(super) struct Barrier {
     disturbed: Time,
     corrupted: Option<Time>,
     is_parted: bool,
+    /// What was found, as long as a fault that excuses it may be on record later: faults take effect at the
+    /// beginning of the step in which they are recorded.
+    pending: VecDeque<Violation>,
+    /// How long that is.
+    step: Duration,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -40,7 +45,7 @@ struct Instance {
 /// Where a robot is.
 #[derive(Clone, Copy, Debug, Default)]
 struct Place {
-    /// The latest generation that it has waited for, in any life.
+    /// The generation that it waited for last, in any life.
     come_to: i64,
     /// It has come, and does not know to which generation.
     is_unsure: bool,
@@ -64,10 +69,12 @@ impl Barrier {
             disturbed: Time::ZERO,
             corrupted: None,
             is_parted: false,
+            pending: VecDeque::new(),
+            step: scenario.physics.step,
         }
     }
 
-    fn reported(&mut self, report: &Report<'_>, found: &mut Vec<Violation>) {
+    fn reported(&mut self, report: &Report<'_>) {
         let Report {
             at, robot, port, ..
         } = *report;
@@ -90,17 +97,14 @@ impl Barrier {
             }
             "wait" => {
                 place.is_unsure = false;
-                place.come_to = place.come_to.max(generation);
+                place.come_to = generation;
             }
             "pass" => {
                 let before = place.passed.replace(generation);
                 place.waits = None;
                 place.passed_at = at;
-                if is_disturbed {
-                    // As far as can be told, all are where this robot is.
-                    instance.begin_anew(generation);
-                } else {
-                    instance.check_passing(robot, generation, before, at, found);
+                if !is_disturbed {
+                    instance.check_passing(robot, generation, before, at, &mut self.pending);
                 }
             }
             _ => return,
@@ -110,6 +114,11 @@ impl Barrier {
 
     fn fault(&mut self, at: Time, robot: Option<RobotId>, fault: &str) {
         self.disturbed = at;
+        let concerned = |violation: &Violation| match robot {
+            Some(robot) => fault == "corrupt state" || violation.robots.contains(&robot),
+            None => false,
+        };
+        self.pending.retain(|violation| !concerned(violation));
         match (robot, fault) {
             (Some(robot), "crash" | "failed") => {
                 for instance in self.instances.values_mut() {
@@ -117,12 +126,28 @@ impl Barrier {
                 }
             }
             (Some(_), "corrupt state") => self.corrupted = Some(at),
+            _ => {}
+        }
+        if self.corrupted.is_some_and(|since| at < since + self.bound) {
+            // What was made up may outlast what keeps robots from each other.
+            self.corrupted = Some(at);
+        }
+        match (robot, fault) {
             (None, "partition") => self.is_parted = true,
             (None, "heal") => self.is_parted = false,
             _ => {}
         }
         for &port in self.instances.keys() {
             self.due.insert((at + self.bound, port));
+        }
+    }
+
+    /// Time has come to `now`.
+    fn pass(&mut self, now: Time, found: &mut Vec<Violation>) {
+        self.check_bounds(now, found);
+        let step = self.step;
+        while let Some(violation) = self.pending.pop_front_if(|found| found.at + step < now) {
+            found.push(violation);
         }
     }
 
@@ -161,10 +186,10 @@ impl Instance {
         generation: i64,
         before: Option<i64>,
         at: Time,
-        found: &mut Vec<Violation>,
+        found: &mut VecDeque<Violation>,
     ) {
         let mut report = |robots: Vec<RobotId>, text: String| {
-            found.push(Violation {
+            found.push_back(Violation {
                 property: SAFETY.into(),
                 at,
                 robots,
@@ -198,15 +223,7 @@ impl Instance {
             place.passed = None;
         }
         if self.rememberers.is_empty() {
-            self.begin_anew(0);
-        }
-    }
-
-    /// All have come to this generation, as far as can be told.
-    fn begin_anew(&mut self, generation: i64) {
-        for place in self.robots.values_mut() {
-            place.come_to = generation;
-            place.passed = None;
+            self.robots.clear();
         }
     }
 
@@ -256,17 +273,17 @@ impl Checker for Barrier {
         match &record.event {
             Event::Primitive { .. } => {
                 if let Some(report) = Report::of(record, "barrier") {
-                    self.check_bounds(record.at, violations);
-                    self.reported(&report, violations);
+                    self.pass(record.at, violations);
+                    self.reported(&report);
                 }
             }
             Event::Fault(fault) => {
-                self.check_bounds(record.at, violations);
+                self.pass(record.at, violations);
                 self.health.observe(record);
                 self.fault(record.at, record.robot, fault);
             }
             Event::Failed(_) => {
-                self.check_bounds(record.at, violations);
+                self.pass(record.at, violations);
                 self.health.observe(record);
                 self.fault(record.at, record.robot, "failed");
             }
@@ -275,6 +292,6 @@ impl Checker for Barrier {
     }
 
     fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
-        self.check_bounds(now, violations);
+        self.pass(now, violations);
     }
 }

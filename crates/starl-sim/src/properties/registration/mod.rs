@@ -14,7 +14,7 @@ use crate::scenario::Scenario;
 use instance::{Id, Instance};
 use starl_core::event::{Event, Value};
 use starl_core::{Duration, Port, Record, RobotId, Time};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 const AGREEMENT: &str = "registration.agreement";
 const EXCLUSION: &str = "registration.exclusion";
@@ -32,9 +32,14 @@ pub(super) struct Registration {
     due: BTreeSet<(Time, Port)>,
     /// When a fault was on record last.
     disturbed: Time,
-    /// When some state was corrupted last.
+    /// When some state was corrupted last, or what that made up was kept alive by another fault.
     corrupted: Option<Time>,
     is_parted: bool,
+    /// What was found, as long as a fault that excuses it may be on record later: faults take effect at the
+    /// beginning of the step in which they are recorded.
+    pending: VecDeque<Violation>,
+    /// How long that is.
+    step: Duration,
 }
 
 impl Registration {
@@ -48,16 +53,19 @@ impl Registration {
             disturbed: Time::ZERO,
             corrupted: None,
             is_parted: false,
+            pending: VecDeque::new(),
+            step: scenario.physics.step,
         }
     }
 
-    fn reported(&mut self, report: &Report<'_>, found: &mut Vec<Violation>) {
+    fn reported(&mut self, report: &Report<'_>) {
         let Report {
             at, robot, port, ..
         } = *report;
         // What a corruption made up is gone by then.
         let is_disturbed = self.corrupted.is_some_and(|since| at < since + self.bound);
         let instance = self.instances.entry(port).or_default();
+        let found = &mut self.pending;
         match (report.name, id(report)) {
             ("register", _) => {
                 let apart = match report.get("apart") {
@@ -87,6 +95,11 @@ impl Registration {
 
     fn fault(&mut self, at: Time, robot: Option<RobotId>, fault: &str) {
         self.disturbed = at;
+        let concerned = |violation: &Violation| match robot {
+            Some(robot) => fault == "corrupt state" || violation.robots.contains(&robot),
+            None => false,
+        };
+        self.pending.retain(|violation| !concerned(violation));
         match (robot, fault) {
             (Some(robot), "crash" | "failed") => {
                 for instance in self.instances.values_mut() {
@@ -97,12 +110,28 @@ impl Registration {
                 self.corrupted = Some(at);
                 self.instances.values_mut().for_each(Instance::doubts);
             }
+            _ => {}
+        }
+        if self.corrupted.is_some_and(|since| at < since + self.bound) {
+            // What was made up may outlast what keeps robots from each other.
+            self.corrupted = Some(at);
+        }
+        match (robot, fault) {
             (None, "partition") => self.is_parted = true,
             (None, "heal") => self.is_parted = false,
             _ => {}
         }
         for &port in self.instances.keys() {
             self.due.insert((at + self.bound, port));
+        }
+    }
+
+    /// Time has come to `now`.
+    fn pass(&mut self, now: Time, found: &mut Vec<Violation>) {
+        self.check_bounds(now, found);
+        let step = self.step;
+        while let Some(violation) = self.pending.pop_front_if(|found| found.at + step < now) {
+            found.push(violation);
         }
     }
 
@@ -161,17 +190,17 @@ impl Checker for Registration {
         match &record.event {
             Event::Primitive { .. } => {
                 if let Some(report) = Report::of(record, "registration") {
-                    self.check_bounds(record.at, violations);
-                    self.reported(&report, violations);
+                    self.pass(record.at, violations);
+                    self.reported(&report);
                 }
             }
             Event::Fault(fault) => {
-                self.check_bounds(record.at, violations);
+                self.pass(record.at, violations);
                 self.health.observe(record);
                 self.fault(record.at, record.robot, fault);
             }
             Event::Failed(_) => {
-                self.check_bounds(record.at, violations);
+                self.pass(record.at, violations);
                 self.health.observe(record);
                 self.fault(record.at, record.robot, "failed");
             }
@@ -180,7 +209,7 @@ impl Checker for Registration {
     }
 
     fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
-        self.check_bounds(now, violations);
+        self.pass(now, violations);
     }
 }
 
