@@ -6,12 +6,17 @@
 //! on any number of threads and on any target.
 
 pub mod engine;
+pub mod profile;
 pub mod properties;
 pub mod read;
 pub mod run;
 pub mod scenario;
+pub mod shrink;
+pub mod trial;
 pub mod write;
 
 pub use engine::Simulation;
+pub use profile::Profile;
 pub use run::{Failure, Outcome, Run, Verdict};
 pub use scenario::Scenario;
+pub use trial::{Finding, Trial};

@@ -103,20 +103,8 @@ impl Run {
     /// Advances by one physics step and returns what happened, violations included.
     pub fn step(&mut self) -> &[Record] {
         let before = self.simulation.now();
-        self.simulation.step();
         let known = self.violations.len();
-        for checker in &mut self.checkers {
-            for record in self.simulation.records() {
-                checker.observe(record, &mut self.violations);
-            }
-            checker.advance(self.simulation.now(), &mut self.violations);
-        }
-        let witness = Witness::new(&self.simulation);
-        for monitor in &mut self.monitors {
-            monitor.observe(&witness, &mut self.violations);
-        }
-        self.failures
-            .extend(self.simulation.records().iter().filter_map(Failure::of));
+        self.advance();
         self.records.clear();
         self.records.extend_from_slice(self.simulation.records());
         self.records
@@ -133,6 +121,23 @@ impl Run {
             self.records.sort_by_key(|record| record.at);
         }
         &self.records
+    }
+
+    /// Advances by one physics step for those who do not want to know what happened in it.
+    pub fn advance(&mut self) {
+        self.simulation.step();
+        for checker in &mut self.checkers {
+            for record in self.simulation.records() {
+                checker.observe(record, &mut self.violations);
+            }
+            checker.advance(self.simulation.now(), &mut self.violations);
+        }
+        let witness = Witness::new(&self.simulation);
+        for monitor in &mut self.monitors {
+            monitor.observe(&witness, &mut self.violations);
+        }
+        self.failures
+            .extend(self.simulation.records().iter().filter_map(Failure::of));
     }
 
     /// Whether the run has come to its end.

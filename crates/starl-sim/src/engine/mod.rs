@@ -15,6 +15,7 @@ mod shared;
 mod simulation;
 mod timers;
 
+pub use fault::timeline;
 pub use record::Tally;
 pub use simulation::{Programs, Progress, Simulation, StartError};
 

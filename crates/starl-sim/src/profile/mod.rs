@@ -1,0 +1,196 @@
+//! Fault profiles: what a search for violations makes of a scenario.
+//!
+//! A profile is a function of a scenario, a span of time and a seed to a scenario. The faults that it adds
+//! are an explicit list, drawn from the seed, so that a run that fails can be shrunk by leaving some out;
+//! faults that the scenario itself has at random rates are drawn into the same list. Within the first three
+//! quarters of the span everything sets in and everything that mends is mended: what follows is calm, so
+//! that what is promised after faults can be asked for.
+//!
+//! Every profile draws from a stream of its own, and what it draws does not depend on the run.
+
+mod clocks;
+mod corruption;
+mod crashes;
+mod network;
+mod partitions;
+
+use crate::Scenario;
+use crate::engine;
+use crate::scenario::{Fault, FaultKind, FaultRates};
+use starl_core::{Duration, Random, RobotId, Time};
+
+/// Names the draws of profiles among all draws from the seed.
+const PURPOSE: u64 = 0x7072_6f66_696c_6500; // "profile"
+
+/// What kind of trouble there is. The reference is `docs/reference/testing.md`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Profile {
+    /// None but what the scenario has itself.
+    Calm,
+    /// Datagrams are lost, doubled, held back and delayed.
+    Lossy,
+    /// The network parts and heals.
+    Partitions,
+    /// Robots crash; most of them restart. A majority is up at any time.
+    Crashes,
+    /// Clocks are apart and run at different rates.
+    Clocks,
+    /// Most of the above at once.
+    Chaos,
+    /// Variables are overwritten at random.
+    Corruption,
+}
+
+impl Profile {
+    /// Every profile.
+    pub const ALL: [Profile; 7] = [
+        Profile::Calm,
+        Profile::Lossy,
+        Profile::Partitions,
+        Profile::Crashes,
+        Profile::Clocks,
+        Profile::Chaos,
+        Profile::Corruption,
+    ];
+
+    /// Those under which primitives keep their safety: all but the corruption of state.
+    pub const USUAL: [Profile; 6] = [
+        Profile::Calm,
+        Profile::Lossy,
+        Profile::Partitions,
+        Profile::Crashes,
+        Profile::Clocks,
+        Profile::Chaos,
+    ];
+
+    /// What it is called on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Profile::Calm => "calm",
+            Profile::Lossy => "lossy",
+            Profile::Partitions => "partitions",
+            Profile::Crashes => "crashes",
+            Profile::Clocks => "clocks",
+            Profile::Chaos => "chaos",
+            Profile::Corruption => "corruption",
+        }
+    }
+
+    /// The profile of this name.
+    pub fn by_name(name: &str) -> Option<Profile> {
+        Profile::ALL
+            .into_iter()
+            .find(|profile| profile.name() == name)
+    }
+
+    /// Whether a run is to reach its goal all the same. Where robots crash, some never restart, and those
+    /// that wait for them may wait for ever; where state is corrupted, a program may have lost its way.
+    pub fn demands_goal(self) -> bool {
+        match self {
+            Profile::Calm | Profile::Lossy | Profile::Partitions | Profile::Clocks => true,
+            Profile::Crashes | Profile::Chaos | Profile::Corruption => false,
+        }
+    }
+
+    /// The scenario with the trouble that `seed` draws, and with that seed. What sets in does so within
+    /// `span`, best about as long as the run takes when nothing is wrong.
+    pub fn apply(self, scenario: &Scenario, span: Duration, seed: u64) -> Scenario {
+        let mut changed = Scenario {
+            seed,
+            ..scenario.clone()
+        };
+        list_faults(&mut changed);
+        let mut trouble = Trouble {
+            random: Random::keyed(seed, &[PURPOSE, self as u64]),
+            until: Time::ZERO + span.min(scenario.duration) * 3 / 4,
+            scenario: &mut changed,
+        };
+        match self {
+            Profile::Calm => {}
+            Profile::Lossy => network::lossy(&mut trouble),
+            Profile::Partitions => partitions::part(&mut trouble),
+            Profile::Crashes => crashes::crash(&mut trouble),
+            Profile::Clocks => clocks::set_wrong(&mut trouble),
+            Profile::Chaos => chaos(&mut trouble),
+            Profile::Corruption => corruption::corrupt(&mut trouble),
+        }
+        // Faults of one time keep their order.
+        changed.faults.schedule.sort_by_key(|fault| fault.at);
+        changed
+    }
+}
+
+/// Each kind of trouble three times out of four.
+fn chaos(trouble: &mut Trouble<'_>) {
+    let kinds: [fn(&mut Trouble<'_>); 4] = [
+        network::lossy,
+        partitions::part,
+        crashes::crash,
+        clocks::set_wrong,
+    ];
+    for kind in kinds {
+        if trouble.random.chance(0.75) {
+            kind(trouble);
+        }
+    }
+}
+
+/// A scenario that gets into trouble.
+struct Trouble<'a> {
+    scenario: &'a mut Scenario,
+    random: Random,
+    /// All that mends is mended by then.
+    until: Time,
+}
+
+impl Trouble<'_> {
+    fn robots(&self) -> Vec<RobotId> {
+        (0..self.scenario.fleet.len() as u32).map(RobotId).collect()
+    }
+
+    fn add(&mut self, at: Time, kind: FaultKind) {
+        self.scenario.faults.schedule.push(Fault { at, kind });
+    }
+
+    /// A moment before everything is mended, in whole milliseconds.
+    fn moment(&mut self) -> Time {
+        Time::ZERO + self.span(0.0, 1.0)
+    }
+
+    /// A span of time, as a fraction of the time in which there is trouble, in whole milliseconds.
+    fn span(&mut self, least: f64, most: f64) -> Duration {
+        let millis = self.random.between(least, most) * self.until.seconds() * 1e3;
+        Duration::from_millis(millis as u64)
+    }
+
+    /// A number within bounds, to the hundredth, so that it is easy to read.
+    fn hundredths(&mut self, low: f64, high: f64) -> f64 {
+        (self.random.between(low, high) * 100.0).round() / 100.0
+    }
+
+    /// From `low` to `high`, both included.
+    fn count(&mut self, low: u32, high: u32) -> u32 {
+        low + self.random.below(high.saturating_sub(low) + 1)
+    }
+
+    /// Some of these, in random order (Fisher and Yates 1938).
+    fn some<T>(&mut self, mut all: Vec<T>, count: usize) -> Vec<T> {
+        for place in 0..count.min(all.len()) {
+            let left = (all.len() - place) as u32;
+            let drawn = place + self.random.below(left) as usize;
+            all.swap(place, drawn);
+        }
+        all.truncate(count);
+        all
+    }
+}
+
+/// Draws the faults that a scenario has at random rates, so that all it has are on its list. The run
+/// stays the same.
+pub fn list_faults(scenario: &mut Scenario) {
+    let end = Time::ZERO + scenario.duration;
+    let mut schedule = engine::timeline(scenario);
+    schedule.retain(|fault| fault.at < end);
+    scenario.faults.schedule = schedule;
+    scenario.faults.rates = FaultRates::default();
+}

@@ -1,0 +1,30 @@
+//! Datagrams are lost, doubled, held back and delayed.
+
+use super::Trouble;
+use crate::scenario::{DelayDistribution, Link};
+use starl_core::Duration;
+
+/// Makes all links worse that the scenario does not describe one by one: 2 to 30 % loss, up to 20 %
+/// duplication, up to 30 % held back by up to half a second, and delays of up to 100 ms on average whose
+/// spread is anything from none to the delay itself.
+pub(super) fn lossy(trouble: &mut Trouble<'_>) {
+    let delay = Duration::from_millis(trouble.count(5, 100).into());
+    let jitter =
+        Duration::from_millis((delay.seconds() * 1e3 * trouble.hundredths(0.0, 1.0)) as u64);
+    let worse = Link {
+        delay,
+        jitter,
+        distribution: DelayDistribution::Exponential,
+        loss: trouble.hundredths(0.02, 0.3),
+        duplication: trouble.hundredths(0.0, 0.2),
+        reordering: trouble.hundredths(0.0, 0.3),
+        reordering_delay: Duration::from_millis(trouble.count(20, 500).into()),
+    };
+    let link = &mut trouble.scenario.network.link;
+    *link = Link {
+        loss: worse.loss.max(link.loss),
+        duplication: worse.duplication.max(link.duplication),
+        reordering: worse.reordering.max(link.reordering),
+        ..worse
+    };
+}

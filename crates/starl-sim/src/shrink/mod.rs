@@ -1,0 +1,221 @@
+//! Makes a scenario that fails as small as it can be while it still fails: fewer robots, fewer faults, a
+//! shorter run, a milder network, clocks that are right, an emptier world.
+//!
+//! Every step proposes a smaller scenario and keeps it if it fails in the same way. Lists are reduced by
+//! delta debugging (Zeller and Hildebrandt 2002, "Simplifying and Isolating Failure-Inducing Input"), all
+//! kinds of steps in turn until none is of use any more, so that what is left is minimal in this sense:
+//! no single robot, fault or trouble of the network can be left out. That holds for the seeds that were
+//! tried: as fewer robots draw other numbers, a few seeds are tried where the first does not do.
+//!
+//! What fails is for the caller to say; nothing here runs anything.
+
+mod delta;
+mod faults;
+mod milder;
+mod robots;
+
+use crate::{Scenario, profile};
+use delta::minimise;
+use starl_core::{Duration, Time};
+
+pub use robots::keep_robots;
+
+/// How long to go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Smaller scenarios that are tried at most; default 1,000.
+    pub trials: u64,
+    /// Seeds tried besides the first where robots are left out; default 20.
+    pub seeds: u64,
+}
+
+impl Default for Limits {
+    fn default() -> Limits {
+        Limits {
+            trials: 1_000,
+            seeds: 20,
+        }
+    }
+}
+
+/// What came of shrinking.
+#[derive(Clone, Debug)]
+pub struct Shrunk {
+    /// The smallest scenario that was found to fail.
+    pub scenario: Scenario,
+    /// How many scenarios were tried.
+    pub trials: u64,
+    /// Whether nothing can be left out any more; the limit came first otherwise.
+    pub is_minimal: bool,
+}
+
+/// The smallest scenario that fails as `scenario` does. `fails` runs one and says when it failed in that
+/// way; none if it did not. With `shorter` the run is cut off when it fails, which makes no sense where the
+/// failure is that something did not happen.
+///
+/// Gives none if the scenario does not fail at all.
+pub fn shrink(
+    scenario: &Scenario,
+    limits: Limits,
+    shorter: bool,
+    fails: &mut dyn FnMut(&Scenario) -> Option<Time>,
+) -> Option<Shrunk> {
+    let mut best = scenario.clone();
+    profile::list_faults(&mut best);
+    faults::one_by_one(&mut best);
+    let failed_at = fails(&best)?;
+    let mut search = Search {
+        best,
+        failed_at,
+        limits,
+        trials: 1,
+        shorter,
+        fails,
+    };
+    let mut is_minimal = false;
+    while !is_minimal && !search.is_exhausted() {
+        is_minimal = !search.round();
+    }
+    let is_minimal = is_minimal && !search.is_exhausted();
+    Some(Shrunk {
+        scenario: search.best,
+        trials: search.trials,
+        is_minimal,
+    })
+}
+
+/// The scenario with another duration, without the faults that come later.
+fn lasting(scenario: &Scenario, duration: Duration) -> Scenario {
+    let mut shorter = scenario.clone();
+    shorter.duration = duration;
+    let end = Time::ZERO + duration;
+    shorter.faults.schedule.retain(|fault| fault.at < end);
+    shorter
+}
+
+/// The search for the smallest scenario.
+struct Search<'a> {
+    /// The smallest that fails, so far.
+    best: Scenario,
+    /// When it does.
+    failed_at: Time,
+    limits: Limits,
+    trials: u64,
+    shorter: bool,
+    fails: &'a mut dyn FnMut(&Scenario) -> Option<Time>,
+}
+
+impl Search<'_> {
+    /// Tries every kind of step once; whether any was of use.
+    fn round(&mut self) -> bool {
+        // Robots go first, and the length last: fewer robots may need longer to fail.
+        let steps: [fn(&mut Self) -> bool; 7] = [
+            Search::fewer_robots,
+            Search::fewer_faults,
+            Search::milder,
+            Search::emptier,
+            Search::cut,
+            Search::sooner,
+            Search::rounder,
+        ];
+        let mut any = false;
+        for step in steps {
+            any |= step(self);
+        }
+        any
+    }
+
+    fn is_exhausted(&self) -> bool {
+        self.trials >= self.limits.trials
+    }
+
+    /// Keeps the candidate if it fails.
+    fn propose(&mut self, candidate: Scenario) -> bool {
+        if self.is_exhausted() {
+            return false;
+        }
+        self.trials += 1;
+        let failed_at = (self.fails)(&candidate);
+        if let Some(at) = failed_at {
+            (self.best, self.failed_at) = (candidate, at);
+        }
+        failed_at.is_some()
+    }
+
+    /// The same with other seeds, should it not do with its own.
+    fn propose_with_seeds(&mut self, candidate: &Scenario) -> bool {
+        let seeds = [candidate.seed].into_iter().chain(1..=self.limits.seeds);
+        for seed in seeds {
+            let mut candidate = candidate.clone();
+            candidate.seed = seed;
+            if self.propose(candidate) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Ends the run when it fails.
+    fn cut(&mut self) -> bool {
+        let duration = self.failed_at.since(Time::ZERO).max(Duration(1));
+        if !self.shorter || duration >= self.best.duration {
+            return false;
+        }
+        let candidate = lasting(&self.best, duration);
+        self.propose(candidate)
+    }
+
+    /// Looks for a seed with which the run fails in half the time.
+    fn sooner(&mut self) -> bool {
+        let half = self.best.duration / 2;
+        if !self.shorter || half.is_zero() {
+            return false;
+        }
+        let candidate = lasting(&self.best, half);
+        self.propose_with_seeds(&candidate)
+    }
+
+    fn fewer_robots(&mut self) -> bool {
+        let base = self.best.clone();
+        let all: Vec<usize> = (0..base.fleet.len()).collect();
+        let kept = minimise(&all, &mut |kept| {
+            if kept.is_empty() {
+                return false;
+            }
+            let mut candidate = keep_robots(&base, kept);
+            (candidate.seed, candidate.duration) = (self.best.seed, self.best.duration);
+            self.propose_with_seeds(&candidate)
+        });
+        kept.len() < all.len()
+    }
+
+    fn fewer_faults(&mut self) -> bool {
+        let base = self.best.faults.schedule.clone();
+        let kept = minimise(&base, &mut |kept| {
+            let mut candidate = self.best.clone();
+            candidate.faults.schedule = kept.to_vec();
+            self.propose(candidate)
+        });
+        kept.len() < base.len()
+    }
+
+    fn emptier(&mut self) -> bool {
+        let base = self.best.world.obstacles.clone();
+        let kept = minimise(&base, &mut |kept| {
+            let mut candidate = self.best.clone();
+            candidate.world.obstacles = kept.to_vec();
+            self.propose(candidate)
+        });
+        kept.len() < base.len()
+    }
+
+    /// Tries changes one after the other, each on what the ones before have left.
+    fn each<T>(&mut self, changes: &[T], change: impl Fn(&T, &mut Scenario) -> bool) -> bool {
+        let mut any = false;
+        for wanted in changes {
+            let mut candidate = self.best.clone();
+            any |= change(wanted, &mut candidate) && self.propose(candidate);
+        }
+        any
+    }
+}

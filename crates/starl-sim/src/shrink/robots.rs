@@ -1,0 +1,83 @@
+//! A scenario with fewer robots.
+
+use crate::Scenario;
+use crate::scenario::{Fault, FaultKind, LinkOverride};
+use starl_core::RobotId;
+
+/// The scenario with only these of its robots, by number and in ascending order. They are numbered through
+/// anew, and so are the names within a group; faults and links of the others go with them. What the
+/// parameters of programs say of robots stays as it is.
+pub fn keep_robots(scenario: &Scenario, kept: &[usize]) -> Scenario {
+    let mut smaller = scenario.clone();
+    let mut number = 0;
+    for group in &mut smaller.fleet.groups {
+        group.starts.retain(|_| {
+            number += 1;
+            kept.binary_search(&(number - 1)).is_ok()
+        });
+    }
+    smaller
+        .fleet
+        .groups
+        .retain(|group| !group.starts.is_empty());
+    let new = |robots: &[RobotId]| -> Vec<RobotId> {
+        let new = robots
+            .iter()
+            .filter_map(|robot| kept.binary_search(&robot.index()).ok());
+        new.map(|number| RobotId(number as u32)).collect()
+    };
+    let schedule = scenario.faults.schedule.iter();
+    smaller.faults.schedule = schedule
+        .filter_map(|fault| renumbered(fault, &new))
+        .collect();
+    let overrides = scenario.network.overrides.iter();
+    let overrides = overrides.filter_map(|entry| {
+        let of = |robots: &Option<Vec<RobotId>>| robots.as_deref().map(new);
+        let (from, to) = (of(&entry.from), of(&entry.to));
+        let is_of_nobody =
+            |robots: &Option<Vec<RobotId>>| robots.as_ref().is_some_and(Vec::is_empty);
+        (!is_of_nobody(&from) && !is_of_nobody(&to)).then_some(LinkOverride {
+            from,
+            to,
+            link: entry.link,
+        })
+    });
+    smaller.network.overrides = overrides.collect();
+    if let Some(avoidance) = &mut smaller.motion.avoidance {
+        // As the reader of scenarios has it.
+        let radii = smaller
+            .fleet
+            .groups
+            .iter()
+            .map(|group| group.model.body().radius);
+        avoidance.largest_radius = radii.fold(0.0, f64::max);
+    }
+    smaller
+}
+
+/// A fault of robots with new numbers; none if it is nobody's any more.
+fn renumbered(fault: &Fault, new: &dyn Fn(&[RobotId]) -> Vec<RobotId>) -> Option<Fault> {
+    let kind = match &fault.kind {
+        FaultKind::Crash(robots) => FaultKind::Crash(new(robots)),
+        FaultKind::Restart(robots) => FaultKind::Restart(new(robots)),
+        FaultKind::StuckMotor(robots) => FaultKind::StuckMotor(new(robots)),
+        FaultKind::FrozenSensor(robots) => FaultKind::FrozenSensor(new(robots)),
+        FaultKind::Repair(robots) => FaultKind::Repair(new(robots)),
+        FaultKind::CorruptState(robots) => FaultKind::CorruptState(new(robots)),
+        FaultKind::Heal => FaultKind::Heal,
+        FaultKind::Partition(parts) => {
+            let parts = parts.iter().map(|part| new(part));
+            FaultKind::Partition(parts.filter(|part| !part.is_empty()).collect())
+        }
+    };
+    let is_nobodys = match &kind {
+        FaultKind::Heal | FaultKind::Partition(_) => false,
+        FaultKind::Crash(robots)
+        | FaultKind::Restart(robots)
+        | FaultKind::StuckMotor(robots)
+        | FaultKind::FrozenSensor(robots)
+        | FaultKind::Repair(robots)
+        | FaultKind::CorruptState(robots) => robots.is_empty(),
+    };
+    (!is_nobodys).then_some(Fault { at: fault.at, kind })
+}

@@ -1,0 +1,81 @@
+//! A run whose only question is what goes wrong: it ends as soon as anything does.
+
+use crate::run::{Outcome, Run};
+use starl_core::Time;
+use starl_core::event::Name;
+use std::fmt;
+
+/// What went wrong in a run.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Finding {
+    /// This property was violated.
+    Violated(Name),
+    /// A program could not go on.
+    Failed,
+    /// The time was up before the goal was reached, or no robot was left.
+    Unreached,
+}
+
+/// What came of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trial {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// What went wrong first.
+    pub finding: Option<Finding>,
+    /// What was seen, in a sentence; empty where nothing went wrong.
+    pub text: String,
+    /// When the run ended.
+    pub end: Time,
+}
+
+impl Trial {
+    /// Lets the run go on to its end, or until something goes wrong. Whether a goal that is not reached
+    /// is wrong is for the caller to say.
+    pub fn of(run: &mut Run, demands_goal: bool) -> Trial {
+        while !run.is_over() && run.violations().is_empty() && run.failures().is_empty() {
+            run.advance();
+        }
+        let (outcome, finding, text) = if let Some(violation) = run.violations().first() {
+            let finding = Finding::Violated(violation.property.clone());
+            (Outcome::Violated, Some(finding), violation.text.clone())
+        } else if let Some(failure) = run.failures().first() {
+            let text = format!("robot {}: {}", failure.robot, failure.text);
+            (Outcome::Failed, Some(Finding::Failed), text)
+        } else {
+            let outcome = run.outcome();
+            let missed = demands_goal && outcome != Outcome::Reached;
+            let text = match missed {
+                true => unreached(run),
+                false => String::new(),
+            };
+            (outcome, missed.then_some(Finding::Unreached), text)
+        };
+        Trial {
+            outcome,
+            finding,
+            text,
+            end: run.simulation().now(),
+        }
+    }
+}
+
+fn unreached(run: &Run) -> String {
+    let progress = run.simulation().progress();
+    format!(
+        "{} of {} robots that are up have finished within {}",
+        progress.finished,
+        progress.up,
+        run.simulation().scenario().duration
+    )
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Finding::Violated(property) => f.write_str(property),
+            Finding::Failed => f.write_str("a program failed"),
+            Finding::Unreached => f.write_str("the goal was not reached"),
+        }
+    }
+}
