@@ -192,12 +192,40 @@ impl Example {
     }
 }
 
+/// What names of examples' files begin with where they stand in other scenarios: `example:race/race.starl`.
+const GLOBAL: &str = "example:";
+
+/// A loader that knows the files of all examples by their names besides what it has from another, which
+/// goes before.
+pub(crate) struct WithExamples<'a>(pub &'a dyn Loader);
+
+impl Loader for WithExamples<'_> {
+    fn load(&self, path: &str) -> Result<Vec<u8>, String> {
+        let found = self.0.load(path);
+        let global = path
+            .strip_prefix(GLOBAL)
+            .and_then(|name| name.split_once('/'));
+        match (found, global) {
+            (Err(_), Some((name, path))) => match find(name) {
+                Some(example) => example.load(path),
+                None => Err(format!("there is no example {name:?}")),
+            },
+            (found, _) => found,
+        }
+    }
+}
+
 /// The example of this name.
 pub fn find(name: &str) -> Option<&'static Example> {
     EXAMPLES.iter().find(|example| example.name == name)
 }
 
 impl Example {
+    /// The name by which any scenario can name one of its files.
+    pub fn global_name(&self, path: &str) -> String {
+        format!("{GLOBAL}{}/{path}", self.name)
+    }
+
     /// Its scenario. The example itself loads the files that the scenario names.
     pub fn source(&self) -> Source {
         Source::new(self.path, self.text)

@@ -3,6 +3,7 @@
 //! Invariant: a scenario that [`read`] returns can be started: its programs exist, are compiled if
 //! they are in the StarL language, and take the parameters that it gives them.
 
+use crate::examples::WithExamples;
 use crate::language::{Findings, Programs};
 use crate::parameters::Complaint;
 use crate::programs;
@@ -10,7 +11,7 @@ use starl_core::Program;
 use starl_lang::diagnostic::Colour;
 use starl_sim::engine::StartError;
 use starl_sim::read::{self, Loader, Problem, Problems, Request, Resolved};
-use starl_sim::scenario::Group;
+use starl_sim::scenario::{Fleet, Group};
 use starl_sim::{Run, Scenario, Simulation};
 use std::fmt;
 
@@ -36,6 +37,7 @@ pub struct Refusal {
 /// # Errors
 /// All that is wrong with it.
 pub fn read(request: &Request, loader: &dyn Loader) -> Result<Application, Refusal> {
+    let loader = &WithExamples(loader);
     let mut resolved = read::scenario(request, loader)?;
     let (programs, review) = Programs::compile(&mut resolved, loader);
     let mut problems: Vec<Problem> = review
@@ -53,7 +55,10 @@ pub fn read(request: &Request, loader: &dyn Loader) -> Result<Application, Refus
     for (index, group) in application.scenario().fleet.groups.iter().enumerate() {
         // Of programs that could not be compiled all is said already.
         let was_compiled = is_whole || !group.program.ends_with(crate::language::SUFFIX);
-        if let (true, Err(complaint)) = (was_compiled, application.make(group)) {
+        if let (true, Err(complaint)) = (
+            was_compiled,
+            application.make(group, &application.scenario().fleet),
+        ) {
             problems.push(blame(&application.resolved, index, complaint));
         }
     }
@@ -90,13 +95,26 @@ impl Application {
     /// # Errors
     /// None that [`read()`] has not found before.
     pub fn run(&self) -> Result<Run, StartError> {
-        let mut run = Run::new(self.scenario().clone(), &|group| self.program(group))?;
-        if self.scenario().properties.program {
-            let monitors = self.programs.monitors(self.scenario());
-            monitors
-                .into_iter()
-                .for_each(|monitor| run.add_monitor(monitor));
-        }
+        self.run_of(self.scenario().clone())
+    }
+
+    /// A run of another scenario whose robots run programs of this one.
+    ///
+    /// # Errors
+    /// Where a group names another program, or gives it parameters that it does not take.
+    pub fn run_of(&self, scenario: Scenario) -> Result<Run, StartError> {
+        let monitors = match scenario.properties.program {
+            true => self.programs.monitors(&scenario),
+            false => Vec::new(),
+        };
+        let fleet = scenario.fleet.clone();
+        let mut run = Run::new(scenario, &|group| {
+            let made = self.make(group, &fleet);
+            made.map_err(|complaint| complaint.message)
+        })?;
+        monitors
+            .into_iter()
+            .for_each(|monitor| run.add_monitor(monitor));
         Ok(run)
     }
 
@@ -109,11 +127,12 @@ impl Application {
     }
 
     pub(crate) fn program(&self, group: &Group) -> Result<Box<dyn Program>, String> {
-        self.make(group).map_err(|complaint| complaint.message)
+        let made = self.make(group, &self.scenario().fleet);
+        made.map_err(|complaint| complaint.message)
     }
 
-    fn make(&self, group: &Group) -> Result<Box<dyn Program>, Complaint> {
-        match self.programs.make(group, &self.scenario().fleet) {
+    fn make(&self, group: &Group, fleet: &Fleet) -> Result<Box<dyn Program>, Complaint> {
+        match self.programs.make(group, fleet) {
             Some(program) => Ok(Box::new(program?)),
             None => programs::make(group),
         }

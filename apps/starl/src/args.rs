@@ -32,6 +32,10 @@ pub enum Command {
     Replay(ReplayArguments),
     /// Explore every behaviour of a small fleet within bounds, or go again a way that was found
     Explore(ExploreArguments),
+    /// Look for violations: run with many seeds and kinds of faults, and shrink what fails
+    Test(TestArguments),
+    /// Draw who said what to whom, and when, as a space-time diagram
+    Diagram(DiagramArguments),
     /// Check programs and libraries of the language
     Check(CheckArguments),
     /// Lay programs and libraries out in the one canonical way
@@ -86,6 +90,107 @@ pub struct RunArguments {
     /// Print nothing but errors and violations
     #[arg(long)]
     pub quiet: bool,
+}
+
+/// What changes a target that is run many times, or drawn.
+#[derive(Args, Debug)]
+pub struct ChangeArguments {
+    /// What to run a program in, as for `starl run`
+    #[arg(long, value_name = "SCENARIO")]
+    pub scenario: Option<String>,
+    /// Another fleet, as for `starl run`
+    #[arg(long, value_name = "MODEL=N,...")]
+    pub robots: Option<String>,
+    /// Simulated time at which a run ends at the latest [default: the scenario's]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub duration: Option<String>,
+    /// Set a field of the scenario, e.g. network.loss=0.2; may be repeated
+    #[arg(long, value_name = "FIELD=VALUE")]
+    pub set: Vec<String>,
+    /// A file of faults to add to the scenario's
+    #[arg(long, value_name = "FILE")]
+    pub faults: Option<PathBuf>,
+}
+
+impl ChangeArguments {
+    /// The arguments of a run of this target with these changes.
+    pub fn of(&self, target: &str, seed: Option<String>, quiet: bool) -> RunArguments {
+        RunArguments {
+            target: target.to_string(),
+            scenario: self.scenario.clone(),
+            robots: self.robots.clone(),
+            seed,
+            duration: self.duration.clone(),
+            set: self.set.clone(),
+            faults: self.faults.clone(),
+            threads: None,
+            trace: None,
+            plot: None,
+            json: false,
+            quiet,
+        }
+    }
+}
+
+/// Arguments of `starl test`.
+#[derive(Args, Debug)]
+pub struct TestArguments {
+    /// Examples' names (see `starl list`), scenario files, or programs: files ending in .starl
+    #[arg(value_name = "TARGET", required_unless_present = "all")]
+    pub targets: Vec<String>,
+    /// Test every example of `starl list`
+    #[arg(long, conflicts_with = "targets")]
+    pub all: bool,
+    /// How many seeds each profile is tried with
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = whole(1, u32::MAX))]
+    pub seeds: u32,
+    /// The first of them
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole(0, u32::MAX))]
+    pub first_seed: u32,
+    /// Kinds of faults: calm, lossy, partitions, crashes, clocks, chaos, corruption, or all; several with
+    /// commas [default: all but corruption]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    pub profile: Vec<String>,
+    /// Threads to run on [default: all cores]
+    #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
+    pub threads: Option<u32>,
+    /// Folder for scenarios that fail, and diagrams of them
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    pub out: PathBuf,
+    /// Smaller scenarios to try for each one that fails; 0 saves it as it is
+    #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = whole(0, 1_000_000))]
+    pub shrink: u32,
+    /// Print the summary as one JSON object
+    #[arg(long)]
+    pub json: bool,
+    /// Print nothing but what went wrong
+    #[arg(long)]
+    pub quiet: bool,
+    /// Changes of the targets.
+    #[command(flatten)]
+    pub changes: ChangeArguments,
+}
+
+/// Arguments of `starl diagram`.
+#[derive(Args, Debug)]
+pub struct DiagramArguments {
+    /// A trace (a file ending in .mcap), or what `starl run` takes
+    pub target: String,
+    /// The drawing: a file ending in .svg or .png
+    #[arg(long, value_name = "PATH")]
+    pub out: PathBuf,
+    /// How much of the end to draw, e.g. 500ms [default: as much as is easy to read]
+    #[arg(long, value_name = "TIME")]
+    pub last: Option<String>,
+    /// Where to end, e.g. 12.5s [default: the first violation, or else the end of the run]
+    #[arg(long, value_name = "TIME")]
+    pub until: Option<String>,
+    /// Decides every random draw [default: the scenario's]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub seed: Option<String>,
+    /// Changes of the target.
+    #[command(flatten)]
+    pub changes: ChangeArguments,
 }
 
 /// Arguments of `starl replay`.

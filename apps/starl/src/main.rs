@@ -1,4 +1,4 @@
-//! The one command of StarL: checks, explains, runs, replays, lists and measures. See `docs/reference/command.md`.
+//! The one command of StarL: checks, explains, runs, replays, tests, draws, lists and measures. See `docs/reference/command.md`.
 //!
 //! Exit status: 0 the goal was reached and no property violated (or, for other commands, all is as it
 //! should be); 1 it was not; 2 bad input or an output that cannot be written, with one message on the
@@ -8,6 +8,7 @@ mod args;
 mod bench;
 mod check;
 mod console;
+mod diagram;
 mod explain;
 mod explore;
 mod failure;
@@ -28,6 +29,7 @@ mod run;
 mod sources;
 mod summary;
 mod target;
+mod test;
 mod threads;
 
 use args::{Arguments, Command};
@@ -41,6 +43,8 @@ fn main() -> ExitCode {
         Command::Explore(arguments) => return exit(explore::run(arguments)),
         Command::Run(arguments) => run::run(arguments),
         Command::Replay(arguments) => replay::replay(arguments),
+        Command::Test(arguments) => test::test(arguments),
+        Command::Diagram(arguments) => diagram::diagram(arguments),
         Command::Check(arguments) => check::run(arguments),
         Command::Fmt(arguments) => fmt::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),

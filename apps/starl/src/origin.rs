@@ -92,6 +92,16 @@ impl Origin {
         }
     }
 
+    /// The name by which a scenario in the file `scenario` knows the program that this one knows as
+    /// `key`: of a file on disk its path from there, of an example's the name that it has everywhere.
+    pub fn key_from(&self, key: &str, scenario: &Path) -> String {
+        match (self.path(key), &self.scenario) {
+            (Some(path), _) if path.exists() => between(&identity(scenario), &identity(&path)),
+            (_, Scenario::Example(example)) => example.global_name(key),
+            _ => key.to_string(),
+        }
+    }
+
     /// The file on disk that a path of the scenario means; none if it is part of the command.
     pub fn path(&self, key: &str) -> Option<PathBuf> {
         match (&self.scenario, &self.program, key.strip_prefix(BESIDE)) {

@@ -24,17 +24,22 @@ pub enum Picture {
 impl Picture {
     /// The kind that a file is to hold, by its name.
     pub fn of(path: &Path) -> Result<Picture, Failure> {
+        Picture::given_as(path, "--plot")
+    }
+
+    /// The same for a file that another option names.
+    pub fn given_as(path: &Path, option: &str) -> Result<Picture, Failure> {
         match path.extension().and_then(|extension| extension.to_str()) {
             Some("svg") => Ok(Picture::Svg),
             #[cfg(feature = "png")]
             Some("png") => Ok(Picture::Png),
             #[cfg(not(feature = "png"))]
             Some("png") => Err(Failure(format!(
-                "--plot {}: this build draws no PNG; name a file ending in .svg",
+                "{option} {}: this build draws no PNG; name a file ending in .svg",
                 path.display()
             ))),
             _ => Err(Failure(format!(
-                "--plot {}: the name must end in .svg or .png",
+                "{option} {}: the name must end in .svg or .png",
                 path.display()
             ))),
         }

@@ -37,3 +37,39 @@ impl Progress {
         self.0.finish_and_clear();
     }
 }
+
+/// Shows how many of so many things are done.
+pub struct Count(ProgressBar);
+
+impl Count {
+    /// A bar for so many; where the error stream is no terminal it shows nothing.
+    pub fn new(shown: bool, total: u64) -> Count {
+        let bar = match shown {
+            true => {
+                ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr_with_hz(10))
+            }
+            false => ProgressBar::hidden(),
+        };
+        let template = "{bar:30} {human_pos} of {human_len} {msg} {per_sec}, {eta} to go";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
+        }
+        bar.set_message("runs,");
+        Count(bar)
+    }
+
+    /// So many more are done.
+    pub fn add(&self, more: u64) {
+        self.0.inc(more);
+    }
+
+    /// What is being done.
+    pub fn say(&self, what: impl Into<std::borrow::Cow<'static, str>>) {
+        self.0.set_message(what);
+    }
+
+    /// Takes the bar away.
+    pub fn clear(&self) {
+        self.0.finish_and_clear();
+    }
+}

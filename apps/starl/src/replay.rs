@@ -38,7 +38,7 @@ pub fn replay(arguments: &ReplayArguments) -> Result<bool, Failure> {
     Ok(same)
 }
 
-fn open(path: &Path) -> Result<Reader<BufReader<File>>, Failure> {
+pub fn open(path: &Path) -> Result<Reader<BufReader<File>>, Failure> {
     if path.is_dir() {
         return Err(Failure::file(path, "is a folder; name the trace in it"));
     }
@@ -47,7 +47,7 @@ fn open(path: &Path) -> Result<Reader<BufReader<File>>, Failure> {
     Reader::new(BufReader::new(file)).map_err(|error| unreadable(path, &error))
 }
 
-fn unreadable(path: &Path, error: &TraceError) -> Failure {
+pub fn unreadable(path: &Path, error: &TraceError) -> Failure {
     Failure::file(path, error)
 }
 
@@ -64,7 +64,7 @@ fn read_through(path: &Path) -> Result<(Header, Summary), Failure> {
 }
 
 /// What the recorded run was started with.
-fn inputs(path: &Path, header: &Header) -> Result<Application, Failure> {
+pub fn inputs(path: &Path, header: &Header) -> Result<Application, Failure> {
     let because = |what: String| {
         Failure::file(
             path,

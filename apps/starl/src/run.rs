@@ -17,7 +17,9 @@ use std::time::Instant;
 /// Runs what the arguments say; whether the goal was reached and no property violated.
 pub fn run(arguments: &RunArguments) -> Result<bool, Failure> {
     let picture = arguments.plot.as_deref().map(Picture::of).transpose()?;
-    let Selection { application, files } = target::read(arguments)?;
+    let Selection {
+        application, files, ..
+    } = target::read(arguments)?;
     let scenario = application.scenario();
     let stop = stop_on_interrupt();
     let mut outputs = Outputs::open(arguments, application.resolved(), &files, picture)?;
@@ -137,7 +139,7 @@ fn command_line(arguments: &RunArguments, seed: u64) -> String {
 }
 
 /// A word as a shell takes it.
-fn quoted(word: &str) -> String {
+pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_=.,/:+@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
         return word.to_string();

@@ -28,6 +28,8 @@ pub struct Selection {
     pub application: Application,
     /// The files on disk that it was read from.
     pub files: Vec<PathBuf>,
+    /// Where the files that the scenario names come from.
+    pub origin: Origin,
 }
 
 /// Reads what the arguments name.
@@ -62,7 +64,11 @@ pub fn read(arguments: &RunArguments) -> Result<Selection, Failure> {
         warn(&application, &origin);
     }
     let files = files(arguments, &origin, &application.resolved().inputs);
-    Ok(Selection { application, files })
+    Ok(Selection {
+        application,
+        files,
+        origin,
+    })
 }
 
 /// The files on disk that a run was read from; none of an example's, which are part of the command.

@@ -5,17 +5,19 @@
 //! same list. Text in a PNG is drawn with a font that is part of the program (DejaVu Sans), so it
 //! looks the same on a machine without fonts.
 
-mod drawing;
+pub mod drawing;
 mod frame;
 mod legend;
 mod marks;
-mod palette;
+pub mod palette;
 #[cfg(feature = "png")]
 mod raster;
 mod scene;
 #[cfg(test)]
 mod tests;
 mod vector;
+
+pub use legend::text_width;
 
 use starl_core::event::MarkShape;
 use starl_core::{Obstacle, Point, WayPoint};
@@ -66,4 +68,13 @@ pub fn svg(data: &PlotData) -> String {
 #[cfg(feature = "png")]
 pub fn png(data: &PlotData) -> Vec<u8> {
     raster::png(&scene::draw(data), 2.0)
+}
+
+/// Any other drawing in the format of a file's name.
+pub fn file(drawing: &drawing::Drawing, picture: crate::outputs::Picture) -> Vec<u8> {
+    match picture {
+        crate::outputs::Picture::Svg => vector::svg(drawing).into_bytes(),
+        #[cfg(feature = "png")]
+        crate::outputs::Picture::Png => raster::png(drawing, 2.0),
+    }
 }

@@ -1,0 +1,119 @@
+//! `starl diagram`: who said what to whom, and when (a space-time diagram: Lamport 1978, figure 1).
+//!
+//! A line for each robot, time to the right; messages are arrows from line to line, lost ones end in a
+//! cross; what primitives and programs report are marks; robots that are down, and partitions, are shaded.
+//! The same drawing explains what `starl test` finds.
+
+mod axis;
+mod scene;
+mod story;
+#[cfg(test)]
+mod tests;
+
+use crate::args::DiagramArguments;
+use crate::console;
+use crate::failure::Failure;
+use crate::output::{Output, identity};
+use crate::outputs::Picture;
+use crate::plot;
+use crate::plot::drawing::Drawing;
+use crate::replay::{inputs, open, unreadable};
+use crate::target::{self, Selection};
+use starl_catalog::Application;
+use starl_core::{Duration, Time};
+use std::path::Path;
+use story::Story;
+
+/// Which part of a run is drawn.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Extent {
+    /// How long it is; as long as is easy to read, if none is given.
+    pub last: Option<Duration>,
+    /// Where it ends: at the first violation, or else with the run, if nothing is given.
+    pub until: Option<Time>,
+}
+
+/// A drawing of a run.
+pub struct Diagram(Drawing);
+
+impl Diagram {
+    /// As SVG.
+    pub fn svg(&self) -> Vec<u8> {
+        plot::file(&self.0, Picture::Svg)
+    }
+}
+
+/// Draws what the arguments say.
+pub fn diagram(arguments: &DiagramArguments) -> Result<bool, Failure> {
+    let picture = Picture::given_as(&arguments.out, "--out")?;
+    let extent = Extent {
+        last: span(arguments.last.as_deref(), "--last")?,
+        until: span(arguments.until.as_deref(), "--until")?.map(|span| Time::ZERO + span),
+    };
+    let (output, file) = Output::create(&arguments.out)?;
+    let target = Path::new(&arguments.target);
+    let Diagram(drawing) = if target.extension().is_some_and(|suffix| suffix == "mcap") {
+        refuse_to_overwrite(&arguments.out, target)?;
+        of_trace(target, &extent)?
+    } else {
+        let seed = arguments.seed.clone();
+        let selection = target::read(&arguments.changes.of(&arguments.target, seed, false))?;
+        let Selection {
+            application, files, ..
+        } = selection;
+        for path in &files {
+            refuse_to_overwrite(&arguments.out, path)?;
+        }
+        of_run(&application, &extent)?
+    };
+    output.write(file, &plot::file(&drawing, picture))?;
+    console::print(&format!("{}\n", arguments.out.display()))?;
+    Ok(true)
+}
+
+/// A run of a scenario.
+pub fn of_run(application: &Application, extent: &Extent) -> Result<Diagram, Failure> {
+    let mut run = crate::run::start(application)?;
+    let mut story = Story::of(application.scenario());
+    while !run.is_over() && !story.is_past(extent) {
+        for record in run.step() {
+            story.observe(record);
+        }
+    }
+    Ok(Diagram(scene::draw(&story, extent)))
+}
+
+/// A run as a trace tells it.
+fn of_trace(path: &Path, extent: &Extent) -> Result<Diagram, Failure> {
+    let mut reader = open(path)?;
+    let application = inputs(path, reader.header())?;
+    let mut story = Story::of(application.scenario());
+    for record in &mut reader {
+        story.observe(&record.map_err(|error| unreadable(path, &error))?);
+        if story.is_past(extent) {
+            break;
+        }
+    }
+    Ok(Diagram(scene::draw(&story, extent)))
+}
+
+/// A time as scenarios have it.
+fn span(text: Option<&str>, option: &str) -> Result<Option<Duration>, Failure> {
+    let Some(text) = text else { return Ok(None) };
+    match starl_sim::read::duration(text) {
+        Some(span) => Ok(Some(span)),
+        None => Err(Failure(format!(
+            "{option} {text}: is not a time; write one such as 500ms or 2s"
+        ))),
+    }
+}
+
+fn refuse_to_overwrite(out: &Path, read: &Path) -> Result<(), Failure> {
+    match identity(out) == identity(read) {
+        true => Err(Failure(format!(
+            "--out {}: the drawing is made from this file; name another to write to",
+            out.display()
+        ))),
+        false => Ok(()),
+    }
+}

@@ -1,0 +1,275 @@
+//! What a space-time diagram tells, gathered from the records of a run.
+//!
+//! The trace does not say who is in which part of a partition; the scenario does.
+
+use super::Extent;
+use starl_core::event::{DropReason, Event, Fields, Value};
+use starl_core::{Port, Record, RobotId, Time};
+use starl_sim::Scenario;
+use starl_sim::engine::timeline;
+use starl_sim::scenario::FaultKind;
+use std::collections::{BTreeMap, VecDeque};
+
+/// More messages and marks than these are not kept; the first go. No drawing shows as many.
+const MOST: usize = 50_000;
+
+/// What happened, in the order of time.
+#[derive(Default)]
+pub struct Story {
+    pub title: String,
+    /// Robots' names, by number.
+    pub robots: Vec<String>,
+    pub messages: VecDeque<Message>,
+    pub marks: VecDeque<Mark>,
+    /// Who was down, from when, and until when.
+    pub outages: Vec<(RobotId, Time, Time)>,
+    pub partitions: Vec<Partition>,
+    pub violations: Vec<Violation>,
+    /// The last that was heard of the run.
+    pub end: Time,
+    /// What primitives call themselves, by port.
+    pub ports: BTreeMap<Port, String>,
+    /// When datagrams that are under way were sent, and for which port.
+    under_way: BTreeMap<(RobotId, u32), (Time, Port)>,
+    /// The parts of the partitions that are to come.
+    coming: VecDeque<Vec<Vec<RobotId>>>,
+}
+
+/// A message to one robot.
+#[derive(Clone, Debug)]
+pub struct Message {
+    pub from: RobotId,
+    /// None where it is lost for all.
+    pub to: Option<RobotId>,
+    pub sent: Time,
+    /// When it came, or was lost.
+    pub at: Time,
+    pub port: Port,
+    /// Why it did not come.
+    pub lost: Option<DropReason>,
+}
+
+/// Something that a robot did.
+#[derive(Clone, Debug)]
+pub struct Mark {
+    pub robot: RobotId,
+    pub at: Time,
+    pub text: String,
+    pub kind: MarkKind,
+}
+
+/// What kind of thing a robot did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MarkKind {
+    /// A primitive reported something.
+    Primitive(Port),
+    /// An action fired, or the program reported something.
+    Program,
+    /// A fault set in.
+    Fault,
+    /// The program came to its end.
+    End,
+}
+
+/// A time in which the network was in parts.
+#[derive(Clone, Debug)]
+pub struct Partition {
+    pub from: Time,
+    pub to: Time,
+    /// Robots in none of them form one more.
+    pub parts: Vec<Vec<RobotId>>,
+}
+
+/// A property that did not hold.
+#[derive(Clone, Debug)]
+pub struct Violation {
+    pub at: Time,
+    pub robot: Option<RobotId>,
+    pub property: String,
+    pub text: String,
+}
+
+impl Story {
+    /// A story of which nothing has happened yet.
+    pub fn of(scenario: &Scenario) -> Story {
+        let robots = (0..scenario.fleet.len() as u32).map(RobotId);
+        let partitions = timeline(scenario).into_iter();
+        Story {
+            title: scenario.title.clone(),
+            robots: robots.map(|robot| scenario.fleet.name(robot)).collect(),
+            coming: partitions
+                .filter_map(|fault| match fault.kind {
+                    FaultKind::Partition(parts) => Some(parts),
+                    _ => None,
+                })
+                .collect(),
+            ..Story::default()
+        }
+    }
+
+    /// Whether what comes now is no more to be drawn.
+    pub fn is_past(&self, extent: &Extent) -> bool {
+        match extent.until {
+            Some(until) => self.end > until,
+            None => self
+                .violations
+                .first()
+                .is_some_and(|first| self.end > first.at),
+        }
+    }
+
+    /// Takes in what happened next.
+    pub fn observe(&mut self, record: &Record) {
+        let at = record.at;
+        self.end = self.end.max(at);
+        match (&record.event, record.robot) {
+            (&Event::Sent { sequence, port, .. }, Some(robot)) => {
+                self.under_way.insert((robot, sequence), (at, port));
+                if self.under_way.len() > MOST {
+                    self.under_way.pop_first();
+                }
+            }
+            (&Event::Delivered { from, sequence }, to) => {
+                self.message(from, sequence, to, at, None)
+            }
+            (
+                &Event::Dropped {
+                    from,
+                    to,
+                    sequence,
+                    reason,
+                },
+                _,
+            ) => self.message(from, sequence, to, at, Some(reason)),
+            (Event::Fault(fault), None) => self.part(fault, at),
+            (Event::Fault(fault), Some(robot)) => self.fault(fault, robot, at),
+            (Event::Violated { property, text }, robot) => self.violations.push(Violation {
+                at,
+                robot,
+                property: property.to_string(),
+                text: text.to_string(),
+            }),
+            (event, Some(robot)) => self.mark_event(event, robot, at),
+            _ => {}
+        }
+    }
+
+    fn mark_event(&mut self, event: &Event, robot: RobotId, at: Time) {
+        let (text, kind) = match event {
+            Event::Primitive {
+                primitive,
+                port,
+                name,
+                fields,
+            } => {
+                self.ports
+                    .entry(*port)
+                    .or_insert_with(|| primitive.to_string());
+                (with_fields(name, fields), MarkKind::Primitive(*port))
+            }
+            Event::Action(name) => (name.to_string(), MarkKind::Program),
+            Event::Program { name, fields } => (with_fields(name, fields), MarkKind::Program),
+            Event::Finished => ("finished".to_string(), MarkKind::End),
+            Event::Failed(_) => ("failed".to_string(), MarkKind::Fault),
+            _ => return,
+        };
+        self.mark(robot, at, text, kind);
+    }
+
+    fn mark(&mut self, robot: RobotId, at: Time, text: String, kind: MarkKind) {
+        self.marks.push_back(Mark {
+            robot,
+            at,
+            text,
+            kind,
+        });
+        if self.marks.len() > MOST {
+            self.marks.pop_front();
+        }
+    }
+
+    fn message(
+        &mut self,
+        from: RobotId,
+        sequence: u32,
+        to: Option<RobotId>,
+        at: Time,
+        lost: Option<DropReason>,
+    ) {
+        if let Some(&(sent, port)) = self.under_way.get(&(from, sequence)) {
+            self.messages.push_back(Message {
+                from,
+                to,
+                sent,
+                at,
+                port,
+                lost,
+            });
+            if self.messages.len() > MOST {
+                self.messages.pop_front();
+            }
+        }
+    }
+
+    fn part(&mut self, fault: &str, at: Time) {
+        if let Some(last) = self.partitions.last_mut() {
+            last.to = last.to.min(at);
+        }
+        if fault == "partition" {
+            self.partitions.push(Partition {
+                from: at,
+                to: Time::NEVER,
+                parts: self.coming.pop_front().unwrap_or_default(),
+            });
+        }
+    }
+
+    fn fault(&mut self, fault: &str, robot: RobotId, at: Time) {
+        match fault {
+            "crash" => self.outages.push((robot, at, Time::NEVER)),
+            "restart" => {
+                let mut outages = self.outages.iter_mut().rev();
+                if let Some((_, _, to)) = outages.find(|outage| outage.0 == robot) {
+                    *to = (*to).min(at);
+                }
+            }
+            _ => {}
+        }
+        self.mark(robot, at, fault.to_string(), MarkKind::Fault);
+    }
+
+    /// The part of a partition that a robot is in, from 0.
+    pub fn part_of(&self, partition: &Partition, robot: RobotId) -> usize {
+        let parts = &partition.parts;
+        let found = parts.iter().position(|part| part.contains(&robot));
+        found.unwrap_or(parts.len())
+    }
+}
+
+/// What an event is called, with the values that fit on a label.
+fn with_fields(name: &str, fields: &Fields) -> String {
+    let shown = fields.iter().filter_map(|(_, value)| short(value));
+    let words: Vec<String> = std::iter::once(name.to_string()).chain(shown).collect();
+    let text = words.join(" ");
+    match text.chars().count() > LONGEST {
+        true => text.chars().take(LONGEST - 1).chain(['\u{2026}']).collect(),
+        false => text,
+    }
+}
+
+/// Longest label, letters.
+const LONGEST: usize = 26;
+
+fn short(value: &Value) -> Option<String> {
+    match value {
+        Value::Text(text) => Some(text.to_string()),
+        Value::Robot(robot) => Some(robot.to_string()),
+        Value::Int(number) if number.unsigned_abs() < 100_000 => Some(number.to_string()),
+        Value::Bool(flag) => Some(flag.to_string()),
+        Value::Robots(robots) => {
+            let names: Vec<String> = robots.iter().map(RobotId::to_string).collect();
+            Some(format!("{{{}}}", names.join(" ")))
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,229 @@
+//! A run that went wrong, shrunk, saved and drawn.
+//!
+//! What is shrunk is the text of a scenario's file: every candidate is written, read and run as `starl run`
+//! would, so that the file that is saved fails as the run did.
+
+use super::search::Case;
+use super::subject::Subject;
+use crate::args::TestArguments;
+use crate::diagram;
+use crate::failure::Failure;
+use crate::origin::Origin;
+use crate::output::Output;
+use crate::progress::Count;
+use crate::run::quoted;
+use starl_core::{Duration, Time};
+use starl_sim::read::{Request, Source};
+use starl_sim::shrink::{Limits, shrink};
+use starl_sim::{Finding, Scenario, Trial, write};
+use std::path::{Path, PathBuf};
+
+/// A scenario that fails, in a file.
+#[derive(Clone, Debug)]
+pub struct Counterexample {
+    /// The scenario's file; none if the run could not be saved so that it fails again.
+    pub scenario: Option<PathBuf>,
+    /// The space-time diagram of it.
+    pub diagram: Option<PathBuf>,
+    /// Before and after.
+    pub sizes: [Size; 2],
+    /// What is seen in the smallest.
+    pub text: String,
+    /// How many scenarios were tried.
+    pub trials: u64,
+    /// Whether nothing more can be left out.
+    pub is_minimal: bool,
+    /// A command line that does the run before it was shrunk.
+    pub again: String,
+}
+
+/// How large a scenario is.
+#[derive(Clone, Copy, Debug)]
+pub struct Size {
+    pub robots: usize,
+    pub faults: usize,
+    pub duration: Duration,
+}
+
+impl Size {
+    fn of(scenario: &Scenario) -> Size {
+        Size {
+            robots: scenario.fleet.len(),
+            faults: scenario.faults.schedule.len(),
+            duration: scenario.duration,
+        }
+    }
+}
+
+impl Counterexample {
+    /// Shrinks a run and saves it.
+    pub fn of(
+        subject: &Subject,
+        case: &Case,
+        arguments: &TestArguments,
+        progress: &Count,
+    ) -> Result<Counterexample, Failure> {
+        let path = free_path(&arguments.out, &name(subject, case));
+        let judge = Judge {
+            path: &path,
+            finding: &case.finding,
+            head: head(subject, case, arguments),
+        };
+        let mut original = subject.scenario(case.profile, case.seed);
+        for group in &mut original.fleet.groups {
+            group.program = subject.origin.key_from(&group.program, &path);
+        }
+        original.title = format!("{}: {}", original.title, case.finding);
+        let limits = Limits {
+            trials: u64::from(arguments.shrink).max(1),
+            ..Limits::default()
+        };
+        let shorter = case.finding != Finding::Unreached;
+        let mut tried = |scenario: &Scenario| -> Option<Time> {
+            progress.add(1);
+            progress.say(describe(scenario));
+            judge.trial(scenario).map(|trial| trial.end)
+        };
+        let shrunk = shrink(&original, limits, shorter, &mut tried);
+        let mut counterexample = Counterexample {
+            scenario: None,
+            diagram: None,
+            sizes: [Size::of(&original); 2],
+            text: case.text.clone(),
+            trials: 1,
+            is_minimal: false,
+            again: again(subject, case, arguments),
+        };
+        let Some(shrunk) = shrunk else {
+            return Ok(counterexample);
+        };
+        if let Some(trial) = judge.trial(&shrunk.scenario) {
+            counterexample.text = trial.text;
+        }
+        save(&path, judge.text(&shrunk.scenario).as_bytes())?;
+        let picture = path.with_extension("svg");
+        if let Some(application) = judge.application(&shrunk.scenario) {
+            let drawn = diagram::of_run(&application, &diagram::Extent::default())?;
+            save(&picture, &drawn.svg())?;
+            counterexample.diagram = Some(picture);
+        }
+        counterexample.sizes[1] = Size::of(&shrunk.scenario);
+        counterexample.trials = shrunk.trials;
+        counterexample.is_minimal = shrunk.is_minimal;
+        counterexample.scenario = Some(path);
+        Ok(counterexample)
+    }
+}
+
+/// Says whether scenarios fail as the first one did.
+struct Judge<'a> {
+    path: &'a Path,
+    finding: &'a Finding,
+    /// Comments at the head of the file.
+    head: String,
+}
+
+impl Judge<'_> {
+    fn text(&self, scenario: &Scenario) -> String {
+        format!("{}{}", self.head, write::scenario(scenario))
+    }
+
+    /// The scenario as it is read from its file.
+    fn application(&self, scenario: &Scenario) -> Option<starl_catalog::Application> {
+        let source = Source::new(self.path.display().to_string(), self.text(scenario));
+        starl_catalog::read(&Request::new(source), &Origin::file(self.path)).ok()
+    }
+
+    /// What comes of a scenario, if it fails in the same way.
+    fn trial(&self, scenario: &Scenario) -> Option<Trial> {
+        let mut run = self.application(scenario)?.run().ok()?;
+        let demands_goal = *self.finding == Finding::Unreached;
+        let trial = Trial::of(&mut run, demands_goal);
+        (trial.finding.as_ref() == Some(self.finding)).then_some(trial)
+    }
+}
+
+fn describe(scenario: &Scenario) -> String {
+    let Size {
+        robots,
+        faults,
+        duration,
+    } = Size::of(scenario);
+    format!("smaller ones: {robots} robots, {faults} faults, {duration};")
+}
+
+/// What the file begins with.
+fn head(subject: &Subject, case: &Case, arguments: &TestArguments) -> String {
+    format!(
+        "# Here {} goes wrong: {}.\n# Found by: {}\n\n",
+        one_line(&subject.target),
+        one_line(&case.finding.to_string()),
+        one_line(&again(subject, case, arguments))
+    )
+}
+
+fn one_line(text: &str) -> String {
+    text.replace(char::is_control, " ")
+}
+
+/// The command line that finds a run again.
+fn again(subject: &Subject, case: &Case, arguments: &TestArguments) -> String {
+    let mut words = vec!["starl test".to_string(), quoted(&subject.target)];
+    let changes = &arguments.changes;
+    let options = [
+        ("--scenario", changes.scenario.clone()),
+        ("--robots", changes.robots.clone()),
+        ("--duration", changes.duration.clone()),
+        (
+            "--faults",
+            changes
+                .faults
+                .as_ref()
+                .map(|path| path.display().to_string()),
+        ),
+        ("--profile", Some(case.profile.name().to_string())),
+        ("--first-seed", Some(case.seed.to_string())),
+        ("--seeds", Some("1".to_string())),
+    ];
+    let sets = changes.set.iter().map(|set| ("--set", Some(set.clone())));
+    for (option, value) in sets.chain(options) {
+        if let Some(value) = value {
+            words.push(format!("{option} {}", quoted(&value)));
+        }
+    }
+    words.join(" ")
+}
+
+/// What the files of a run are called, without their endings.
+fn name(subject: &Subject, case: &Case) -> String {
+    let stem = Path::new(&subject.target).file_stem().unwrap_or_default();
+    let name = format!(
+        "{}-{}-{}-{}",
+        stem.display(),
+        case.property(),
+        case.profile.name(),
+        case.seed
+    );
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+    name.replace(|c| !plain(c), "-")
+}
+
+/// The name of a file in a folder that is not there yet, nor a picture beside it.
+fn free_path(folder: &Path, name: &str) -> PathBuf {
+    let numbers = (2..).map(|number| format!("{name}-{number}"));
+    let names = std::iter::once(name.to_string()).chain(numbers);
+    // What is in the working folder is called by its name alone.
+    let folder = if folder == Path::new(".") {
+        Path::new("")
+    } else {
+        folder
+    };
+    let mut paths = names.map(|name| folder.join(format!("{name}.toml")));
+    let free = |path: &PathBuf| !path.exists() && !path.with_extension("svg").exists();
+    paths.find(free).unwrap_or_else(|| folder.join(name))
+}
+
+fn save(path: &Path, content: &[u8]) -> Result<(), Failure> {
+    let (output, file) = Output::create(path)?;
+    output.write(file, content)
+}
