@@ -49,7 +49,7 @@ pub fn draw(story: &Story, extent: &Extent) -> Drawing {
     scene.messages();
     scene.marks(&lanes);
     scene.violation();
-    scene.foot()
+    scene.foot(&lanes)
 }
 
 struct Scene<'a> {
@@ -323,7 +323,7 @@ impl Scene<'_> {
     }
 
     /// The heading and the legend; gives the whole drawing.
-    fn foot(mut self) -> Drawing {
+    fn foot(mut self, lanes: &Lanes<'_>) -> Drawing {
         let story = self.story;
         let part = format!(
             "from {:.3} s to {:.3} s; room for silence by its logarithm",
@@ -331,6 +331,10 @@ impl Scene<'_> {
             self.axis.end().seconds()
         );
         let mut right = (self.axis.right() + 24.0).max(MARGIN + text_width(&part, 11.0));
+        let labels = lanes.iter().filter(|(_, lane)| lane.is_some());
+        for (mark, _) in labels {
+            right = right.max(self.axis.place(mark.at) + text_width(&mark.text, LABEL));
+        }
         let mut y = self.bottom() + 40.0;
         let mut x = MARGIN;
         for (port, color) in &self.colors {
