@@ -155,7 +155,7 @@ impl Simulation {
     fn act(&mut self, window: Window) {
         let shared = &self.shared;
         let work = self.shards.iter_mut().zip(self.next.chunks_mut(SIZE));
-        run(self.parallel, work.collect(), |(shard, next)| {
+        run(self.parallel, work, |(shard, next)| {
             shard.act(shared, window, next)
         });
     }
@@ -174,7 +174,7 @@ impl Simulation {
         self.hits.resize(self.next.len(), None);
         let next = &self.next;
         let work = self.shards.iter_mut().zip(self.hits.chunks_mut(SIZE));
-        run(self.parallel, work.collect(), |(shard, hits)| {
+        run(self.parallel, work, |(shard, hits)| {
             shard.look_ahead(shared, next, reach, hits);
         });
         collide::settle(shared, &mut self.next, reach, &mut self.hits);
@@ -193,20 +193,16 @@ impl Simulation {
             .zip(self.bodies.chunks_mut(SIZE))
             .zip(shown)
             .map(|((shard, bodies), perceived)| (shard, bodies, perceived));
-        run(
-            self.parallel,
-            work.collect(),
-            |(shard, bodies, perceived)| {
-                shard.settle(shared, window, hits, bodies, perceived.unwrap_or_default());
-            },
-        );
+        run(self.parallel, work, |(shard, bodies, perceived)| {
+            shard.settle(shared, window, hits, bodies, perceived.unwrap_or_default());
+        });
         std::mem::swap(&mut self.shared.bodies, &mut self.bodies);
         self.shared.perceived = perceived;
     }
 
     fn route(&mut self, window: Window, step: Duration) {
         let shared = &self.shared;
-        run(self.parallel, self.shards.iter_mut().collect(), |shard| {
+        run(self.parallel, self.shards.iter_mut(), |shard| {
             shard.route(shared, window)
         });
         for shard in &self.shards {
@@ -577,12 +573,13 @@ fn wind(scenario: &Scenario, at: Time) -> Point {
 }
 
 /// Does independent pieces of work, on several threads if wanted.
-fn run<T: Send>(parallel: bool, work: Vec<T>, job: impl Fn(T) + Sync + Send) {
+fn run<T: Send>(parallel: bool, work: impl Iterator<Item = T>, job: impl Fn(T) + Sync + Send) {
     #[cfg(feature = "parallel")]
     if parallel {
         use rayon::prelude::*;
+        let work: Vec<T> = work.collect();
         return work.into_par_iter().for_each(job);
     }
     let _ = parallel;
-    work.into_iter().for_each(job);
+    work.for_each(job);
 }

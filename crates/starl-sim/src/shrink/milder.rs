@@ -4,7 +4,7 @@
 
 use super::Search;
 use crate::Scenario;
-use crate::scenario::{Clock, DelayDistribution, Link, Network, Wind};
+use crate::scenario::{Clock, DelayDistribution, Faults, Link, Network, Wind};
 use starl_core::Duration;
 
 /// A change of a scenario; false if it would change nothing.
@@ -103,6 +103,16 @@ const CHANGES: &[Change] = &[
         set(&mut scenario.wind, calm)
     },
 ];
+
+/// The scenario without faults, with an ideal network and right clocks.
+pub(super) fn without_trouble(scenario: &Scenario) -> Scenario {
+    let mut calm = scenario.clone();
+    calm.faults = Faults::default();
+    calm.network.link = ideal();
+    calm.network.overrides.clear();
+    each_clock(&mut calm, &|_| Clock::default());
+    calm
+}
 
 /// Half of a probability, to the hundredth.
 fn lessen(probability: &mut f64) -> bool {

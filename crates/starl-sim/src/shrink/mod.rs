@@ -7,6 +7,9 @@
 //! no single robot, fault or trouble of the network can be left out. That holds for the seeds that were
 //! tried: as fewer robots draw other numbers, a few seeds are tried where the first does not do.
 //!
+//! A smaller fleet may fail for another reason: two robots form no polygon. So where the fleet does not
+//! fail without trouble, with several seeds, no fleet is taken that does.
+//!
 //! What fails is for the caller to say; nothing here runs anything.
 
 mod delta;
@@ -25,7 +28,7 @@ pub use robots::keep_robots;
 pub struct Limits {
     /// Smaller scenarios that are tried at most; default 1,000.
     pub trials: u64,
-    /// Seeds tried besides the first where robots are left out; default 20.
+    /// Seeds tried besides the first where another seed may do; default 20.
     pub seeds: u64,
 }
 
@@ -70,8 +73,10 @@ pub fn shrink(
         limits,
         trials: 1,
         shorter,
+        needs_trouble: false,
         fails,
     };
+    search.needs_trouble = !search.fails_without_trouble(scenario, limits.seeds);
     let mut is_minimal = false;
     while !is_minimal && !search.is_exhausted() {
         is_minimal = !search.round();
@@ -102,6 +107,8 @@ struct Search<'a> {
     limits: Limits,
     trials: u64,
     shorter: bool,
+    /// Whether the fleet as it was found fails only in trouble.
+    needs_trouble: bool,
     fails: &'a mut dyn FnMut(&Scenario) -> Option<Time>,
 }
 
@@ -129,30 +136,59 @@ impl Search<'_> {
         self.trials >= self.limits.trials
     }
 
-    /// Keeps the candidate if it fails.
-    fn propose(&mut self, candidate: Scenario) -> bool {
+    /// Runs a scenario, unless so many were run that it is time to stop.
+    fn try_out(&mut self, candidate: &Scenario) -> Option<Time> {
         if self.is_exhausted() {
-            return false;
+            return None;
         }
         self.trials += 1;
-        let failed_at = (self.fails)(&candidate);
+        (self.fails)(candidate)
+    }
+
+    /// Keeps the candidate if it fails.
+    fn propose(&mut self, candidate: Scenario) -> bool {
+        let failed_at = self.try_out(&candidate);
         if let Some(at) = failed_at {
             (self.best, self.failed_at) = (candidate, at);
         }
         failed_at.is_some()
     }
 
-    /// The same with other seeds, should it not do with its own.
-    fn propose_with_seeds(&mut self, candidate: &Scenario) -> bool {
-        let seeds = [candidate.seed].into_iter().chain(1..=self.limits.seeds);
-        for seed in seeds {
+    /// Keeps a candidate with a smaller fleet if it fails, and for the trouble that it is in if that was so
+    /// before.
+    fn propose_fleet(&mut self, candidate: Scenario) -> bool {
+        let failed_at = self.try_out(&candidate);
+        let fails = failed_at.is_some()
+            && !(self.needs_trouble && self.fails_without_trouble(&candidate, 0));
+        if let (true, Some(at)) = (fails, failed_at) {
+            (self.best, self.failed_at) = (candidate, at);
+        }
+        fails
+    }
+
+    /// Whether the scenario without faults in an ideal network fails with its own seed or one of so many
+    /// others.
+    fn fails_without_trouble(&mut self, scenario: &Scenario, seeds: u64) -> bool {
+        let mut calm = milder::without_trouble(scenario);
+        let mut seeds = [scenario.seed].into_iter().chain(1..=seeds);
+        seeds.any(|seed| {
+            calm.seed = seed;
+            self.try_out(&calm).is_some()
+        })
+    }
+
+    /// Proposes a scenario with its own seed and, should it not do with that, with others.
+    fn with_seeds(
+        &mut self,
+        candidate: &Scenario,
+        propose: fn(&mut Self, Scenario) -> bool,
+    ) -> bool {
+        let mut seeds = [candidate.seed].into_iter().chain(1..=self.limits.seeds);
+        seeds.any(|seed| {
             let mut candidate = candidate.clone();
             candidate.seed = seed;
-            if self.propose(candidate) {
-                return true;
-            }
-        }
-        false
+            propose(self, candidate)
+        })
     }
 
     /// Ends the run when it fails.
@@ -172,7 +208,7 @@ impl Search<'_> {
             return false;
         }
         let candidate = lasting(&self.best, half);
-        self.propose_with_seeds(&candidate)
+        self.with_seeds(&candidate, Search::propose)
     }
 
     fn fewer_robots(&mut self) -> bool {
@@ -184,7 +220,7 @@ impl Search<'_> {
             }
             let mut candidate = keep_robots(&base, kept);
             (candidate.seed, candidate.duration) = (self.best.seed, self.best.duration);
-            self.propose_with_seeds(&candidate)
+            self.with_seeds(&candidate, Search::propose_fleet)
         });
         kept.len() < all.len()
     }
