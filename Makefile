@@ -1,5 +1,5 @@
 # The two commands of the README, and the parts that `make test` is made of.
-.PHONY: run setup test check unit portable wasm golden wasm-module trace examples docs deny bench editors diagrams
+.PHONY: run setup test check unit portable wasm golden wasm-module trace examples faults million docs deny bench editors diagrams
 
 VENV = target/venv/bin
 CARGO_TARGET_DIR ?= target
@@ -9,7 +9,7 @@ run:
 	cargo run --release -- run race
 
 # Everything that continuous integration runs.
-test: setup check unit portable wasm trace examples docs deny
+test: setup check unit portable wasm trace examples faults docs deny
 
 setup:
 	tools/setup.sh
@@ -49,6 +49,15 @@ trace: $(STARL)
 # Every example reaches its goal, in calm and in bad weather.
 examples: $(STARL)
 	tools/examples.sh $(STARL)
+
+# The primitives under every profile of faults, for a few seconds; what goes wrong is kept in target/.
+faults: $(STARL)
+	mkdir -p target/faults
+	$(STARL) test examples/primitives/*.toml --seeds 25 --out target/faults
+
+# The same a million times; goes on where it was stopped. Not part of `make test`, since it takes hours.
+million: $(STARL)
+	tools/million.sh $(STARL) target/million
 
 docs:
 	python3 tools/check_docs.py
