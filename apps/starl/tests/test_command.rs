@@ -155,7 +155,7 @@ fn an_invariant_of_a_program_is_found_and_shrunk() {
         "{text}"
     );
     assert_eq!(
-        text.matches("position").count(),
+        text.matches("{ position").count(),
         2,
         "two robots are enough:\n{text}"
     );
