@@ -40,6 +40,10 @@ pub(super) struct Entry {
 
 impl Locks {
     pub fn acquire(&mut self, robot: RobotId, resource: &str, at: Time) {
+        // Who asks holds nothing, whatever it held before its state was corrupted.
+        for holders in self.holders.values_mut() {
+            holders.retain(|holder| holder.robot != robot);
+        }
         let resource = self.name(resource);
         let waiting = self
             .waiting
@@ -79,7 +83,7 @@ impl Locks {
         self.changed(&[resource], at);
         self.overtake(robot, resource, at);
         let holders = self.holders.entry(name.clone()).or_default();
-        holders.retain(|holder| holder.robot != robot);
+        holders.retain(|holder| holder.robot != robot && !holder.is_doubtful);
         let is_wrong = |holder: &&Holder| {
             !(holder.is_doubtful || entry.is_doubtful) && holder.is_exclusive && entry.is_exclusive
         };
@@ -151,8 +155,13 @@ impl Locks {
         self.changed(&freed, at);
     }
 
-    /// What is held now may be held by others too.
-    pub fn doubt(&mut self) {
+    /// A robot's state was overwritten: it may hold what it held and may not, and what is held now may be held
+    /// by others too.
+    pub fn doubt(&mut self, robot: RobotId, at: Time) {
+        if let Some(waiting) = self.waiting.remove(&robot) {
+            let names: Vec<&str> = waiting.resources.iter().map(|name| &**name).collect();
+            self.changed(&names, at);
+        }
         for holder in self.holders.values_mut().flatten() {
             holder.is_doubtful = true;
         }

@@ -113,11 +113,11 @@ impl Mutex {
     /// A robot's state was overwritten, perhaps before its last reports.
     fn corrupted(&mut self, robot: RobotId, at: Time) {
         self.pending.clear();
-        self.forget(robot, at);
         self.doubtful_until = at + self.bound;
         for locks in self.locks.values_mut() {
-            locks.doubt();
+            locks.doubt(robot, at);
         }
+        self.next_look = Time::ZERO;
     }
 
     /// Time has come to `now`.
