@@ -2,7 +2,7 @@
 
 mod harness;
 
-use harness::keeper::{Keeper, known, read, keeper, result, status, withdraw, write};
+use harness::keeper::{Keeper, keeper, known, read, result, status, withdraw, write};
 use harness::{Wire, World};
 use starl_core::Duration;
 use starl_primitives::register::Status;
@@ -10,13 +10,7 @@ use starl_primitives::register::Status;
 const SECOND: Duration = Duration::from_seconds(1);
 
 fn idle(count: usize) -> World {
-    let mut world = World::new(
-        count,
-        1,
-        Wire::perfect(),
-        None,
-        Keeper::boxed(false, None),
-    );
+    let mut world = World::new(count, 1, Wire::perfect(), None, Keeper::boxed(false, None));
     world.run_for(SECOND * 20);
     world
 }

@@ -2,7 +2,7 @@
 
 mod harness;
 
-use harness::keeper::{Keeper, known, read, keeper, result, write};
+use harness::keeper::{Keeper, keeper, known, read, result, write};
 use harness::{Wire, World};
 use starl_core::Duration;
 

@@ -40,11 +40,13 @@ impl Total {
             return;
         };
         let latest = member.term.saturating_add(super::FURTHEST);
-        if next.term > latest
-            || next.term < member.term
-            || next.term == member.term && member.is_leading()
-        {
+        if next.term > latest || next.term == member.term && member.is_leading() {
             return;
+        }
+        if next.term < member.term {
+            // The leader has to hear of the later term, or it would never lead this robot again.
+            let answer = member.lacking();
+            return self.say(robot, Destination::Robot(from.robot), answer);
         }
         let had_leader = member.leader == Some(from);
         member.follow(from, next.term);
@@ -217,6 +219,16 @@ pub(super) fn remember(senders: &mut BTreeMap<Sender, u32>, sender: Sender, numb
 impl Member {
     pub(super) fn is_leading(&self) -> bool {
         matches!(self.role, Role::Leading(_))
+    }
+
+    /// That it could not take what it was sent.
+    fn lacking(&self) -> Body {
+        Body::Taken {
+            term: self.term,
+            through: self.commit,
+            is_whole: false,
+            applied: self.applied,
+        }
     }
 
     /// Takes entries that come after one. Gives the last that is the leader's; none where something is

@@ -149,12 +149,13 @@ impl Total {
                 is_whole,
                 applied,
             } => {
-                if self
-                    .member
-                    .as_ref()
-                    .is_some_and(|member| member.term == term)
-                {
+                let Some(member) = &mut self.member else {
+                    return;
+                };
+                if term == member.term {
                     self.taken_by(robot, from, (through, is_whole, applied));
+                } else if term <= member.term.saturating_add(FURTHEST) {
+                    member.hear_of(term);
                 }
             }
             Body::Propose {

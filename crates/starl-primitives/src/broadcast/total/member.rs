@@ -127,6 +127,14 @@ impl Member {
         }
     }
 
+    /// Someone is in this term; if it is later than this robot's, it leads no more and asks again soon.
+    pub fn hear_of(&mut self, term: u32) {
+        if term > self.term {
+            self.enter_term(term);
+            self.silence = self.silence.max(self.patience);
+        }
+    }
+
     /// A leader of this term speaks.
     pub fn follow(&mut self, leader: Life, term: u32) {
         self.enter_term(term);
