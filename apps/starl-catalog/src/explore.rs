@@ -8,7 +8,7 @@ use starl_core::motion::Obstacles;
 use starl_explore::{Bounds, Member, Model, Setup};
 use starl_sim::engine::StartError;
 use starl_sim::properties::{self, Setting};
-use starl_sim::scenario::{self, Goal, Properties, Scenario};
+use starl_sim::scenario::{self, Goal, Scenario};
 
 /// A bound that never runs out: nothing is too late in an exploration.
 const FOREVER: Duration = Duration::from_seconds(100 * 365 * 24 * 3600);
@@ -69,39 +69,7 @@ impl Application {
 /// The scenario with checkers that never find anything too late.
 fn timeless(scenario: &Scenario) -> Scenario {
     let mut scenario = scenario.clone();
-    let Properties {
-        no_collision: _,
-        reach_avoid: _,
-        progress_bound,
-        broadcast: _,
-        broadcast_bound,
-        geocast: _,
-        geocast_bound,
-        shared_memory: _,
-        shared_memory_bound,
-        election: _,
-        election_bound,
-        mutex: _,
-        mutex_bound,
-        register: _,
-        registration: _,
-        registration_bound,
-        barrier: _,
-        barrier_bound,
-        program: _,
-    } = &mut scenario.properties;
-    for bound in [
-        progress_bound,
-        broadcast_bound,
-        geocast_bound,
-        shared_memory_bound,
-        election_bound,
-        mutex_bound,
-        registration_bound,
-        barrier_bound,
-    ] {
-        *bound = FOREVER;
-    }
+    scenario.properties = scenario.properties.without_bounds(FOREVER);
     scenario
 }
 

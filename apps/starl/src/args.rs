@@ -241,12 +241,21 @@ pub struct ExploreArguments {
     /// Have clocks tick: a tick is this long [default: all clocks show zero]
     #[arg(long, value_name = "TIME")]
     pub tick: Option<String>,
-    /// With --tick: how long clocks tick
+    /// Begin when robots have said to each other what they say at their start: all arrives at once and
+    /// in order, no program is activated, and N ticks pass (with --tick)
+    #[arg(long, value_name = "N")]
+    pub warm_up: Option<u16>,
+    /// With --tick: how long clocks tick, after the warm-up
     #[arg(long, value_name = "TIME", default_value = "10s")]
     pub time: String,
     /// With --tick: by how many ticks a clock may be ahead of another
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub skew: u16,
+    /// With --tick: what has not arrived when it has been under way for more ticks than this is lost
+    /// [default: datagrams may take any time]
+    #[arg(long, value_name = "N", requires = "tick", conflicts_with = "skew",
+        value_parser = clap::value_parser!(u8).range(..=15))]
+    pub delay: Option<u8>,
     /// Go no further than this many steps from the start; exit status 3 if there is more
     #[arg(long, value_name = "N")]
     pub depth: Option<u32>,
@@ -259,6 +268,9 @@ pub struct ExploreArguments {
     /// Where to keep the way to a violation [default: TARGET-counterexample.json]
     #[arg(long, value_name = "PATH")]
     pub save: Option<PathBuf>,
+    /// Where to draw the way to a violation as a space-time diagram (.svg)
+    #[arg(long, value_name = "PATH")]
+    pub diagram: Option<PathBuf>,
     /// Go the way that this file keeps, step by step, and explore nothing
     #[arg(long, value_name = "FILE", conflicts_with_all = ["target", "save"])]
     pub replay: Option<PathBuf>,

@@ -44,6 +44,10 @@ pub enum Clocks {
         ticks: u16,
         /// By how many ticks a robot's clock may be ahead of another's; at 0 all advance together.
         skew: u16,
+        /// A datagram that has not arrived when it has been under way for more ticks than this is lost;
+        /// 15 at most, default never. It counts the ticks that all clocks make together, so there is no such
+        /// bound with a skew.
+        delay: Option<u8>,
     },
 }
 

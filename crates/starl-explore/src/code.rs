@@ -43,6 +43,36 @@ const KINDS: [Kind; 12] = [
 
 const SHIFT: u32 = 28;
 
+/// A datagram on its way in one word: for how many ticks it has been, and its number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Flying(pub u32);
+
+/// The greatest age that can be told.
+pub(crate) const OLDEST: u8 = 15;
+
+impl Flying {
+    /// One that was just sent.
+    pub fn new(number: u32) -> Flying {
+        Flying(number)
+    }
+
+    /// One that has been on its way for some ticks.
+    pub fn aged(number: u32, age: u8) -> Flying {
+        Flying(u32::from(age.min(OLDEST)) << SHIFT | number)
+    }
+
+    /// The datagram's number.
+    pub fn number(self) -> u32 {
+        self.0 & ((1 << SHIFT) - 1)
+    }
+
+    /// The same a tick later; none if it has been under way for longer than that.
+    pub fn age(self, delay: u8) -> Option<Flying> {
+        let age = (self.0 >> SHIFT) + 1;
+        (age <= u32::from(delay.min(OLDEST))).then(|| Flying(age << SHIFT | self.number()))
+    }
+}
+
 /// More kinds of datagrams than this have no numbers.
 pub(crate) const MOST_DATAGRAMS: usize = 1 << SHIFT;
 

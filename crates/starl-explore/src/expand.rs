@@ -1,7 +1,7 @@
 //! What can happen next in a state.
 
 use crate::bounds::{Clocks, Left};
-use crate::code::{Code, Kind};
+use crate::code::{Code, Flying, Kind};
 use crate::robot::Local;
 use crate::robots::Outcome;
 use crate::search::{HEAD, Search};
@@ -92,9 +92,14 @@ impl Search {
 
     /// Datagrams arrive, twice perhaps, or get lost.
     fn arrivals(&mut self, site: &mut Site) {
-        let mut flight = site.flight().to_vec();
-        flight.dedup();
-        for datagram in flight {
+        // Of equal ones the oldest, which comes last, goes first: those that stay may stay for longer.
+        let mut flight: Vec<Flying> = site.flight().iter().copied().map(Flying).collect();
+        flight.sort_by_key(|flying| (flying.number(), flying.0));
+        flight.reverse();
+        flight.dedup_by_key(|flying| flying.number());
+        flight.sort_by_key(|flying| flying.number());
+        for flying in flight {
+            let datagram = flying.number();
             let to = self.robots.datagram(datagram).to;
             let local = site.local(to);
             if self.robots.state(local).agent.is_none() {
@@ -104,7 +109,7 @@ impl Search {
             let outcome = self.robots.turn(local, deliver);
             let is_idle = outcome.is_idle(local);
             let outcomes = [(to, outcome)];
-            self.take(site, deliver, site.left, Some(datagram), &outcomes);
+            self.take(site, deliver, site.left, Some(flying), &outcomes);
             if site.left.duplicates > 0 && !is_idle {
                 let left = Left {
                     duplicates: site.left.duplicates - 1,
@@ -119,7 +124,7 @@ impl Search {
                     ..site.left
                 };
                 let code = Code::datagram(Kind::Lose, datagram);
-                self.take(site, code, left, Some(datagram), &[]);
+                self.take(site, code, left, Some(flying), &[]);
             }
         }
     }
@@ -166,7 +171,7 @@ impl Search {
     /// A robot that is down starts again, and may have missed what was on its way to it.
     fn restarts(&mut self, site: &mut Site, robot: RobotId) {
         self.happen(site, Code::robot(Kind::Restart, robot, 0), robot, site.left);
-        let is_missed = |datagram: &u32| self.robots.datagram(*datagram).to == robot;
+        let is_missed = |word: &u32| self.robots.datagram(Flying(*word).number()).to == robot;
         if !site.flight().iter().any(is_missed) {
             return;
         }
@@ -189,7 +194,10 @@ impl Search {
 
     /// Clocks advance where no timer is due.
     fn ticks(&mut self, site: &mut Site) {
-        let Clocks::Ticking { ticks, skew, .. } = self.bounds.clocks else {
+        let Clocks::Ticking {
+            ticks, skew, delay, ..
+        } = self.bounds.clocks
+        else {
             return;
         };
         let fleet = self.robots.surroundings.fleet.clone();
@@ -226,7 +234,17 @@ impl Search {
                 })
                 .collect();
             let code = Code::robot(Kind::TickAll, RobotId(0), 0);
-            self.take(site, code, site.left, None, &outcomes);
+            self.begin(&site.row, site.left);
+            if let Some(delay) = delay {
+                let older = site.flight().iter();
+                let mut older: Vec<u32> = older
+                    .filter_map(|&word| Some(Flying(word).age(delay)?.0))
+                    .collect();
+                older.sort_unstable();
+                self.keep(&older);
+            }
+            let next = self.finish((site.number, code), None, &outcomes);
+            site.moves |= next != Some(site.number);
         }
         site.held |= held;
     }
@@ -245,7 +263,7 @@ impl Search {
         site: &mut Site,
         code: Code,
         left: Left,
-        taken: Option<u32>,
+        taken: Option<Flying>,
         outcomes: &[(RobotId, Outcome)],
     ) {
         self.begin(&site.row, left);

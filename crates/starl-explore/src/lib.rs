@@ -22,6 +22,7 @@ mod step;
 mod table;
 mod texts;
 mod walk;
+mod warm_up;
 mod watch;
 
 pub use bounds::{Bounds, Clocks};

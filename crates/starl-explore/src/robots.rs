@@ -104,12 +104,6 @@ impl Robots {
         &self.sent[outcome.sent.clone()]
     }
 
-    /// Starts a robot.
-    pub fn start(&mut self, robot: RobotId) -> Outcome {
-        let turn = Local::start(robot, &self.surroundings);
-        self.enter(turn)
-    }
-
     /// What becomes of a robot in this state.
     pub fn turn(&mut self, local: u32, code: Code) -> Outcome {
         let (number, is_new) = self.turns.insert(&[local, code.0]);
@@ -165,7 +159,8 @@ impl Robots {
         }
     }
 
-    fn number(&mut self, local: Local) -> u32 {
+    /// The number of a robot's state.
+    pub fn number(&mut self, local: Local) -> u32 {
         let mut text = String::new();
         local.write(&mut text);
         let (number, is_new) = self.texts.insert(&text);
@@ -177,7 +172,8 @@ impl Robots {
         number
     }
 
-    fn number_of(&mut self, datagram: Datagram) -> u32 {
+    /// The number of a datagram.
+    pub fn number_of(&mut self, datagram: Datagram) -> u32 {
         let bytes = datagram.payload.chunks(4).map(|chunk| {
             let mut word = [0; 4];
             word[..chunk.len()].copy_from_slice(chunk);

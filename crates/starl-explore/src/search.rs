@@ -2,18 +2,17 @@
 //! has as few steps before it as any.
 //!
 //! A state is a row of words: the number of what the checkers remember, what is left of the bounds, the
-//! number of each robot's state, and the numbers of the datagrams that are on their way, in ascending
-//! order. All that can make a difference to what comes next is in the row, and rows are compared whole.
+//! number of each robot's state, and the datagrams that are on their way, in ascending order. All that can make a difference to what comes next is in the row, and rows are compared whole.
 
 use crate::Setup;
 use crate::bounds::{Bounds, Left};
-use crate::code::{Code, MOST_ROBOTS};
+use crate::code::{Code, Flying, MOST_ROBOTS};
 use crate::doubt::Doubt;
-use crate::robot::Surroundings;
 use crate::robots::{Outcome, Robots};
 use crate::scene::{Invariant, Scene};
 use crate::step::Step;
 use crate::table::Table;
+use crate::walk::Walk;
 use crate::watch::Watches;
 use starl_core::RobotId;
 use starl_sim::properties::Violation;
@@ -99,26 +98,28 @@ pub struct TooManyRobots;
 pub(crate) const HEAD: usize = 1 + Left::WORDS;
 
 impl Search {
-    /// A search that has seen the first state: all robots have started.
+    /// A search from the state in which all robots have started.
     ///
     /// # Errors
     /// Where there are more than 256 robots.
     pub fn new(setup: Setup) -> Result<Search, TooManyRobots> {
-        let Setup {
-            model,
-            bounds,
-            checkers,
-            invariants,
-        } = setup;
-        if model.members.len() > MOST_ROBOTS {
+        let (walk, moment) = Walk::start(setup);
+        Search::from(&walk, moment.violations)
+    }
+
+    /// A search from the state that a walk has come to, in which this is violated.
+    ///
+    /// # Errors
+    /// Where there are more than 256 robots.
+    pub fn from(walk: &Walk, violations: Vec<Violation>) -> Result<Search, TooManyRobots> {
+        if walk.locals.len() > MOST_ROBOTS {
             return Err(TooManyRobots);
         }
-        let fleet = model.fleet();
         let mut search = Search {
-            bounds,
-            robots: Robots::new(Surroundings::new(model, bounds.clocks)),
-            watches: Watches::new(checkers),
-            invariants,
+            bounds: walk.bounds,
+            robots: Robots::new(walk.surroundings.clone()),
+            watches: Watches::new(walk.checkers.clone()),
+            invariants: walk.invariants.clone(),
             judged: Table::default(),
             states: Table::default(),
             origins: Vec::new(),
@@ -130,14 +131,26 @@ impl Search {
             end: None,
             row: Vec::new(),
         };
-        search.row.push(0);
-        search.row.extend(Left::of(&bounds).words());
-        search.row.extend(fleet.iter().map(|_| 0));
-        let outcomes: Vec<(RobotId, Outcome)> = fleet
-            .into_iter()
-            .map(|robot| (robot, search.robots.start(robot)))
+        let locals = walk.locals.iter();
+        let locals: Vec<u32> = locals
+            .map(|local| search.robots.number(local.clone()))
             .collect();
-        search.enter(0, None, &outcomes);
+        let flight = walk.flying();
+        let mut flight: Vec<u32> = flight
+            .map(|(datagram, age)| {
+                let number = search.robots.number_of(datagram.clone());
+                Flying::aged(number, age).0
+            })
+            .collect();
+        flight.sort_unstable();
+        search.row.push(0);
+        search.row.extend(walk.left.words());
+        search.row.extend(locals);
+        search.row.extend(flight);
+        search.enter(0, None, &[]);
+        if let Some(violation) = violations.into_iter().next() {
+            search.blame(0, None, violation);
+        }
         Ok(search)
     }
 
@@ -224,17 +237,17 @@ impl Search {
     }
 
     /// Ends the row that was begun: these robots have had a turn. The datagram that was taken from the
-    /// network is given by its number. Gives the state's number; none where something is violated.
+    /// network is given as it is in the row. Gives the state's number; none where something is violated.
     pub(crate) fn finish(
         &mut self,
         (from, code): (u32, Code),
-        taken: Option<u32>,
+        taken: Option<Flying>,
         outcomes: &[(RobotId, Outcome)],
     ) -> Option<u32> {
         self.transitions += 1;
         let first = HEAD + self.robots.surroundings.fleet.len();
-        if let Some(number) = taken
-            && let Ok(place) = self.row[first..].binary_search(&number)
+        if let Some(Flying(word)) = taken
+            && let Ok(place) = self.row[first..].binary_search(&word)
         {
             self.row.remove(first + place);
         }
@@ -251,8 +264,9 @@ impl Search {
         for (robot, outcome) in outcomes {
             self.row[HEAD + robot.index()] = outcome.local;
             for &number in self.robots.sent(outcome) {
-                let place = self.row[first..].partition_point(|&other| other < number);
-                self.row.insert(first + place, number);
+                let Flying(word) = Flying::new(number);
+                let place = self.row[first..].partition_point(|&other| other < word);
+                self.row.insert(first + place, word);
             }
         }
         let violation = self.show(outcomes);

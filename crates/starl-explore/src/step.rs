@@ -13,8 +13,32 @@ pub struct Datagram {
     pub to: RobotId,
     /// The endpoint there.
     pub port: Port,
-    /// The content.
+    /// The content; in files two hexadecimal digits a byte.
+    #[serde(with = "hexadecimal")]
     pub payload: Vec<u8>,
+}
+
+mod hexadecimal {
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(bytes: &[u8], serializer: S) -> Result<S::Ok, S::Error> {
+        let digits: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
+        serializer.serialize_str(&digits)
+    }
+
+    pub fn deserialize<'a, D: Deserializer<'a>>(deserializer: D) -> Result<Vec<u8>, D::Error> {
+        let digits = String::deserialize(deserializer)?;
+        let pairs = digits.as_bytes().chunks(2);
+        let byte = |pair: &[u8]| {
+            let text = std::str::from_utf8(pair)
+                .ok()
+                .filter(|text| text.len() == 2);
+            let byte = text.and_then(|text| u8::from_str_radix(text, 16).ok());
+            byte.ok_or_else(|| D::Error::custom("a payload is two hexadecimal digits a byte"))
+        };
+        pairs.map(byte).collect()
+    }
 }
 
 /// One step.

@@ -5,6 +5,7 @@
 
 use crate::Setup;
 use crate::bounds::{Bounds, Clocks, Left};
+use crate::code::OLDEST;
 use crate::expand::ready;
 use crate::robot::{Happening, Local, Surroundings, Turn};
 use crate::scene::{Invariant, Scene};
@@ -13,22 +14,33 @@ use crate::watch::{self, Checkers};
 use starl_core::event::DropReason;
 use starl_core::{Destination, Event, Payload, Record, RobotId, Time};
 use starl_sim::properties::Violation;
+use std::cmp::Reverse;
 use std::fmt;
 
 /// A fleet on its way.
 #[derive(Clone)]
 pub struct Walk {
-    surroundings: Surroundings,
-    bounds: Bounds,
-    left: Left,
-    locals: Vec<Local>,
-    /// What is on its way, with the sender's number for it.
-    flight: Vec<(Datagram, u32)>,
+    pub(crate) surroundings: Surroundings,
+    pub(crate) bounds: Bounds,
+    pub(crate) left: Left,
+    pub(crate) locals: Vec<Local>,
+    /// What is on its way.
+    flight: Vec<Flying>,
     /// Counts each robot's datagrams.
     sent: Vec<u32>,
-    checkers: Checkers,
-    invariants: Vec<Box<dyn Invariant>>,
+    pub(crate) checkers: Checkers,
+    pub(crate) invariants: Vec<Box<dyn Invariant>>,
     steps: u64,
+}
+
+/// A datagram on its way.
+#[derive(Clone, Debug)]
+struct Flying {
+    datagram: Datagram,
+    /// The sender's number for it.
+    sequence: u32,
+    /// Ticks that it has been under way.
+    age: u8,
 }
 
 /// What happens in a step.
@@ -82,67 +94,61 @@ impl Walk {
     pub fn step(&mut self, step: &Step) -> Result<Moment, Impossible> {
         self.steps += 1;
         let mut records = Vec::new();
-        let turns =
-            match step {
-                Step::Activate(robot) => vec![self.turn(*robot, Happening::Activate)?],
-                Step::Timer(robot, key) => {
-                    let local = self.running(*robot)?;
-                    let silent = &self.surroundings.model.silent;
-                    let mut armed = local.timers.keys();
-                    let place = armed.position(|armed| armed == key);
-                    let ready = ready(local, self.bounds.clocks, |port| silent.contains(&port));
-                    if !place.is_some_and(|place| ready.contains(&(place as u32))) {
-                        return Err(Impossible("the timer cannot fire".into()));
-                    }
-                    if self.bounds.clocks == Clocks::Still {
-                        spend(&mut self.left.timers, "timers")?;
-                    }
-                    vec![self.turn(*robot, Happening::Timer(*key))?]
+        let turns = match step {
+            Step::Activate(robot) => vec![self.turn(*robot, Happening::Activate)?],
+            Step::Timer(robot, key) => {
+                let local = self.running(*robot)?;
+                let silent = &self.surroundings.model.silent;
+                let mut armed = local.timers.keys();
+                let place = armed.position(|armed| armed == key);
+                let ready = ready(local, self.bounds.clocks, |port| silent.contains(&port));
+                if !place.is_some_and(|place| ready.contains(&(place as u32))) {
+                    return Err(Impossible("the timer cannot fire".into()));
                 }
-                Step::Deliver(datagram) => vec![self.deliver(datagram, true, &mut records)?],
-                Step::Duplicate(datagram) => {
-                    spend(&mut self.left.duplicates, "duplicates")?;
-                    vec![self.deliver(datagram, false, &mut records)?]
+                if self.bounds.clocks == Clocks::Still {
+                    spend(&mut self.left.timers, "timers")?;
                 }
-                Step::Lose(datagram) => {
-                    spend(&mut self.left.losses, "losses")?;
-                    let place = self.find(datagram)?;
-                    let (datagram, sequence) = self.flight.remove(place);
-                    records.push(self.lost(&datagram, sequence, DropReason::Loss));
-                    Vec::new()
-                }
-                Step::Crash(robot) => {
-                    spend(&mut self.left.crashes, "crashes")?;
-                    vec![self.turn(*robot, Happening::Crash)?]
-                }
-                Step::Restart(robot) => vec![self.restart(*robot)?],
-                Step::RestartDeaf(robot) => {
-                    let (missed, kept) = std::mem::take(&mut self.flight)
-                        .into_iter()
-                        .partition(|(datagram, _)| datagram.to == *robot);
-                    self.flight = kept;
-                    let missed: Vec<(Datagram, u32)> = missed;
-                    let missed = missed.iter();
-                    records.extend(missed.map(|(datagram, sequence)| {
-                        self.lost(datagram, *sequence, DropReason::Down)
-                    }));
-                    vec![self.restart(*robot)?]
-                }
-                Step::Suspect(robot, peer) => {
-                    spend(&mut self.left.suspicions, "suspicions")?;
-                    vec![self.turn(*robot, Happening::Suspect(*peer))?]
-                }
-                Step::Trust(robot, peer) => {
-                    spend(&mut self.left.suspicions, "suspicions")?;
-                    vec![self.turn(*robot, Happening::Trust(*peer))?]
-                }
-                Step::Tick(robot) => vec![self.tick(*robot)?],
-                Step::TickAll => {
-                    let fleet = self.surroundings.fleet.clone();
-                    let turns = fleet.into_iter().map(|robot| self.tick(robot));
-                    turns.collect::<Result<_, _>>()?
-                }
-            };
+                vec![self.turn(*robot, Happening::Timer(*key))?]
+            }
+            Step::Deliver(datagram) => vec![self.deliver(datagram, true, &mut records)?],
+            Step::Duplicate(datagram) => {
+                spend(&mut self.left.duplicates, "duplicates")?;
+                vec![self.deliver(datagram, false, &mut records)?]
+            }
+            Step::Lose(datagram) => {
+                spend(&mut self.left.losses, "losses")?;
+                let place = self.find(datagram)?;
+                let flying = self.flight.remove(place);
+                records.push(self.lost(&flying, DropReason::Loss));
+                Vec::new()
+            }
+            Step::Crash(robot) => {
+                spend(&mut self.left.crashes, "crashes")?;
+                vec![self.turn(*robot, Happening::Crash)?]
+            }
+            Step::Restart(robot) => vec![self.restart(*robot)?],
+            Step::RestartDeaf(robot) => {
+                let is_missed = |flying: &Flying| flying.datagram.to == *robot;
+                records.extend(self.lose_all(is_missed, DropReason::Down));
+                vec![self.restart(*robot)?]
+            }
+            Step::Suspect(robot, peer) => {
+                spend(&mut self.left.suspicions, "suspicions")?;
+                vec![self.turn(*robot, Happening::Suspect(*peer))?]
+            }
+            Step::Trust(robot, peer) => {
+                spend(&mut self.left.suspicions, "suspicions")?;
+                vec![self.turn(*robot, Happening::Trust(*peer))?]
+            }
+            Step::Tick(robot) => vec![self.tick(*robot)?],
+            Step::TickAll => {
+                let fleet = self.surroundings.fleet.clone();
+                let turns = fleet.into_iter().map(|robot| self.tick(robot));
+                let turns = turns.collect::<Result<_, _>>()?;
+                records.extend(self.grow_old());
+                turns
+            }
+        };
         Ok(self.settle(records, turns))
     }
 
@@ -154,9 +160,16 @@ impl Walk {
         }
     }
 
-    /// What is on its way.
+    /// What is on its way, in the order in which it was sent.
     pub fn flight(&self) -> impl Iterator<Item = &Datagram> {
-        self.flight.iter().map(|(datagram, _)| datagram)
+        self.flight.iter().map(|flying| &flying.datagram)
+    }
+
+    /// What is on its way, and for how many ticks it has been.
+    pub(crate) fn flying(&self) -> impl Iterator<Item = (&Datagram, u8)> {
+        self.flight
+            .iter()
+            .map(|flying| (&flying.datagram, flying.age))
     }
 
     /// Robots that wait for ever, if nothing can happen any more in this state. Whether something can is
@@ -214,8 +227,10 @@ impl Walk {
     }
 
     fn find(&self, wanted: &Datagram) -> Result<usize, Impossible> {
-        let mut flight = self.flight.iter();
-        let place = flight.position(|(datagram, _)| datagram == wanted);
+        let flight = self.flight.iter().enumerate();
+        let same = flight.filter(|(_, flying)| flying.datagram == *wanted);
+        let oldest = same.max_by_key(|(place, flying)| (flying.age, Reverse(*place)));
+        let place = oldest.map(|(place, _)| place);
         place.ok_or_else(|| Impossible("no such datagram is on its way".into()))
     }
 
@@ -227,7 +242,7 @@ impl Walk {
     ) -> Result<Turn, Impossible> {
         let place = self.find(datagram)?;
         let turn = self.turn(datagram.to, Happening::Message(datagram.message()))?;
-        let (from, sequence) = (datagram.from, self.flight[place].1);
+        let (from, sequence) = (datagram.from, self.flight[place].sequence);
         if is_last {
             self.flight.remove(place);
         }
@@ -239,17 +254,39 @@ impl Walk {
         Ok(turn)
     }
 
-    fn lost(&self, datagram: &Datagram, sequence: u32, reason: DropReason) -> Record {
+    fn lost(&self, flying: &Flying, reason: DropReason) -> Record {
+        let Datagram { from, to, .. } = flying.datagram;
         Record {
             at: self.at(),
-            robot: Some(datagram.to),
+            robot: Some(to),
             event: Event::Dropped {
-                from: datagram.from,
-                to: Some(datagram.to),
-                sequence,
+                from,
+                to: Some(to),
+                sequence: flying.sequence,
                 reason,
             },
         }
+    }
+
+    /// All that is on its way has been so for a tick more.
+    fn grow_old(&mut self) -> Vec<Record> {
+        let Clocks::Ticking {
+            delay: Some(delay), ..
+        } = self.bounds.clocks
+        else {
+            return Vec::new();
+        };
+        self.flight.iter_mut().for_each(|flying| flying.age += 1);
+        self.lose_all(|flying| flying.age > delay.min(OLDEST), DropReason::Loss)
+    }
+
+    /// Takes these out of the network.
+    fn lose_all(&mut self, which: impl Fn(&Flying) -> bool, reason: DropReason) -> Vec<Record> {
+        let flight = std::mem::take(&mut self.flight);
+        let (gone, kept): (Vec<Flying>, Vec<Flying>) = flight.into_iter().partition(which);
+        self.flight = kept;
+        let lost = gone.iter().map(|flying| self.lost(flying, reason));
+        lost.collect()
     }
 
     /// Takes in what has come of turns.
@@ -275,7 +312,11 @@ impl Walk {
                     port: datagram.port,
                     payload: Payload::from_slice(&datagram.payload),
                 }));
-                self.flight.push((datagram, sequence));
+                self.flight.push(Flying {
+                    datagram,
+                    sequence,
+                    age: 0,
+                });
             }
             records.extend(turn.events.iter().cloned().map(record));
             let events = turn.events.into_iter().filter(watch::is_shown);

@@ -4,14 +4,11 @@
 mod support;
 
 use starl_explore::{Bounds, Counterexample, End, Setup, Step, Walk};
-use support::locker::Exclusion;
 use support::tieless::Tieless;
-use support::{search, setup};
+use support::{search, setup, watched};
 
 fn broken(robots: usize) -> Setup {
-    let mut setup = setup(robots, Tieless::default(), Bounds::default());
-    setup.checkers.push(Box::new(Exclusion::default()));
-    setup
+    watched(setup(robots, Tieless::default(), Bounds::default()))
 }
 
 fn counterexample(robots: usize) -> Counterexample {
@@ -30,7 +27,7 @@ fn two_robots_ask_at_the_same_time_and_both_enter() {
         .iter()
         .filter(|step| matches!(step, Step::Activate(_)));
     assert_eq!(activations.count(), 2);
-    assert_eq!(violation.property, "exclusion");
+    assert_eq!(violation.property, "mutex.safety");
 }
 
 #[test]

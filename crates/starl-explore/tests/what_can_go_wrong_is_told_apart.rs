@@ -234,6 +234,7 @@ fn timers_fire_in_their_order_where_clocks_tick() {
             tick: Duration::from_millis(250),
             ticks: 6,
             skew,
+            delay: None,
         },
         ..Bounds::default()
     };

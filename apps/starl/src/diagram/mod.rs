@@ -20,7 +20,7 @@ use crate::plot::drawing::Drawing;
 use crate::replay::{inputs, open, unreadable};
 use crate::target::{self, Selection};
 use starl_catalog::Application;
-use starl_core::{Duration, Time};
+use starl_core::{Duration, Record, Time};
 use std::path::Path;
 use story::Story;
 
@@ -81,6 +81,18 @@ pub fn of_run(application: &Application, extent: &Extent) -> Result<Diagram, Fai
         }
     }
     Ok(Diagram(scene::draw(&story, extent)))
+}
+
+/// Events that are at hand, in the order in which they happened.
+pub fn of_records(application: &Application, records: &[Record]) -> Diagram {
+    let mut story = Story::of(application.scenario());
+    records.iter().for_each(|record| story.observe(record));
+    let end = records.last().map_or(Time::ZERO, |record| record.at);
+    let extent = Extent {
+        last: Some(end.since(Time::ZERO)),
+        until: Some(end),
+    };
+    Diagram(scene::draw(&story, &extent))
 }
 
 /// A run as a trace tells it.

@@ -5,7 +5,7 @@ use super::record::Recording;
 use crate::console::{counted, grouped, rounded};
 use serde::Serialize;
 use starl_core::Duration;
-use starl_explore::{Bounds, Clocks, End, Report};
+use starl_explore::{Clocks, End, Report};
 use std::fmt::Write;
 
 /// What there is to tell.
@@ -46,6 +46,8 @@ struct BoundsInWords {
     tick_seconds: Option<f64>,
     time_seconds: Option<f64>,
     skew_ticks: Option<u16>,
+    delay_ticks: Option<u8>,
+    warm_up_ticks: Option<u16>,
     depth: Option<u32>,
     most_states: u32,
 }
@@ -79,7 +81,7 @@ impl Account {
                 None => "interrupted",
             },
             robots: recording.robots,
-            bounds: BoundsInWords::of(&recording.bounds, recording.heartbeats),
+            bounds: BoundsInWords::of(recording),
             states: report.states,
             transitions: report.transitions,
             depth: report.depth,
@@ -157,7 +159,7 @@ impl Account {
         if let Some(saved) = &self.saved {
             let _ = write!(
                 text,
-                "\nkept in {saved}; go it again with: starl explore --replay {saved}\n"
+                "\nkept in {saved}; to replay it: starl explore --replay {saved}\n"
             );
         }
         text
@@ -186,12 +188,26 @@ impl Account {
 }
 
 impl BoundsInWords {
-    fn of(bounds: &Bounds, heartbeats: bool) -> BoundsInWords {
-        let (tick, time, skew) = match bounds.clocks {
-            Clocks::Still => (None, None, None),
-            Clocks::Ticking { tick, ticks, skew } => {
-                (Some(tick), Some(tick * u64::from(ticks)), Some(skew))
-            }
+    fn of(recording: &Recording) -> BoundsInWords {
+        let Recording {
+            bounds,
+            heartbeats,
+            warm_up,
+            ..
+        } = *recording;
+        let (tick, time, skew, delay) = match bounds.clocks {
+            Clocks::Still => (None, None, None, None),
+            Clocks::Ticking {
+                tick,
+                ticks,
+                skew,
+                delay,
+            } => (
+                Some(tick),
+                Some(tick * u64::from(ticks - warm_up.unwrap_or_default().min(ticks))),
+                Some(skew),
+                delay,
+            ),
         };
         BoundsInWords {
             losses: bounds.losses,
@@ -203,6 +219,8 @@ impl BoundsInWords {
             tick_seconds: tick.map(Duration::seconds),
             time_seconds: time.map(Duration::seconds),
             skew_ticks: skew,
+            delay_ticks: delay,
+            warm_up_ticks: warm_up,
             depth: bounds.depth,
             most_states: bounds.most_states,
         }
@@ -223,13 +241,22 @@ impl BoundsInWords {
         })
         .collect();
         match (self.timers, self.tick_seconds, self.time_seconds) {
-            (Some(timers), ..) => parts.push(counted(usize::from(timers), "timer") + " that fire"),
+            (Some(timers), ..) => parts.push(match timers {
+                1 => "1 timer that fires".into(),
+                timers => format!("{timers} timers that fire"),
+            }),
             (_, Some(tick), Some(time)) => parts.push(format!(
                 "{time} s in ticks of {tick} s, clocks at most {} ticks apart",
                 self.skew_ticks.unwrap_or_default()
             )),
             _ => {}
         }
+        let delay = self.delay_ticks;
+        parts.extend(delay.map(|delay| format!("delays of {delay} ticks")));
+        parts.extend(self.warm_up_ticks.map(|ticks| match ticks {
+            0 => "after a warm-up".to_string(),
+            ticks => format!("after a warm-up of {ticks} ticks"),
+        }));
         if !self.heartbeats {
             parts.push("no heartbeats".into());
         }

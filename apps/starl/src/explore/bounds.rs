@@ -20,8 +20,9 @@ pub fn read(arguments: &ExploreArguments) -> Result<Bounds, Failure> {
             let time = duration("--time", &arguments.time)?;
             Clocks::Ticking {
                 tick,
-                ticks: ticks(time, tick)?,
+                ticks: ticks(time, tick)?.saturating_add(arguments.warm_up.unwrap_or_default()),
                 skew: arguments.skew,
+                delay: arguments.delay,
             }
         }
     };

@@ -34,7 +34,7 @@ const STRIDE: u32 = 2_000;
 /// Explores what the arguments say, or goes a way that was found before.
 pub fn run(arguments: &ExploreArguments) -> Result<ExitCode, Failure> {
     match (&arguments.replay, &arguments.target) {
-        (Some(path), _) => replay::replay(path),
+        (Some(path), _) => replay::replay(path, arguments.diagram.as_deref()),
         (None, Some(target)) => explore(target, arguments),
         (None, None) => Err(Failure(
             "name what to explore: an example, a scenario file or a program; or --replay FILE"
@@ -49,16 +49,18 @@ fn explore(target: &str, arguments: &ExploreArguments) -> Result<ExitCode, Failu
         robots: robots(arguments, &application)?,
         bounds: bounds::read(arguments)?,
         heartbeats: arguments.heartbeats,
+        warm_up: arguments.warm_up,
     };
     let setup = recording.setup(&application)?;
     let output = match &arguments.save {
         Some(path) => Some(Output::create(path)?),
         None => None,
     };
+    let sheet = replay::sheet(arguments.diagram.as_deref())?;
     let stop = stop_on_interrupt();
     let progress = Progress::new(!arguments.quiet && !arguments.json);
     let begun = Instant::now();
-    let mut search = start(setup.clone())?;
+    let mut search = start(&recording, setup.clone())?;
     search.set_doubting(arguments.doubt);
     while search.advance(STRIDE).is_none() && !stop.load(Ordering::Relaxed) {
         progress.advance(&search.report());
@@ -69,7 +71,11 @@ fn explore(target: &str, arguments: &ExploreArguments) -> Result<ExitCode, Failu
     account.seconds = begun.elapsed().as_secs_f64();
     if let Some(End::Violated(found)) = &end {
         account.saved = Some(save(target, output, &application, &recording, found)?);
-        account.steps = replay::show(setup, &found.steps, &found.violation)?.lines;
+        let shown = replay::show(&recording, setup, found)?;
+        if let Some(sheet) = sheet {
+            shown.draw(&application, sheet)?;
+        }
+        account.steps = shown.lines;
     }
     if let Some(End::Contradiction(text)) = &end {
         return Err(Failure(format!("{target}: {text}")));
@@ -87,8 +93,9 @@ fn explore(target: &str, arguments: &ExploreArguments) -> Result<ExitCode, Failu
 }
 
 /// A search at its start.
-fn start(setup: Setup) -> Result<Search, Failure> {
-    Search::new(setup)
+fn start(recording: &Recording, setup: Setup) -> Result<Search, Failure> {
+    let (walk, _, violations) = recording.begin(setup)?;
+    Search::from(&walk, violations)
         .map_err(|_| Failure("--robots: an exploration has room for 256 robots at most".into()))
 }
 

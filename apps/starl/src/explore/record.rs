@@ -6,7 +6,8 @@ use crate::run::start_error;
 use crate::target;
 use serde::{Deserialize, Serialize};
 use starl_catalog::Application;
-use starl_explore::{Bounds, Counterexample, Setup, Step};
+use starl_explore::{Bounds, Counterexample, Setup, Step, Walk};
+use starl_sim::properties::Violation;
 use starl_sim::read::Inputs;
 use std::path::Path;
 
@@ -19,6 +20,8 @@ pub struct Recording {
     pub bounds: Bounds,
     /// Whether failure detectors sent heartbeats.
     pub heartbeats: bool,
+    /// Ticks of the warm-up, if there is one.
+    pub warm_up: Option<u16>,
 }
 
 /// The layout of the file; another number is another layout.
@@ -47,6 +50,22 @@ impl Recording {
             .exploration(self.robots, self.bounds, self.heartbeats)
             .map_err(|error| start_error(application, &error))
     }
+
+    /// The fleet where the exploration begins, how many steps led there, and what was violated on the way.
+    pub fn begin(&self, setup: Setup) -> Result<(Walk, usize, Vec<Violation>), Failure> {
+        let (mut walk, first) = Walk::start(setup);
+        let mut violations = first.violations;
+        let Some(ticks) = self.warm_up else {
+            return Ok((walk, 0, violations));
+        };
+        let taken = walk
+            .warm_up(ticks)
+            .map_err(|impossible| Failure(format!("--warm-up: {impossible}")))?;
+        let steps = taken.len();
+        let moments = taken.into_iter().flat_map(|(_, moment)| moment.violations);
+        violations.extend(moments);
+        Ok((walk, steps, violations))
+    }
 }
 
 /// The content of the file.
@@ -66,7 +85,7 @@ pub fn write(inputs: &Inputs, recording: &Recording, found: &Counterexample) -> 
 }
 
 /// Reads the file.
-pub fn read(path: &Path) -> Result<(Kept, Setup), Failure> {
+pub fn read(path: &Path) -> Result<(Kept, Application, Setup), Failure> {
     let kept: Kept = serde_json::from_str(&target::text(path)?)
         .map_err(|error| Failure::file(path, format!("is no counterexample: {error}")))?;
     if kept.counterexample_layout != LAYOUT {
@@ -81,5 +100,5 @@ pub fn read(path: &Path) -> Result<(Kept, Setup), Failure> {
     let application = starl_catalog::read(&kept.inputs.request, &kept.inputs)
         .map_err(|refusal| Failure::file(path, format!("its inputs are refused: {refusal}")))?;
     let setup = kept.recording.setup(&application)?;
-    Ok((kept, setup))
+    Ok((kept, application, setup))
 }

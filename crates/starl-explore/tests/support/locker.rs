@@ -18,9 +18,9 @@ pub struct Locker {
 
 impl Locker {
     /// Each robot asks for the resources with its number.
-    pub fn new(wanted: &[&[&'static str]]) -> Locker {
+    pub fn new(wanted: &[&[&'static str]], options: Options) -> Locker {
         Locker {
-            mutex: Mutex::new("lock", None, Options::default()),
+            mutex: Mutex::new("lock", None, options),
             wanted: wanted.iter().map(|set| set.to_vec()).collect(),
             stage: 0,
         }
@@ -83,7 +83,7 @@ impl Checker for Exclusion {
                             text: format!("robots {holder} and {robot} hold {resource}"),
                         });
                     }
-                } else if name == "release" {
+                } else if name == "release" || name == "expire" {
                     self.0.remove(&**resource);
                 }
             }

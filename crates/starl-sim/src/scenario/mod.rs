@@ -186,6 +186,46 @@ impl Default for Motion {
     }
 }
 
+impl Properties {
+    /// The same, with nothing ever too late: every bound of time is `forever`.
+    pub fn without_bounds(mut self, forever: Duration) -> Properties {
+        let Properties {
+            no_collision: _,
+            reach_avoid: _,
+            progress_bound,
+            broadcast: _,
+            broadcast_bound,
+            geocast: _,
+            geocast_bound,
+            shared_memory: _,
+            shared_memory_bound,
+            election: _,
+            election_bound,
+            mutex: _,
+            mutex_bound,
+            register: _,
+            registration: _,
+            registration_bound,
+            barrier: _,
+            barrier_bound,
+            program: _,
+        } = &mut self;
+        for bound in [
+            progress_bound,
+            broadcast_bound,
+            geocast_bound,
+            shared_memory_bound,
+            election_bound,
+            mutex_bound,
+            registration_bound,
+            barrier_bound,
+        ] {
+            *bound = forever;
+        }
+        self
+    }
+}
+
 impl Default for Properties {
     fn default() -> Properties {
         Properties {

@@ -1,0 +1,64 @@
+//! A beginning that is not explored: all that is said arrives at once, in the order in which it was said.
+//!
+//! Many protocols have robots ask each other at their start for what they have forgotten. That has more orders
+//! than all that comes after. Explorations of what comes after begin when it is over.
+
+use crate::bounds::Clocks;
+use crate::expand::ready;
+use crate::step::Step;
+use crate::walk::{Impossible, Moment, Walk};
+use starl_core::TimerKey;
+
+/// Robots that are never silent are not waited for any longer than for so many steps.
+const LONGEST: usize = 10_000;
+
+impl Walk {
+    /// Lets all that is on its way arrive, all that is due happen, and clocks tick so often. Programs are not
+    /// activated, and where clocks stand still no timer fires. Gives the steps, each with what happened.
+    ///
+    /// # Errors
+    /// Where robots do not come to rest, or clocks cannot tick so often.
+    pub fn warm_up(&mut self, ticks: u16) -> Result<Vec<(Step, Moment)>, Impossible> {
+        let mut taken = Vec::new();
+        let mut left = ticks;
+        while let Some(step) = self.next_of_warm_up(&mut left) {
+            if taken.len() >= LONGEST {
+                let text = format!("robots have not come to rest after {LONGEST} steps");
+                return Err(Impossible(text));
+            }
+            let moment = self.step(&step)?;
+            taken.push((step, moment));
+        }
+        Ok(taken)
+    }
+
+    fn next_of_warm_up(&self, ticks: &mut u16) -> Option<Step> {
+        let is_up = |datagram: &&crate::Datagram| self.scene().is_up(datagram.to);
+        if let Some(datagram) = self.flight().find(is_up) {
+            return Some(Step::Deliver(datagram.clone()));
+        }
+        let Clocks::Ticking { skew, .. } = self.bounds.clocks else {
+            return None;
+        };
+        let silent = &self.surroundings.model.silent;
+        for local in &self.locals {
+            let ready = ready(local, self.bounds.clocks, |port| silent.contains(&port));
+            let mut armed = local.timers.keys();
+            let first = ready.first().and_then(|&place| armed.nth(place as usize));
+            if let Some(&key) = first.filter(|_: &&TimerKey| local.runs()) {
+                return Some(Step::Timer(local.robot, key));
+            }
+        }
+        if skew > 0 {
+            let slowest = self.locals.iter().min_by_key(|local| local.clock)?;
+            let is_ahead = self.locals.iter().any(|local| local.clock > slowest.clock);
+            if *ticks == 0 && !is_ahead {
+                return None;
+            }
+            *ticks -= u16::from(!is_ahead);
+            return Some(Step::Tick(slowest.robot));
+        }
+        *ticks = ticks.checked_sub(1)?;
+        Some(Step::TickAll)
+    }
+}

@@ -1,0 +1,68 @@
+//! Elections of three robots in all their behaviours after a warm-up, in a network that delivers within a tick
+//! or not at all, in any order. The checkers are those of every run: an epoch has one leader, no two lead at
+//! once, a leader has stood for election.
+
+mod support;
+
+use starl_core::Duration;
+use starl_explore::Bounds;
+use starl_primitives::election::{Algorithm, Options};
+use support::elector::Elector;
+use support::{all_is_well, seconds, setup, watched};
+
+fn explore(algorithm: Algorithm, ticks: u16, delay: u8, crashes: u8) -> (u32, u64, u32) {
+    let options = Options {
+        algorithm,
+        lease: Duration::from_seconds(2),
+        drift: 0.0,
+        period: Duration::from_seconds(2),
+        first_timeout: Duration::from_seconds(2),
+        answer_timeout: Duration::from_seconds(1),
+        patience: Duration::from_seconds(4),
+        give_up: Duration::from_seconds(100),
+        ..Options::default()
+    };
+    let bounds = Bounds {
+        crashes,
+        clocks: seconds(3, ticks, Some(delay)),
+        ..Bounds::default()
+    };
+    all_is_well(watched(setup(3, Elector::new(options), bounds)), 3)
+}
+
+#[test]
+fn bully() {
+    assert_eq!(explore(Algorithm::Bully, 2, 0, 0), (21_066, 52_479, 17));
+}
+
+#[test]
+fn ballots() {
+    assert_eq!(explore(Algorithm::Ballots, 2, 0, 0), (14_817, 45_424, 19));
+}
+
+#[test]
+fn leases() {
+    assert_eq!(explore(Algorithm::Leases, 1, 0, 0), (30_839, 154_399, 21));
+}
+
+#[test]
+#[ignore = "takes a minute without optimisation"]
+fn leases_that_end() {
+    assert_eq!(
+        explore(Algorithm::Leases, 2, 0, 0),
+        (1_659_005, 10_629_631, 30)
+    );
+}
+
+#[test]
+fn leases_with_a_crash() {
+    assert_eq!(
+        explore(Algorithm::Leases, 1, 0, 1),
+        (550_917, 2_866_218, 25)
+    );
+}
+
+#[test]
+fn bully_with_a_crash() {
+    assert_eq!(explore(Algorithm::Bully, 1, 0, 1), (122_327, 370_134, 20));
+}
