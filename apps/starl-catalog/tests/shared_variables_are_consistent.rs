@@ -53,9 +53,27 @@ fn over_a_bad_network() {
 fn in_spite_of_partitions() {
     let parted = [
         "network.loss=0.1",
-        "faults.rates.partition=0.1",
-        "faults.rates.heal_after=3s",
+        "fault_rates.partition=6/min",
+        "fault_rates.heal_after=3s",
         "duration=600s",
     ];
     all_finish(&parted, 50);
+}
+
+#[test]
+fn in_spite_of_crashes() {
+    let crashing = [
+        "network.loss=0.1",
+        "fault_rates.crash=1/min",
+        "fault_rates.restart_after=2s",
+        "duration=600s",
+    ];
+    let no_violation = |example, seed| {
+        let run = run(example, &crashing, seed);
+        assert_eq!(run.violations(), [], "{example} seed {seed}");
+    };
+    (0..50_u64).into_par_iter().for_each(|seed| {
+        no_violation("register", seed);
+        no_violation("memory", seed);
+    });
 }
