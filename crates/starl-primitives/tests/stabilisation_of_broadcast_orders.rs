@@ -73,7 +73,7 @@ fn recovered(world: &World, order: Order) -> Time {
         if violation.is_none() {
             return good;
         }
-        good = good + PAUSE;
+        good += PAUSE;
     }
 }
 

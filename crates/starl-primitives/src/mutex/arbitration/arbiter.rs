@@ -12,10 +12,11 @@ use super::super::Resources;
 use super::super::common::RequestId;
 use super::super::lease::Numbers;
 use super::Post;
+use super::entry::{Entry, Terms, inquire, is_later};
 use super::packet::{Behind, Packet, Wish};
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
-use starl_core::{Duration, Random, RobotId, Time};
+use starl_core::{Random, RobotId};
 
 /// The state of an arbiter.
 #[derive(Clone, Debug, Default)]
@@ -24,62 +25,6 @@ pub(super) struct Arbiter {
     /// The last request of each robot that is over.
     finished: BTreeMap<RobotId, RequestId>,
     pub numbers: Numbers,
-}
-
-/// What a robot has asked for.
-#[derive(Clone, Debug)]
-struct Entry {
-    wish: Wish,
-    is_granted: bool,
-    /// It was told that it must wait.
-    is_told: bool,
-    /// It was asked to yield.
-    is_inquired: bool,
-    /// Without a word from the robot the entry is dropped then.
-    until: Time,
-    /// The number of what was granted.
-    number: u64,
-}
-
-/// What an arbiter goes by at one moment.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Terms {
-    pub now: Time,
-    /// Lamport's clock.
-    pub clock: u64,
-    /// How long it keeps what it hears nothing of; none for ever.
-    pub lease: Option<Duration>,
-    /// For whom it waits before it grants anything; none if it is ready.
-    pub unready: Option<RobotId>,
-}
-
-impl Terms {
-    fn until(&self) -> Time {
-        self.lease.map_or(Time::NEVER, |lease| self.now + lease)
-    }
-}
-
-/// Whether a count is beyond another; counts begin again after 2^32.
-fn is_later(number: u32, other: u32) -> bool {
-    (number.wrapping_sub(other) as i32) > 0
-}
-
-impl Entry {
-    fn new(wish: Wish, until: Time) -> Entry {
-        Entry {
-            wish,
-            is_granted: false,
-            is_told: false,
-            is_inquired: false,
-            until,
-            number: 0,
-        }
-    }
-
-    /// Who goes first: the earlier request, by Lamport's clock.
-    fn rank(&self, robot: RobotId) -> (u64, RobotId) {
-        (self.wish.clock, robot)
-    }
 }
 
 impl Arbiter {
@@ -346,14 +291,4 @@ impl Arbiter {
             });
         }
     }
-}
-
-fn inquire(robot: RobotId, entry: &Entry, must_yield: bool, post: &mut Post) {
-    let Wish { id, attempt, .. } = entry.wish;
-    let inquire = Packet::Inquire {
-        id,
-        attempt,
-        must_yield,
-    };
-    post.send(robot, inquire);
 }

@@ -3,8 +3,9 @@
 use super::super::Resources;
 use super::super::common::Common;
 use super::super::quorum::quorum;
+use super::enough::Enough;
 use super::packet::Packet;
-use super::request::{Enough, Request};
+use super::request::Request;
 use super::{Arbitration, Post, REPEAT, is_lease};
 use crate::incarnation::Incarnation;
 use alloc::collections::BTreeSet;

@@ -7,6 +7,8 @@
 
 mod arbiter;
 mod asking;
+mod enough;
+mod entry;
 mod packet;
 mod post;
 mod recalling;
@@ -19,11 +21,13 @@ use super::lease::belief;
 use super::options::Algorithm;
 
 use alloc::vec::Vec;
-use arbiter::{Arbiter, Terms};
+use arbiter::Arbiter;
+use enough::Enough;
+use entry::Terms;
 use packet::{Behind, Packet};
 use post::Post;
 use recovery::Recovery;
-use request::{Enough, Request};
+use request::Request;
 
 use starl_core::{Destination, Duration, Message, Random, Robot, RobotId, TimerKey};
 

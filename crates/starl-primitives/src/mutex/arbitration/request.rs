@@ -6,6 +6,7 @@
 use super::super::Resources;
 use super::super::common::{Common, RequestId};
 use super::Post;
+use super::enough::Enough;
 use super::packet::{Behind, Packet, Wish};
 use alloc::collections::{BTreeMap, VecDeque};
 use alloc::vec::Vec;
@@ -13,15 +14,6 @@ use starl_core::{Duration, Random, RobotId, Time};
 
 /// Rounds of asking whose time is remembered.
 const ROUNDS: usize = 16;
-
-/// How many grants are enough, and for how long.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Enough {
-    /// All of those asked, for as long as the robot likes.
-    All,
-    /// So many with the same number, for this long after they were asked.
-    Majority(usize, Duration),
-}
 
 /// A request that is under way, or granted and in use.
 #[derive(Clone, Debug)]
@@ -37,7 +29,7 @@ pub(super) struct Request {
     pub list: u32,
     /// How often it was repeated since something changed.
     pub repetitions: u32,
-    asked: BTreeMap<RobotId, Asked>,
+    pub(super) asked: BTreeMap<RobotId, Asked>,
     round: u32,
     /// When the latest rounds were sent, by the robot's clock.
     sent: VecDeque<(u32, Time)>,
@@ -45,15 +37,15 @@ pub(super) struct Request {
 
 /// How it stands with one arbiter.
 #[derive(Clone, Copy, Debug, Default)]
-struct Asked {
-    attempt: u32,
+pub(super) struct Asked {
+    pub attempt: u32,
     /// Until when it has granted it, and with what number.
-    granted: Option<(Time, u64)>,
-    behind: Option<Behind>,
+    pub granted: Option<(Time, u64)>,
+    pub behind: Option<Behind>,
     /// It said that an earlier request goes first.
-    must_wait: bool,
+    pub must_wait: bool,
     /// It asked to yield.
-    is_inquired: bool,
+    pub is_inquired: bool,
 }
 
 impl Request {
@@ -225,82 +217,6 @@ impl Request {
         let inquired = self.asked.iter().filter(|(_, asked)| asked.is_inquired);
         for arbiter in inquired.map(|(&peer, _)| peer).collect::<Vec<_>>() {
             self.try_anew(arbiter, common, post);
-        }
-    }
-
-    /// With which number it may enter, and until when; none if it may not yet. Asks for one number for all
-    /// where enough have granted it with different ones.
-    pub fn may_enter(
-        &mut self,
-        now: Time,
-        enough: Enough,
-        common: &Common,
-        post: &mut Post,
-    ) -> Option<(u64, Time)> {
-        let (majority, belief) = match enough {
-            Enough::All => {
-                let mut asked = self.asked.values();
-                return asked
-                    .all(|asked| asked.granted.is_some())
-                    .then_some((0, Time::NEVER));
-            }
-            Enough::Majority(majority, belief) => (majority, belief),
-        };
-        let valid = |granted: &(Time, u64)| granted.0 > now && granted.0 <= now + belief;
-        let granted = self.asked.values().filter_map(|asked| asked.granted);
-        let granted: Vec<(Time, u64)> = granted.filter(valid).collect();
-        let number = granted.iter().map(|&(_, number)| number).max()?;
-        let same = granted.iter().filter(|&&(_, other)| other == number);
-        let mut ends: Vec<Time> = same.map(|&(until, _)| until).collect();
-        ends.sort_unstable();
-        if ends.len() >= majority {
-            return Some((number, ends[ends.len() - majority]));
-        }
-        if granted.len() >= majority && number > self.number {
-            self.number = number;
-            let lower = self
-                .asked
-                .iter()
-                .filter(|(_, asked)| asked.granted.is_some_and(|granted| granted.1 < number));
-            for (&arbiter, _) in lower {
-                post.send(arbiter, Packet::Request(self.wish(arbiter, common)));
-            }
-        }
-        None
-    }
-
-    /// Until when a majority has granted what the robot holds.
-    pub fn held_until(&self, now: Time, majority: usize, belief: Duration) -> Time {
-        let granted = self.asked.values().filter_map(|asked| asked.granted);
-        let ends = granted
-            .map(|(until, _)| until)
-            .filter(|&until| until <= now + belief);
-        let mut ends: Vec<Time> = ends.collect();
-        ends.sort_unstable();
-        let index = ends.len().checked_sub(majority);
-        index
-            .and_then(|index| ends.get(index).copied())
-            .unwrap_or(Time::ZERO)
-    }
-
-    /// Whether it waits for somebody that is believed to have failed.
-    pub fn is_stuck(&self, enough: Enough, common: &Common) -> bool {
-        let is_hopeless = |(arbiter, asked): &(&RobotId, &Asked)| {
-            let is_suspected = |robot: &RobotId| common.suspects.contains(robot);
-            asked.granted.is_none()
-                && (is_suspected(arbiter)
-                    || match &asked.behind {
-                        Some(Behind::Robot(robot)) => {
-                            matches!(enough, Enough::All) && is_suspected(robot)
-                        }
-                        Some(Behind::OtherList) => true,
-                        None => false,
-                    })
-        };
-        let hopeless = self.asked.iter().filter(is_hopeless).count();
-        match enough {
-            Enough::All => hopeless > 0,
-            Enough::Majority(majority, _) => self.asked.len() - hopeless < majority,
         }
     }
 

@@ -1,0 +1,72 @@
+//! What an arbiter knows of one robot's request.
+
+use super::Post;
+use super::packet::{Packet, Wish};
+use starl_core::{Duration, RobotId, Time};
+
+/// What a robot has asked for.
+#[derive(Clone, Debug)]
+pub(super) struct Entry {
+    pub wish: Wish,
+    pub is_granted: bool,
+    /// It was told that it must wait.
+    pub is_told: bool,
+    /// It was asked to yield.
+    pub is_inquired: bool,
+    /// Without a word from the robot the entry is dropped then.
+    pub until: Time,
+    /// The number of what was granted.
+    pub number: u64,
+}
+
+/// What an arbiter goes by at one moment.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Terms {
+    pub now: Time,
+    /// Lamport's clock.
+    pub clock: u64,
+    /// How long it keeps what it hears nothing of; none for ever.
+    pub lease: Option<Duration>,
+    /// For whom it waits before it grants anything; none if it is ready.
+    pub unready: Option<RobotId>,
+}
+
+impl Terms {
+    pub fn until(&self) -> Time {
+        self.lease.map_or(Time::NEVER, |lease| self.now + lease)
+    }
+}
+
+/// Whether a count is beyond another; counts begin again after 2^32.
+pub(super) fn is_later(number: u32, other: u32) -> bool {
+    (number.wrapping_sub(other) as i32) > 0
+}
+
+impl Entry {
+    pub fn new(wish: Wish, until: Time) -> Entry {
+        Entry {
+            wish,
+            is_granted: false,
+            is_told: false,
+            is_inquired: false,
+            until,
+            number: 0,
+        }
+    }
+
+    /// Who goes first: the earlier request, by Lamport's clock.
+    pub fn rank(&self, robot: RobotId) -> (u64, RobotId) {
+        (self.wish.clock, robot)
+    }
+}
+
+/// Asks a robot whether it still needs what it was granted.
+pub(super) fn inquire(robot: RobotId, entry: &Entry, must_yield: bool, post: &mut Post) {
+    let Wish { id, attempt, .. } = entry.wish;
+    let inquire = Packet::Inquire {
+        id,
+        attempt,
+        must_yield,
+    };
+    post.send(robot, inquire);
+}
