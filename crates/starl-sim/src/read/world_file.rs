@@ -39,7 +39,10 @@ pub(super) fn read(
         }
     };
     let start = report.file(name, text);
-    if text.trim_start_matches(['\u{feff}', ' ', '\t', '\r', '\n']).starts_with('<') {
+    if text
+        .trim_start_matches(['\u{feff}', ' ', '\t', '\r', '\n'])
+        .starts_with('<')
+    {
         return drawing::read(text, start, contents, report);
     }
     let mut file = File {
