@@ -33,16 +33,18 @@ impl Causal {
 
     /// Asks a robot what may still come of it.
     pub(super) fn ask(&mut self, robot: &mut Robot<'_>, process: Process) {
-        self.last_ticket = self.last_ticket.wrapping_add(1);
+        self.questions = self.questions.wrapping_add(1);
+        // Answers to what an earlier life asked are none to this one.
+        let incarnation = self.channel.reliable.next_to_all(robot).incarnation;
+        let ticket = incarnation.wrapping_add(self.questions);
         let taken = self.vector.get(process).map_or(0, |known| known.taken);
         let doubt = Doubt {
-            ticket: self.last_ticket,
+            ticket,
             process,
             taken,
             looks: self.looks,
         };
         self.doubts.insert(process.robot, doubt);
-        let ticket = self.last_ticket;
         self.channel.reliable.ask(robot, process.robot, ticket);
     }
 

@@ -55,8 +55,8 @@ pub(super) struct Causal {
     looks: u32,
     /// That count when each sender was last heard.
     heard: BTreeMap<RobotId, u32>,
-    /// Counts what was asked.
-    last_ticket: u32,
+    /// Counts questions.
+    questions: u32,
     /// The last question to each robot.
     doubts: BTreeMap<RobotId, Doubt>,
     gaps: Gaps,
@@ -78,7 +78,7 @@ impl Causal {
             suspects: BTreeSet::new(),
             looks: 0,
             heard: BTreeMap::new(),
-            last_ticket: 0,
+            questions: 0,
             doubts: BTreeMap::new(),
             gaps: Gaps::default(),
         }
