@@ -96,6 +96,7 @@ fn judge(world: &World, crashes: &[(Time, u32)]) -> usize {
     let mut shown: BTreeMap<u32, Shown> = BTreeMap::new();
     let mut past: BTreeMap<(String, Option<u32>, Stamp), Shown> = BTreeMap::new();
     let mut crashes = crashes.iter().copied().peekable();
+    let mut fresh: Vec<(Time, u32, (String, Option<u32>), Shown)> = Vec::new();
     let mut count = 0;
     let mut events: Vec<_> = ["write", "write_again", "update"]
         .into_iter()
@@ -108,6 +109,18 @@ fn judge(world: &World, crashes: &[(Time, u32)]) -> usize {
         .collect();
     events.sort_by_key(|((at, robot, _), _)| (*at, *robot));
     for ((at, me, fields), name) in events {
+        // What is shown at one moment is shown together.
+        let is_over = fresh
+            .first()
+            .is_some_and(|first| first.0 < at || first.1 != me.0);
+        for (at, me, key, past) in fresh.drain(..if is_over { fresh.len() } else { 0 }) {
+            for (element, needed) in past {
+                assert!(
+                    shown[&me].get(&element) >= Some(&needed),
+                    "robot {me} shows {key:?} at {at:?} without {element:?}"
+                );
+            }
+        }
         while let Some((_, crashed)) = crashes.next_if(|(time, _)| *time < at) {
             shown.remove(&crashed);
         }
@@ -122,13 +135,8 @@ fn judge(world: &World, crashes: &[(Time, u32)]) -> usize {
         let own = shown.entry(me.0).or_default();
         let key = (variable.to_string(), owner);
         if name == "update" {
-            let past = &past[&(key.0.clone(), key.1, stamp)];
-            for (element, needed) in past {
-                assert!(
-                    own.get(element) >= Some(needed),
-                    "robot {me} shows {key:?} at {at:?} without {element:?}"
-                );
-            }
+            let past = past[&(key.0.clone(), key.1, stamp)].clone();
+            fresh.push((at, me.0, key.clone(), past));
             count += 1;
         } else {
             let mut before = own.clone();

@@ -80,14 +80,30 @@ impl SharedMemory {
         None
     }
 
-    /// The next write that was held back and need not be any longer.
-    pub(super) fn next_released(&mut self) -> Option<Write> {
-        let mut held = self.held.iter();
-        let covered = |write: &Write| {
-            let depends = write.depends.as_deref().unwrap_or_default();
-            self.store.covers(depends)
-        };
-        let (&key, _) = held.find(|(_, write)| covered(write))?;
-        self.held.remove(&key)
+    /// The writes that were held back and need not be any longer. They are to be shown together: two of them
+    /// may depend on each other, where one is later than what the other was made to depend on.
+    pub(super) fn take_released(&mut self) -> Vec<Write> {
+        let held = self.held.iter();
+        let mut ready: BTreeMap<u64, Stamp> =
+            held.map(|(&key, write)| (key, write.stamp)).collect();
+        loop {
+            let is_covered = |needed: &Dependency| {
+                let shown = self.store.at(needed.key).map(|element| element.stamp);
+                shown.max(ready.get(&needed.key).copied()) >= Some(needed.stamp)
+            };
+            let lacks = |key: &u64| {
+                let depends = self.held.get(key).and_then(|write| write.depends.as_ref());
+                !depends.into_iter().flatten().all(is_covered)
+            };
+            let lacking: Vec<u64> = ready.keys().copied().filter(lacks).collect();
+            if lacking.is_empty() {
+                break;
+            }
+            for key in lacking {
+                ready.remove(&key);
+            }
+        }
+        let released = ready.into_keys();
+        released.filter_map(|key| self.held.remove(&key)).collect()
     }
 }

@@ -53,7 +53,7 @@ impl SharedMemory {
                 }
             }
         }
-        while let Some(write) = self.next_released() {
+        for write in self.take_released() {
             self.merge_one(robot, write);
         }
     }

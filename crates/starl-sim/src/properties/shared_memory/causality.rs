@@ -26,6 +26,8 @@ type Shown = BTreeMap<Element, Stamp>;
 #[derive(Clone, Debug, Default)]
 pub(in crate::properties) struct Causality {
     memories: BTreeMap<Port, Memory>,
+    /// What robots have come to show at the present moment.
+    fresh: Vec<Update>,
     /// What was seen, as long as a corruption that excuses it may be on record later: faults take effect at
     /// the beginning of the step in which they are recorded.
     seen: VecDeque<Violation>,
@@ -44,6 +46,42 @@ struct Memory {
     shown: BTreeMap<RobotId, Shown>,
     /// For each write what its writer showed besides.
     past: BTreeMap<Element, BTreeMap<Stamp, Arc<Shown>>>,
+}
+
+/// A robot has come to show a write.
+#[derive(Clone, Debug)]
+struct Update {
+    at: Time,
+    robot: RobotId,
+    port: Port,
+    element: Element,
+    stamp: Stamp,
+    /// What its writer showed besides.
+    past: Arc<Shown>,
+}
+
+impl Update {
+    fn violation(&self, missing: &Element, needed: Stamp) -> Violation {
+        let named = |(variable, owner): &Element| Address {
+            port: self.port,
+            variable: variable.clone(),
+            owner: *owner,
+        };
+        Violation {
+            property: CAUSALITY.into(),
+            at: self.at,
+            robots: vec![self.robot, self.stamp.writer],
+            text: format!(
+                "robot {} shows what robot {} wrote to {} and not what robot {} had written to {} \
+                 before",
+                self.robot,
+                self.stamp.writer,
+                named(&self.element),
+                needed.writer,
+                named(missing)
+            ),
+        }
+    }
 }
 
 impl Causality {
@@ -86,36 +124,40 @@ impl Causality {
             }
         } else {
             let past = memory.past.get(&element);
-            let past = past.and_then(|writes| writes.get(&stamp)).cloned();
-            let past = past.unwrap_or_default();
-            let is_missing =
-                |(element, needed): &(&Element, &Stamp)| shown.get(*element) < Some(*needed);
-            if let Some((missing, needed)) = past.iter().find(is_missing) {
-                let named = |(variable, owner): &Element| Address {
-                    port,
-                    variable: variable.clone(),
-                    owner: *owner,
-                };
-                self.seen.push_back(Violation {
-                    property: CAUSALITY.into(),
+            if let Some(past) = past.and_then(|writes| writes.get(&stamp)) {
+                self.fresh.push(Update {
                     at,
-                    robots: vec![robot, stamp.writer],
-                    text: format!(
-                        "robot {robot} shows what robot {} wrote to {} and not what robot {} had \
-                         written to {} before",
-                        stamp.writer,
-                        named(&element),
-                        needed.writer,
-                        named(missing)
-                    ),
+                    robot,
+                    port,
+                    element: element.clone(),
+                    stamp,
+                    past: past.clone(),
                 });
             }
         }
         shown.insert(element, stamp);
     }
 
+    /// Judges what was shown before `now`: what is shown at one moment is shown together.
+    fn judge(&mut self, now: Time) {
+        if self.fresh.first().is_none_or(|first| first.at >= now) {
+            return;
+        }
+        for update in core::mem::take(&mut self.fresh) {
+            let memory = self.memories.get(&update.port);
+            let shown = memory.and_then(|memory| memory.shown.get(&update.robot));
+            let is_missing = |(element, needed): &(&Element, &Stamp)| {
+                shown.and_then(|shown| shown.get(*element)) < Some(*needed)
+            };
+            if let Some((missing, needed)) = update.past.iter().find(is_missing) {
+                self.seen.push_back(update.violation(missing, *needed));
+            }
+        }
+    }
+
     /// Reports what no fault can excuse any more.
     fn pass(&mut self, now: Time, found: &mut Vec<Violation>) {
+        self.judge(now);
         let step = self.step;
         let is_over = |first: &Violation| first.at + step < now;
         while self.seen.front().is_some_and(is_over) {
@@ -141,6 +183,7 @@ impl Checker for Causality {
             }
             Event::Fault(fault) => match (record.robot, &**fault) {
                 (Some(robot), "crash") => {
+                    self.judge(Time::NEVER);
                     for memory in self.memories.values_mut() {
                         memory.shown.remove(&robot);
                     }
@@ -148,6 +191,7 @@ impl Checker for Causality {
                 (_, "corrupt state") => {
                     self.pass(record.at, violations);
                     self.corrupted = true;
+                    self.fresh.clear();
                     self.seen.clear();
                 }
                 _ => {}
