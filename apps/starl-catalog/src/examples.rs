@@ -62,6 +62,13 @@ pub const EXAMPLES: &[Example] = &[
         files: &[file!("formation", "formation.starl")],
     },
     Example {
+        name: "line",
+        summary: "robots spread evenly on the line between two of them",
+        path: "examples/line/line.toml",
+        text: include_str!("../../../examples/line/line.toml"),
+        files: &[file!("line", "line.starl")],
+    },
+    Example {
         name: "intersection",
         summary: "four cars agree on who crosses which part of an intersection when",
         path: "examples/intersection/intersection.toml",
