@@ -31,6 +31,8 @@ pub(super) struct Member {
     pub called: Option<Time>,
     /// Since when it votes.
     pub votes_since: Option<Time>,
+    /// Whether it had nobody to learn from what was promised before.
+    pub is_anew: bool,
     pub shown: Shown,
 }
 
@@ -47,6 +49,7 @@ impl Member {
             since: at,
             called: None,
             votes_since: None,
+            is_anew: false,
             shown: Shown {
                 leader: None,
                 since: at,

@@ -91,6 +91,7 @@ impl Election {
             "resign" => member.called = None,
             "vote" => {
                 member.votes_since.get_or_insert(at);
+                member.is_anew = report.get("anew") == Some(&Value::Bool(true));
             }
             "leader" => {
                 if let Some(&Value::Robot(leader)) = report.get("leader") {

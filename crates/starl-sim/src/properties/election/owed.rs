@@ -106,8 +106,8 @@ impl Election {
         !owes
     }
 
-    /// Whether enough are ready for one of them to be elected: a majority, of which so many vote that each
-    /// majority holds one of them, or another majority that all have to learn what was promised.
+    /// Whether enough are ready for one of them to be elected: a majority that votes, or that all have to learn
+    /// what was promised, or one of whom so many vote that the others can learn it from them.
     fn has_quorum(
         &self,
         instance: &Instance,
@@ -116,13 +116,19 @@ impl Election {
     ) -> bool {
         let ready = instance.participants.iter().filter_map(|&peer| {
             let member = instance.members.get(&peer)?;
-            is_ready(peer, member).then_some(member.votes_since)
+            is_ready(peer, member).then_some(member)
         });
-        let ready: Vec<Option<Time>> = ready.collect();
-        let votes = |votes: &&Option<Time>| votes.is_some_and(|votes| votes <= since);
-        let voting = ready.iter().filter(votes).count();
+        let votes = |member: &Member| member.votes_since.is_some_and(|votes| votes <= since);
+        let (voting, learning): (Vec<&Member>, Vec<&Member>) =
+            ready.partition(|&member| votes(member));
         let (majority, count) = (instance.majority(), instance.participants.len());
-        let learning = ready.len() - voting;
-        ready.len() >= majority && (voting + majority > count || learning >= majority)
+        let learns = |learner: &&&Member| {
+            let remembers = |voter: &&&Member| {
+                !voter.is_anew || voter.votes_since.is_some_and(|at| at < learner.since)
+            };
+            voting.iter().filter(remembers).count() + majority > count
+        };
+        let join = learning.iter().filter(learns).count();
+        learning.len() >= majority || voting.len() + join >= majority
     }
 }
