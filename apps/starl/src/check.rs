@@ -98,18 +98,12 @@ pub fn examine(
     })
 }
 
-/// What keeps a program that is correct from being run. A primitive that robots do not have yet is no
-/// fault of the program.
+/// What keeps a program that is correct from being run.
 fn what_cannot_run(checked: &Checked) -> Vec<Diagnostic> {
     if checked.has_errors() {
         return Vec::new();
     }
-    let problems = compile(checked).err().unwrap_or_default();
-    let told = problems.into_iter().map(|problem| match problem.code {
-        Code::UnavailablePrimitive => problem.as_warning(),
-        _ => problem,
-    });
-    told.collect()
+    compile(checked).err().unwrap_or_default()
 }
 
 impl Examinee {

@@ -109,18 +109,6 @@ fn errors_of_a_library_are_shown_in_the_library_and_once() {
 }
 
 #[test]
-fn a_program_that_cannot_run_yet_is_correct() {
-    let folder = folder("check_barrier");
-    let program = "program Waits\n\nall = Barrier(\"0\", peers)\n\nstart()\n    pre not all.passed\n    eff all.arrive()\n";
-    file(&folder, "waits.starl", program);
-    let output = starl(&folder, &["check", "waits.starl"]);
-    let text = stdout(&output);
-    assert!(text.contains("warning[E0301]"), "{text}");
-    assert!(text.contains("waits.starl:3:1"), "{text}");
-    assert_eq!(status(&output), 0);
-}
-
-#[test]
 fn what_cannot_be_read_is_told_and_the_rest_checked() {
     let folder = folder("check_unreadable");
     file(&folder, "broken.starl", BROKEN);

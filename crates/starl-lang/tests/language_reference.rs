@@ -56,12 +56,7 @@ fn primitives() -> String {
     let mut table =
         "| primitive, and what it has | where | what it does |\n| --- | --- | --- |\n".to_string();
     for primitive in PRIMITIVES {
-        let yet = if primitive.is_available {
-            ""
-        } else {
-            " *Robots do not have it yet.*"
-        };
-        let about = format!("**{}**{yet}", primitive.documentation);
+        let about = format!("**{}**", primitive.documentation);
         table += &row([&code(primitive.constructor), "", &about]);
         for member in primitive.members {
             let place = place(member.purity);

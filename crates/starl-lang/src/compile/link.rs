@@ -28,7 +28,6 @@ pub(super) fn link(program: &Program, files: &[CheckedFile]) -> Result<Bytecode,
         }
     }
     if !program.is_library {
-        unit.note_unavailable();
         behaviour(&mut unit, &mut bytecode);
         let variables = variables(&mut unit);
         unit.note(variables, |found| bytecode.variables = found);

@@ -200,8 +200,6 @@ codes! {
     OutsideAtomic = "E0254",
     /// An `atomic` where nothing can wait.
     MisplacedAtomic = "E0255",
-    /// A primitive that robots do not have yet.
-    UnavailablePrimitive = "E0301",
     /// More values at a time than the machine has registers.
     TooManyRegisters = "E0302",
     /// More of something than a compiled program can hold.

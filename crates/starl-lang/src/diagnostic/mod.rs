@@ -92,8 +92,6 @@ pub struct Label {
 pub struct Diagnostic {
     /// What kind of problem it is.
     pub code: Code,
-    /// How much it matters: what the code says, but for [`Diagnostic::as_warning`].
-    pub severity: Severity,
     /// Where it is.
     pub span: Span,
     /// What is wrong, in a sentence without a full stop.
@@ -118,7 +116,6 @@ impl Diagnostic {
     pub fn new(code: Code, span: Span, message: impl Into<String>) -> Self {
         Self {
             code,
-            severity: code.severity(),
             span,
             message: message.into(),
             expected: None,
@@ -133,15 +130,7 @@ impl Diagnostic {
     /// How much it matters.
     #[must_use]
     pub fn severity(&self) -> Severity {
-        self.severity
-    }
-
-    /// The same where it does not matter as much as usual: that a primitive is not there yet keeps a
-    /// program from running, but not from being correct.
-    #[must_use]
-    pub fn as_warning(self) -> Self {
-        let severity = Severity::Warning;
-        Self { severity, ..self }
+        self.code.severity()
     }
 
     /// The same, saying what should stand there.

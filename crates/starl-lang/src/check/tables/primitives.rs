@@ -15,8 +15,6 @@ pub struct Primitive {
     pub members: &'static [Member],
     /// What it reports by itself, for handlers.
     pub events: &'static [Event],
-    /// Whether hosts have it. Programs that use one that they do not have can be checked only.
-    pub is_available: bool,
     /// What it is, as one tells a person.
     pub documentation: &'static str,
 }
@@ -83,7 +81,6 @@ pub const PRIMITIVES: &[Primitive] = &[
             ),
         ],
         events: &[],
-        is_available: true,
         documentation: "Goes to targets, around unsafe sets (thesis, section 3.2).",
     },
     Primitive {
@@ -115,7 +112,6 @@ pub const PRIMITIVES: &[Primitive] = &[
                 documentation: "Messages that others may have received, of this robot if it is known, will not reach this one.",
             },
         ],
-        is_available: true,
         documentation: "Messages to all other robots, in any order or in a certain one (thesis, section 3.3.1).",
     },
     Primitive {
@@ -133,7 +129,6 @@ pub const PRIMITIVES: &[Primitive] = &[
             ),
         ],
         events: FAILED,
-        is_available: true,
         documentation: "Messages to the robots in an area (thesis, section 3.3.1).",
     },
     Primitive {
@@ -151,7 +146,6 @@ pub const PRIMITIVES: &[Primitive] = &[
             ),
         ],
         events: FAILED,
-        is_available: true,
         documentation: "Messages to single robots (thesis, section 3.3.1).",
     },
     Primitive {
@@ -171,7 +165,6 @@ pub const PRIMITIVES: &[Primitive] = &[
                 documentation: "It is heard again.",
             },
         ],
-        is_available: true,
         documentation: "Notices which robots have failed, by their heartbeats.",
     },
     Primitive {
@@ -209,7 +202,6 @@ pub const PRIMITIVES: &[Primitive] = &[
             ),
         ],
         events: &[],
-        is_available: true,
         documentation: "Mutual exclusion on named resources (thesis, section 3.4.3).",
     },
     Primitive {
@@ -242,7 +234,6 @@ pub const PRIMITIVES: &[Primitive] = &[
             ),
         ],
         events: &[],
-        is_available: true,
         documentation: "Agreement on who takes part (thesis, section 3.4.1).",
     },
     Primitive {
@@ -284,7 +275,6 @@ pub const PRIMITIVES: &[Primitive] = &[
                 documentation: "This robot led, and nobody does now.",
             },
         ],
-        is_available: true,
         documentation: "Election of one robot (thesis, section 3.4.2).",
     },
     Primitive {
@@ -303,7 +293,6 @@ pub const PRIMITIVES: &[Primitive] = &[
             member("failed: Bool", Query, "Whether some robot cannot come."),
         ],
         events: &[],
-        is_available: true,
         documentation: "Waits until all robots have come to the same point.",
     },
 ];

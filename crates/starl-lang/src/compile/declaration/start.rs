@@ -6,13 +6,13 @@ use alloc::vec::Vec;
 use crate::check::Signature;
 use crate::compile::body::Body;
 use crate::compile::call::{Argument, HostFunction, shared_kind};
-use crate::compile::problem::{Compiled, Problem};
+use crate::compile::problem::Compiled;
 use crate::compile::size::Size;
 use crate::compile::unit::{Finished, Routine, Unit};
 use crate::diagnostic::Span;
+use crate::ir;
 use crate::ir::{Consistency, Site, Type};
 use crate::machine::FunctionKind;
-use crate::{diagnostic, ir};
 
 impl<'p> Unit<'p> {
     /// What gives the parameters their default values; nothing if none has one.
@@ -36,20 +36,6 @@ impl<'p> Unit<'p> {
         }
         body.end();
         Ok(Some(body.finish("defaults", Vec::new(), Vec::new())))
-    }
-
-    /// Notes the primitives that hosts do not have.
-    pub fn note_unavailable(&mut self) {
-        for binding in &self.program.bindings {
-            let Some(kind) = binding.primitive.filter(|kind| !kind.is_available) else {
-                continue;
-            };
-            let message = format!("robots do not have the primitive {} yet", kind.name());
-            let code = diagnostic::Code::UnavailablePrimitive;
-            let problem = Problem::new(code, binding.site.file, binding.site.span, message)
-                .note("the program can be checked, but it cannot run");
-            self.problems.push(*problem);
-        }
     }
 
     /// What a program does at its start.
