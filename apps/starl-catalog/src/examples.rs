@@ -70,7 +70,7 @@ pub const EXAMPLES: &[Example] = &[
     },
     Example {
         name: "intersection",
-        summary: "four cars agree on who crosses which part of an intersection when",
+        summary: "four cars agree on who crosses which zone when",
         path: "examples/intersection/intersection.toml",
         text: include_str!("../../../examples/intersection/intersection.toml"),
         files: INTERSECTION,
@@ -84,7 +84,7 @@ pub const EXAMPLES: &[Example] = &[
     },
     Example {
         name: "mutex",
-        summary: "robots hold sets of the same resources, one robot at a time",
+        summary: "robots hold sets of resources, one robot at a time",
         path: "examples/primitives/mutex.toml",
         text: include_str!("../../../examples/primitives/mutex.toml"),
         files: &[file!("primitives", "mutex.starl")],
@@ -98,7 +98,7 @@ pub const EXAMPLES: &[Example] = &[
     },
     Example {
         name: "broadcast",
-        summary: "robots tell each other numbers in an order that is the same for all",
+        summary: "robots tell each other numbers in one order for all",
         path: "examples/primitives/broadcast.toml",
         text: include_str!("../../../examples/primitives/broadcast.toml"),
         files: &[file!("primitives", "broadcast.starl")],
@@ -112,7 +112,7 @@ pub const EXAMPLES: &[Example] = &[
     },
     Example {
         name: "maze",
-        summary: "robots look for their goals and tell each other of the walls they meet",
+        summary: "robots look for goals and tell of the walls they meet",
         path: "examples/maze/maze.toml",
         text: include_str!("../../../examples/maze/maze.toml"),
         files: &[file!("maze", "maze.starl")],
@@ -133,7 +133,7 @@ pub const EXAMPLES: &[Example] = &[
     },
     Example {
         name: "light-painting",
-        summary: "robots share out the strokes of a drawing and draw them with lights",
+        summary: "robots share out a drawing and draw it with lights",
         path: "examples/light-painting/light-painting.toml",
         text: include_str!("../../../examples/light-painting/light-painting.toml"),
         files: &[
@@ -143,7 +143,7 @@ pub const EXAMPLES: &[Example] = &[
     },
     Example {
         name: "search",
-        summary: "robots look for an item in the rooms of a house that a leader gives them",
+        summary: "robots look for an item in the rooms of a house",
         path: "examples/search/search.toml",
         text: include_str!("../../../examples/search/search.toml"),
         files: &[
@@ -153,7 +153,7 @@ pub const EXAMPLES: &[Example] = &[
     },
     Example {
         name: "search-building",
-        summary: "twenty robots look for an item in a building of fifty rooms",
+        summary: "twenty robots look for an item in fifty rooms",
         path: "examples/search/building.toml",
         text: include_str!("../../../examples/search/building.toml"),
         files: &[
@@ -170,7 +170,7 @@ pub const EXAMPLES: &[Example] = &[
     },
     Example {
         name: "memory",
-        summary: "robots tell what came of their rounds before that they are done",
+        summary: "robots tell results before that they are done",
         path: "examples/primitives/memory.toml",
         text: include_str!("../../../examples/primitives/memory.toml"),
         files: &[file!("primitives", "memory.starl")],

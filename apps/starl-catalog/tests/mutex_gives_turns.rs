@@ -62,8 +62,8 @@ fn with_wrong_clocks() {
     all_have_turns(&clocks, 100);
 }
 
-#[test]
-fn through_crashes_and_partitions() {
+/// What crashes and restarts, and falls apart and meets again.
+fn trouble() -> Vec<&'static str> {
     let mut sets = BAD.to_vec();
     sets.extend([
         "parameters.entries=10",
@@ -73,7 +73,19 @@ fn through_crashes_and_partitions() {
         "fault_rates.heal_after=3s",
         "duration=600s",
     ]);
-    all_have_turns(&sets, 30);
+    sets
+}
+
+#[test]
+fn through_crashes_and_partitions() {
+    all_have_turns(&trouble(), 20);
+}
+
+#[test]
+#[ignore = "is not mended yet: nobody enters any more"]
+fn a_quorum_goes_on_after_crashes_and_partitions() {
+    let run = run(&trouble(), "quorum", 20);
+    assert_eq!(run.outcome(), Outcome::Reached);
 }
 
 #[test]

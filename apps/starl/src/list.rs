@@ -163,9 +163,9 @@ fn write(text: &mut String, listing: &Listing) -> fmt::Result {
         programs,
     } in &listing.examples
     {
-        writeln!(text, "  {name:12}  {summary}")?;
+        writeln!(text, "  {name:19}  {summary}")?;
         if !programs.is_empty() {
-            writeln!(text, "{:16}runs {}", "", programs.join(", "))?;
+            writeln!(text, "{:23}runs {}", "", programs.join(", "))?;
         }
     }
     writeln!(

@@ -188,10 +188,11 @@ fn what_may_be_typed_is_suggested() {
         .iter()
         .filter_map(|item| item["label"].as_str())
         .collect();
-    assert_eq!(labels, ["active", "done", "failed", "reach_avoid", "stop"]);
-    assert_eq!(items[3]["textEdit"]["newText"], "reach_avoid($0)");
-    assert_eq!(items[3]["insertTextFormat"], 2);
-    assert_eq!(items[4]["textEdit"]["newText"], "stop()");
+    let expected = ["active", "done", "failed", "follow", "reach_avoid", "stop"];
+    assert_eq!(labels, expected);
+    assert_eq!(items[4]["textEdit"]["newText"], "reach_avoid($0)");
+    assert_eq!(items[4]["insertTextFormat"], 2);
+    assert_eq!(items[5]["textEdit"]["newText"], "stop()");
     assert_eq!(items[0]["detail"], "ReachAvoid.active: Bool");
 }
 

@@ -51,7 +51,10 @@ fn lacks(labels: &[String], unwanted: &[&str]) {
 fn after_the_dot_of_a_primitive_its_members() {
     let mut found = labels(&effect("        motion.$0"));
     found.sort();
-    assert_eq!(found, ["active", "done", "failed", "reach_avoid", "stop"]);
+    assert_eq!(
+        found,
+        ["active", "done", "failed", "follow", "reach_avoid", "stop"]
+    );
 }
 
 #[test]
@@ -159,7 +162,7 @@ fn after_on_messages_and_what_reports() {
     lacks(&found, &["motion", "Pair"]);
     assert_eq!(
         labels(&effect("\non radio.$0(number)\n    loc = pick")),
-        ["failed"]
+        ["failed", "gap"]
     );
 }
 

@@ -53,10 +53,10 @@ fn writes_of_one_activation_share_a_datagram() {
     // Each command flushes what the one before wrote.
     let before = world.sent;
     assert!(before <= 20);
-    world.command(0, sharer::write_many(30));
+    world.command(0, sharer::write_many(20));
     world.run_for(Duration::from_millis(1));
     assert_eq!(world.sent, before + 1);
-    for variable in 0..30 {
+    for variable in 0..20 {
         assert_eq!(read(&world, 1, variable), Some(u32::from(variable)));
     }
 }

@@ -117,17 +117,35 @@ fn all_properties_hold_when_nothing_is_in_the_way() {
             "reach_avoid.goal",
             "reach_avoid.progress",
             "broadcast.delivery",
+            "broadcast.integrity",
+            "broadcast.fifo",
+            "broadcast.causal_order",
+            "broadcast.total_order",
+            "broadcast.agreement",
             "geocast.exclusion",
             "geocast.inclusion",
             "shared_memory.integrity",
             "shared_memory.order",
             "shared_memory.convergence",
+            "shared_memory.causality",
             "election.uniqueness",
             "election.order",
             "election.exclusion",
             "election.soundness",
             "election.agreement",
             "election.progress",
+            "register.linearizability",
+            "mutex.safety",
+            "mutex.fencing",
+            "mutex.non_interference",
+            "mutex.progress",
+            "registration.agreement",
+            "registration.exclusion",
+            "registration.soundness",
+            "registration.progress",
+            "registration.convergence",
+            "barrier.safety",
+            "barrier.progress",
         ]
     );
     assert_eq!(violated(&verdicts), [""; 0], "{verdicts:#?}");
@@ -177,6 +195,10 @@ fn only_what_the_scenario_asks_for_is_checked() {
     scenario.properties.geocast = false;
     scenario.properties.shared_memory = false;
     scenario.properties.election = false;
+    scenario.properties.register = false;
+    scenario.properties.mutex = false;
+    scenario.properties.registration = false;
+    scenario.properties.barrier = false;
     scenario.properties.no_collision = false;
     scenario.properties.reach_avoid = false;
     assert_eq!(verdicts(scenario, true), []);

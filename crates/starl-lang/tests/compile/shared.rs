@@ -61,7 +61,7 @@ fn bound_after_the_programs_own_and_initialized() {
         [
             "Unicast.bind(0, none)",
             "SingleWriter.bind(1, none)",
-            "SingleWriter.bind(2, \"eventual\")",
+            "SingleWriter.bind(2, none)",
             "MultiWriter.bind(3, none)",
             "MultiWriter.initialize(3, 3)",
             "MultiWriter.bind(4, none)",

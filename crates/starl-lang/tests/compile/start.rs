@@ -38,7 +38,7 @@ fn in_order() {
     assert_eq!(
         told[1..],
         [
-            "Broadcast.bind(1, \"r\")",
+            "Broadcast.bind(1, \"r\", none)",
             "Unicast.bind(2, none)",
             "log(\"10 11 [1.5, 11.0] (1.0, 2.0, 3.0) 0s [\\\"0\\\", \\\"2\\\"]\")",
         ]

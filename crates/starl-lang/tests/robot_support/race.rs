@@ -5,6 +5,7 @@ pub const RACE: &str = r#"
 program Race
 enum Location init pick wait
 enum Planner auto rrt rrt_connect rrt_star
+enum Order unordered fifo causal total
 type List[Point]
 type Text
 type Obstacles
@@ -20,7 +21,7 @@ import ReachAvoid.bind (Int, Float?, Float?, Float?, Duration?, Int?, enum1?, In
 import ReachAvoid.reach_avoid (Int, Point, type2) ()
 import ReachAvoid.active query (Int) (Bool)
 import ReachAvoid.done query (Int) (Bool)
-import Broadcast.bind (Int, type1?) ()
+import Broadcast.bind (Int, type1?, enum2?) ()
 import Broadcast.broadcast (Int, {index: Int}) (Int) labels Reached
 import obstacles query () (type2)
 import finish () ()
