@@ -92,11 +92,13 @@ type Stamp = (Time, i64, u32);
 /// What robots show, by their events: an element is its variable and its owner. Crashes are given, since
 /// they leave no event.
 fn judge(world: &World, crashes: &[(Time, u32)]) -> usize {
-    type Shown = BTreeMap<(String, Option<u32>), Stamp>;
+    type Element = (String, Option<u32>);
+    type Shown = BTreeMap<Element, Stamp>;
+    type Fresh = (Time, u32, Element, Shown);
     let mut shown: BTreeMap<u32, Shown> = BTreeMap::new();
     let mut past: BTreeMap<(String, Option<u32>, Stamp), Shown> = BTreeMap::new();
     let mut crashes = crashes.iter().copied().peekable();
-    let mut fresh: Vec<(Time, u32, (String, Option<u32>), Shown)> = Vec::new();
+    let mut fresh: Vec<Fresh> = Vec::new();
     let mut count = 0;
     let mut events: Vec<_> = ["write", "write_again", "update"]
         .into_iter()
