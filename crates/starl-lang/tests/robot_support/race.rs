@@ -61,6 +61,8 @@ function start procedure () () registers 16 objects 1
     call_host r0 b0 h2
     int r0 1
     int r1 0
+    int r2 0
+    int r3 0
     clear_object b0 type1
     call_host r0 b0 h6
     return #0 #1
