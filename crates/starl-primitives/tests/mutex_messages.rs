@@ -62,7 +62,8 @@ fn asked(algorithm: Algorithm, count: usize) -> f64 {
     if algorithm != Algorithm::Quorum {
         return (count - 1) as f64;
     }
-    let columns = (count as f64).sqrt().ceil() as usize;
+    let root = (count as f64).sqrt().ceil() as usize;
+    let columns = if count < 4 { root } else { root.min(count / 2) };
     let heights = (0..columns).map(|column| (count - column).div_ceil(columns));
     let sizes = heights.map(|height| height * (height + columns - 2));
     sizes.sum::<usize>() as f64 / count as f64
