@@ -5,12 +5,13 @@
 //! and does not know yet to which. When all that take part have crashed, generations begin anew.
 
 use super::health::{Health, Needs};
+use super::pending::Pending;
 use super::report::Report;
 use super::{Checker, Setting, Violation, robot_list};
 use crate::scenario::Scenario;
 use starl_core::event::{Event, Value};
 use starl_core::{Duration, Port, Record, RobotId, Time};
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet};
 
 const SAFETY: &str = "barrier.safety";
 const PROGRESS: &str = "barrier.progress";
@@ -27,11 +28,7 @@ pub(super) struct Barrier {
     disturbed: Time,
     corrupted: Option<Time>,
     is_parted: bool,
-    /// What was found, as long as a fault that excuses it may be on record later: faults take effect at the
-    /// beginning of the step in which they are recorded.
-    pending: VecDeque<Violation>,
-    /// How long that is.
-    step: Duration,
+    pending: Pending,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -69,8 +66,7 @@ impl Barrier {
             disturbed: Time::ZERO,
             corrupted: None,
             is_parted: false,
-            pending: VecDeque::new(),
-            step: scenario.physics.step,
+            pending: Pending::new(scenario),
         }
     }
 
@@ -145,10 +141,7 @@ impl Barrier {
     /// Time has come to `now`.
     fn pass(&mut self, now: Time, found: &mut Vec<Violation>) {
         self.check_bounds(now, found);
-        let step = self.step;
-        while let Some(violation) = self.pending.pop_front_if(|found| found.at + step < now) {
-            found.push(violation);
-        }
+        self.pending.settle(now, found);
     }
 
     /// Judges what is due before `now`.
@@ -186,10 +179,10 @@ impl Instance {
         generation: i64,
         before: Option<i64>,
         at: Time,
-        found: &mut VecDeque<Violation>,
+        found: &mut Pending,
     ) {
         let mut report = |robots: Vec<RobotId>, text: String| {
-            found.push_back(Violation {
+            found.push(Violation {
                 property: SAFETY.into(),
                 at,
                 robots,

@@ -15,6 +15,7 @@ mod mutex;
 mod no_collision;
 mod outstanding;
 mod parts;
+mod pending;
 mod reach_avoid;
 mod register;
 mod registration;

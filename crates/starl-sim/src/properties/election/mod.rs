@@ -10,13 +10,14 @@ mod owed;
 
 use super::health::{Health, Needs};
 use super::parts::Parts;
+use super::pending::Pending;
 use super::report::Report;
 use super::{Checker, Setting, Violation};
 use crate::scenario::Scenario;
 use instance::{Instance, Member, Shown};
 use starl_core::event::{Event, Value};
 use starl_core::{Duration, Port, Record, RobotId, Time};
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet};
 
 const UNIQUENESS: &str = "election.uniqueness";
 const ORDER: &str = "election.order";
@@ -36,11 +37,7 @@ pub(super) struct Election {
     due: BTreeSet<(Time, Port, RobotId)>,
     /// When some state was corrupted last.
     corrupted: Option<Time>,
-    /// What was found, as long as a corruption that excuses it may be on record later: faults take effect at
-    /// the beginning of the step in which they are recorded.
-    recent: VecDeque<Violation>,
-    /// How long that is.
-    step: Duration,
+    pending: Pending,
 }
 
 impl Election {
@@ -54,8 +51,7 @@ impl Election {
             instances: BTreeMap::new(),
             due: BTreeSet::new(),
             corrupted: None,
-            recent: VecDeque::new(),
-            step: scenario.physics.step,
+            pending: Pending::new(scenario),
         }
     }
 
@@ -106,16 +102,13 @@ impl Election {
             _ => return,
         }
         self.due.insert((at + self.bound, port, robot));
-        self.recent.extend(found);
+        self.pending.extend(found);
     }
 
     /// Time has come to `now`.
     fn pass(&mut self, now: Time, found: &mut Vec<Violation>) {
         self.check_bounds(now, found);
-        let is_settled = |found: &Violation| found.at + self.step < now;
-        while self.recent.front().is_some_and(is_settled) {
-            found.extend(self.recent.pop_front());
-        }
+        self.pending.settle(now, found);
     }
 
     /// A robot has lost all it knew.
@@ -130,7 +123,7 @@ impl Election {
     fn corrupt(&mut self, at: Time) {
         self.corrupted = Some(at);
         // Two robots that share an epoch have no excuse.
-        self.recent
+        self.pending
             .retain(|found| found.property == UNIQUENESS && found.robots.len() > 1);
         for instance in self.instances.values_mut() {
             instance.highest = None;

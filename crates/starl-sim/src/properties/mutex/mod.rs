@@ -12,13 +12,14 @@ mod waiting;
 
 use super::health::{Health, Needs};
 use super::parts::Parts;
+use super::pending::Pending;
 use super::report::Report;
 use super::{Checker, Setting, Violation};
 use crate::scenario::Scenario;
 use locks::{Entry, Locks};
 use starl_core::event::{Event, Value};
 use starl_core::{Duration, Port, Record, RobotId, Time};
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
 
 const SAFETY: &str = "mutex.safety";
 const FENCING: &str = "mutex.fencing";
@@ -30,9 +31,6 @@ const PROGRESS: &str = "mutex.progress";
 pub(super) struct Mutex {
     bound: Duration,
     robots: u32,
-    /// How long faults may come on record after they have taken effect: they do at the beginning of the step
-    /// in which they are recorded.
-    step: Duration,
     /// How much faster or slower than true time a clock may run, as a share.
     drift: f64,
     health: Health,
@@ -40,8 +38,7 @@ pub(super) struct Mutex {
     locks: BTreeMap<Port, Locks>,
     /// What is entered until then may be held by others too, for the corruption of some state.
     doubtful_until: Time,
-    /// Violations that a fault may still excuse.
-    pending: VecDeque<Violation>,
+    pending: Pending,
     /// When requests are looked at next.
     next_look: Time,
 }
@@ -58,13 +55,12 @@ impl Mutex {
         Mutex {
             bound,
             robots: robots as u32,
-            step: scenario.physics.step,
             drift: drifts.fold(0.0, f64::max) * 1e-6,
             health: Health::new(robots, Needs::Computing, bound),
             parts: Parts::new(robots, bound),
             locks: BTreeMap::new(),
             doubtful_until: Time::ZERO,
-            pending: VecDeque::new(),
+            pending: Pending::new(scenario),
             next_look: Time::ZERO,
         }
     }
@@ -112,7 +108,7 @@ impl Mutex {
 
     /// A robot's state was overwritten, perhaps before its last reports.
     fn corrupted(&mut self, robot: RobotId, at: Time) {
-        self.pending.clear();
+        self.pending.retain(|_| false);
         self.doubtful_until = at + self.bound;
         for locks in self.locks.values_mut() {
             locks.doubt(robot, at);
@@ -122,10 +118,7 @@ impl Mutex {
 
     /// Time has come to `now`.
     fn pass(&mut self, now: Time, found: &mut Vec<Violation>) {
-        let over = |violation: &Violation| violation.at + self.step < now;
-        while self.pending.front().is_some_and(over) {
-            found.extend(self.pending.pop_front());
-        }
+        self.pending.settle(now, found);
         if now <= self.next_look {
             return;
         }

@@ -1,9 +1,9 @@
 //! One registration: who takes part and shows what, and which lists there were.
 
 use super::{AGREEMENT, EXCLUSION, SOUNDNESS, violation};
-use crate::properties::Violation;
+use crate::properties::pending::Pending;
 use starl_core::{Duration, RobotId, Time};
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// As many of the latest lists are remembered; of older ones nothing is said.
 const MOST_LISTS: usize = 256;
@@ -86,12 +86,12 @@ impl Instance {
         id: Id,
         at: Time,
         is_disturbed: bool,
-        found: &mut VecDeque<Violation>,
+        found: &mut Pending,
     ) {
         self.shows_none(robot, at);
         let life = self.life(robot);
         if life.registered.is_none() && !is_disturbed {
-            found.push_back(violation(
+            found.push(violation(
                 SOUNDNESS,
                 at,
                 [robot],
@@ -106,7 +106,7 @@ impl Instance {
                 "robot {robot} accepts the list of {} after that of {}, less than {} before",
                 id.0, promised.0, life.apart
             );
-            found.push_back(violation(AGREEMENT, at, [robot], text));
+            found.push(violation(AGREEMENT, at, [robot], text));
         }
         let number = life.number;
         let list = self.lists.entry(id).or_default();
@@ -125,7 +125,7 @@ impl Instance {
         members: &[RobotId],
         at: Time,
         is_disturbed: bool,
-        found: &mut VecDeque<Violation>,
+        found: &mut Pending,
     ) {
         let life = self.life(robot);
         life.shown = Some(id);
@@ -144,24 +144,24 @@ impl Instance {
                 "robot {robot} shows another list of {} than others, by the same coordinator",
                 id.0
             );
-            found.push_back(violation(AGREEMENT, at, [robot, id.1], text));
+            found.push(violation(AGREEMENT, at, [robot, id.1], text));
         }
         let missing = members.iter().filter(|m| !list.accepted.contains_key(m));
         for &member in missing {
             let text = format!(
                 "robot {robot} shows a list with robot {member}, which has not accepted it"
             );
-            found.push_back(violation(SOUNDNESS, at, [robot, member], text));
+            found.push(violation(SOUNDNESS, at, [robot, member], text));
         }
         if !members.contains(&robot) {
             let text = format!("robot {robot} shows a list without itself");
-            found.push_back(violation(SOUNDNESS, at, [robot], text));
+            found.push(violation(SOUNDNESS, at, [robot], text));
         }
         for &other in members.iter().filter(|other| **other != robot) {
             if self.exclude_each_other(robot, id, other) {
                 let text =
                     format!("robots {robot} and {other} list each other, and show different lists");
-                found.push_back(violation(EXCLUSION, at, [robot, other], text));
+                found.push(violation(EXCLUSION, at, [robot, other], text));
             }
         }
     }

@@ -8,13 +8,14 @@
 mod instance;
 
 use super::health::{Health, Needs};
+use super::pending::Pending;
 use super::report::Report;
 use super::{Checker, Setting, Violation, robot_list};
 use crate::scenario::Scenario;
 use instance::{Id, Instance};
 use starl_core::event::{Event, Value};
 use starl_core::{Duration, Port, Record, RobotId, Time};
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet};
 
 const AGREEMENT: &str = "registration.agreement";
 const EXCLUSION: &str = "registration.exclusion";
@@ -35,11 +36,7 @@ pub(super) struct Registration {
     /// When some state was corrupted last, or what that made up was kept alive by another fault.
     corrupted: Option<Time>,
     is_parted: bool,
-    /// What was found, as long as a fault that excuses it may be on record later: faults take effect at the
-    /// beginning of the step in which they are recorded.
-    pending: VecDeque<Violation>,
-    /// How long that is.
-    step: Duration,
+    pending: Pending,
 }
 
 impl Registration {
@@ -53,8 +50,7 @@ impl Registration {
             disturbed: Time::ZERO,
             corrupted: None,
             is_parted: false,
-            pending: VecDeque::new(),
-            step: scenario.physics.step,
+            pending: Pending::new(scenario),
         }
     }
 
@@ -129,10 +125,7 @@ impl Registration {
     /// Time has come to `now`.
     fn pass(&mut self, now: Time, found: &mut Vec<Violation>) {
         self.check_bounds(now, found);
-        let step = self.step;
-        while let Some(violation) = self.pending.pop_front_if(|found| found.at + step < now) {
-            found.push(violation);
-        }
+        self.pending.settle(now, found);
     }
 
     /// Judges what is due before `now`.

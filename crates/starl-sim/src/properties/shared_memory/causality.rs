@@ -3,12 +3,13 @@
 
 use super::element::Stamp;
 use super::{Address, content};
+use crate::properties::pending::Pending;
 use crate::properties::report::Report;
 use crate::properties::{Checker, Violation};
 use crate::scenario::Scenario;
 use starl_core::event::{Event, Value};
-use starl_core::{Duration, Port, Record, RobotId, Time};
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use starl_core::{Port, Record, RobotId, Time};
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 const CAUSALITY: &str = "shared_memory.causality";
@@ -28,11 +29,7 @@ pub(in crate::properties) struct Causality {
     memories: BTreeMap<Port, Memory>,
     /// What robots have come to show at the present moment.
     fresh: Vec<Update>,
-    /// What was seen, as long as a corruption that excuses it may be on record later: faults take effect at
-    /// the beginning of the step in which they are recorded.
-    seen: VecDeque<Violation>,
-    /// How long that is.
-    step: Duration,
+    pending: Pending,
     /// Whether some state was corrupted, so that memories may hold what was never written.
     corrupted: bool,
 }
@@ -87,7 +84,7 @@ impl Update {
 impl Causality {
     pub fn new(scenario: &Scenario) -> Causality {
         Causality {
-            step: scenario.physics.step,
+            pending: Pending::new(scenario),
             ..Causality::default()
         }
     }
@@ -150,7 +147,7 @@ impl Causality {
                 shown.and_then(|shown| shown.get(*element)) < Some(*needed)
             };
             if let Some((missing, needed)) = update.past.iter().find(is_missing) {
-                self.seen.push_back(update.violation(missing, *needed));
+                self.pending.push(update.violation(missing, *needed));
             }
         }
     }
@@ -158,11 +155,7 @@ impl Causality {
     /// Reports what no fault can excuse any more.
     fn pass(&mut self, now: Time, found: &mut Vec<Violation>) {
         self.judge(now);
-        let step = self.step;
-        let is_over = |first: &Violation| first.at + step < now;
-        while self.seen.front().is_some_and(is_over) {
-            found.extend(self.seen.pop_front());
-        }
+        self.pending.settle(now, found);
     }
 }
 
@@ -192,7 +185,7 @@ impl Checker for Causality {
                     self.pass(record.at, violations);
                     self.corrupted = true;
                     self.fresh.clear();
-                    self.seen.clear();
+                    self.pending.retain(|_| false);
                 }
                 _ => {}
             },

@@ -14,6 +14,7 @@ pub(super) use causality::Causality;
 
 use super::health::{Health, Needs};
 use super::parts::Parts;
+use super::pending::Pending;
 use super::report::Report;
 use super::{Checker, Setting, Violation};
 use crate::scenario::Scenario;
@@ -21,7 +22,7 @@ use debt::{Address, Debt};
 use element::{Element, Shown, Stamp};
 use starl_core::event::{Event, Value};
 use starl_core::{Duration, Port, Record, RobotId, Time};
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 const INTEGRITY: &str = "shared_memory.integrity";
@@ -38,11 +39,8 @@ pub(super) struct SharedMemory {
     /// What is to be shown, by the time at which it is judged and a running number.
     owed: BTreeMap<(Time, u64), Debt>,
     debts: u64,
-    /// Robots that went back, as long as a fault that excuses them may be on record later: faults take
-    /// effect at the beginning of the step in which they are recorded.
-    backward: VecDeque<Violation>,
-    /// How long that is.
-    step: Duration,
+    /// Robots that went back.
+    backward: Pending,
     /// Whether some state was corrupted, so that memories may hold what was never written.
     corrupted: bool,
 }
@@ -67,8 +65,7 @@ impl SharedMemory {
             memories: BTreeMap::new(),
             owed: BTreeMap::new(),
             debts: 0,
-            backward: VecDeque::new(),
-            step: scenario.physics.step,
+            backward: Pending::new(scenario),
             corrupted: false,
         }
     }
@@ -110,7 +107,7 @@ impl SharedMemory {
             element.write(stamp, value, at);
         }
         if let Some(before) = element.show(robot, stamp, at) {
-            self.backward.push_back(Violation {
+            self.backward.push(Violation {
                 property: ORDER.into(),
                 at,
                 robots: vec![robot],
@@ -164,13 +161,7 @@ impl SharedMemory {
     /// Time has come to `now`.
     fn pass(&mut self, now: Time, found: &mut Vec<Violation>) {
         self.check_bound(now, found);
-        while self
-            .backward
-            .front()
-            .is_some_and(|back| back.at + self.step < now)
-        {
-            found.extend(self.backward.pop_front());
-        }
+        self.backward.settle(now, found);
     }
 
     /// A robot has lost its memories.
