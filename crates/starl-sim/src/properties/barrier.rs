@@ -4,6 +4,7 @@
 //! has come to a generation if it has waited for that or a later one in any of its lives, or if it has come
 //! and does not know yet to which. When all that take part have crashed, generations begin anew.
 
+use super::disturbance::Disturbance;
 use super::health::{Health, Needs};
 use super::pending::Pending;
 use super::report::Report;
@@ -24,10 +25,7 @@ pub(super) struct Barrier {
     instances: BTreeMap<Port, Instance>,
     /// When something is to be judged.
     due: BTreeSet<(Time, Port)>,
-    /// When a fault was on record last.
-    disturbed: Time,
-    corrupted: Option<Time>,
-    is_parted: bool,
+    disturbance: Disturbance,
     pending: Pending,
 }
 
@@ -63,9 +61,7 @@ impl Barrier {
             health: Health::new(setting.bodies.len(), Needs::Computing, bound),
             instances: BTreeMap::new(),
             due: BTreeSet::new(),
-            disturbed: Time::ZERO,
-            corrupted: None,
-            is_parted: false,
+            disturbance: Disturbance::new(bound),
             pending: Pending::new(scenario),
         }
     }
@@ -74,7 +70,7 @@ impl Barrier {
         let Report {
             at, robot, port, ..
         } = *report;
-        let is_disturbed = self.corrupted.is_some_and(|since| at < since + self.bound);
+        let is_disturbed = self.disturbance.is_made_up(at);
         let instance = self.instances.entry(port).or_default();
         let generation = match report.get("generation") {
             Some(&Value::Int(generation)) => generation,
@@ -109,29 +105,11 @@ impl Barrier {
     }
 
     fn fault(&mut self, at: Time, robot: Option<RobotId>, fault: &str) {
-        self.disturbed = at;
-        let concerned = |violation: &Violation| match robot {
-            Some(robot) => fault == "corrupt state" || violation.robots.contains(&robot),
-            None => false,
-        };
-        self.pending.retain(|violation| !concerned(violation));
-        match (robot, fault) {
-            (Some(robot), "crash" | "failed") => {
-                for instance in self.instances.values_mut() {
-                    instance.crashes(robot);
-                }
+        self.disturbance.fault(at, robot, fault, &mut self.pending);
+        if let (Some(robot), "crash" | "failed") = (robot, fault) {
+            for instance in self.instances.values_mut() {
+                instance.crashes(robot);
             }
-            (Some(_), "corrupt state") => self.corrupted = Some(at),
-            _ => {}
-        }
-        if self.corrupted.is_some_and(|since| at < since + self.bound) {
-            // What was made up may outlast what keeps robots from each other.
-            self.corrupted = Some(at);
-        }
-        match (robot, fault) {
-            (None, "partition") => self.is_parted = true,
-            (None, "heal") => self.is_parted = false,
-            _ => {}
         }
         for &port in self.instances.keys() {
             self.due.insert((at + self.bound, port));
@@ -152,7 +130,7 @@ impl Barrier {
                 continue;
             };
             let bound = self.bound;
-            if self.is_parted || self.disturbed + bound > due {
+            if self.disturbance.is_parted() || self.disturbance.last() + bound > due {
                 continue;
             }
             let late = instance.late(&self.health, due - bound);

@@ -7,6 +7,7 @@ mod barrier;
 mod bodies;
 mod broadcast;
 mod broadcast_order;
+mod disturbance;
 mod election;
 mod geocast;
 mod health;

@@ -7,6 +7,7 @@
 
 mod instance;
 
+use super::disturbance::Disturbance;
 use super::health::{Health, Needs};
 use super::pending::Pending;
 use super::report::Report;
@@ -31,11 +32,7 @@ pub(super) struct Registration {
     instances: BTreeMap<Port, Instance>,
     /// When something is to be judged.
     due: BTreeSet<(Time, Port)>,
-    /// When a fault was on record last.
-    disturbed: Time,
-    /// When some state was corrupted last, or what that made up was kept alive by another fault.
-    corrupted: Option<Time>,
-    is_parted: bool,
+    disturbance: Disturbance,
     pending: Pending,
 }
 
@@ -47,9 +44,7 @@ impl Registration {
             health: Health::new(setting.bodies.len(), Needs::Computing, bound),
             instances: BTreeMap::new(),
             due: BTreeSet::new(),
-            disturbed: Time::ZERO,
-            corrupted: None,
-            is_parted: false,
+            disturbance: Disturbance::new(bound),
             pending: Pending::new(scenario),
         }
     }
@@ -59,7 +54,7 @@ impl Registration {
             at, robot, port, ..
         } = *report;
         // What a corruption made up is gone by then.
-        let is_disturbed = self.corrupted.is_some_and(|since| at < since + self.bound);
+        let is_disturbed = self.disturbance.is_made_up(at);
         let instance = self.instances.entry(port).or_default();
         let found = &mut self.pending;
         match (report.name, id(report)) {
@@ -90,12 +85,7 @@ impl Registration {
     }
 
     fn fault(&mut self, at: Time, robot: Option<RobotId>, fault: &str) {
-        self.disturbed = at;
-        let concerned = |violation: &Violation| match robot {
-            Some(robot) => fault == "corrupt state" || violation.robots.contains(&robot),
-            None => false,
-        };
-        self.pending.retain(|violation| !concerned(violation));
+        self.disturbance.fault(at, robot, fault, &mut self.pending);
         match (robot, fault) {
             (Some(robot), "crash" | "failed") => {
                 for instance in self.instances.values_mut() {
@@ -103,18 +93,8 @@ impl Registration {
                 }
             }
             (Some(_), "corrupt state") => {
-                self.corrupted = Some(at);
                 self.instances.values_mut().for_each(Instance::doubts);
             }
-            _ => {}
-        }
-        if self.corrupted.is_some_and(|since| at < since + self.bound) {
-            // What was made up may outlast what keeps robots from each other.
-            self.corrupted = Some(at);
-        }
-        match (robot, fault) {
-            (None, "partition") => self.is_parted = true,
-            (None, "heal") => self.is_parted = false,
             _ => {}
         }
         for &port in self.instances.keys() {
@@ -135,7 +115,7 @@ impl Registration {
             let Some(instance) = self.instances.get_mut(&port) else {
                 continue;
             };
-            let (bound, disturbed) = (self.bound, self.disturbed);
+            let (bound, disturbed) = (self.bound, self.disturbance.last());
             let mut late = Vec::new();
             for (&robot, life) in &mut instance.robots {
                 if life.registered.is_none() || life.shown.is_some() || life.is_reported {
@@ -158,7 +138,7 @@ impl Registration {
                 found.push(violation(PROGRESS, due, late, text));
             }
             let since = instance.changed.max(instance.in_common).max(disturbed);
-            if self.is_parted || instance.is_reported || since + bound > due {
+            if self.disturbance.is_parted() || instance.is_reported || since + bound > due {
                 continue;
             }
             let apart = instance.apart();
