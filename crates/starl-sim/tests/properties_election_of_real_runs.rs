@@ -3,56 +3,14 @@
 
 mod engine_support;
 
-use engine_support::scenario;
+use engine_support::weather::{WEATHERS, fleet, judge, lossy};
 use starl_core::{
     Destination, Duration, Input, Message, Port, Primitive, Program, Random, Robot, RobotId, Time,
     Value,
 };
 use starl_primitives::election::{Algorithm, Options};
 use starl_primitives::{FailureDetector, LeaderElection, failure_detector};
-use starl_sim::scenario::Clock;
-use starl_sim::{Run, Scenario};
-
-/// Five robots within reach of each other for two minutes.
-fn five_robots(seed: u64) -> Scenario {
-    let places: Vec<_> = (0..5).map(|robot| (f64::from(robot), 0.0)).collect();
-    let mut scenario = scenario("create", &places);
-    scenario.seed = seed;
-    scenario.duration = Duration::from_seconds(120);
-    scenario.properties.no_collision = false;
-    scenario
-}
-
-/// Loses, repeats and reorders datagrams; clocks are up to an hour apart, and drift.
-fn lossy(seed: u64) -> Scenario {
-    let mut scenario = five_robots(seed);
-    scenario.network.link.loss = 0.3;
-    scenario.network.link.duplication = 0.2;
-    scenario.network.link.reordering = 0.2;
-    scenario.fleet.groups[0].clock = Clock {
-        offset: Duration::from_seconds(3600),
-        drift_ppm: 5000.0,
-    };
-    scenario
-}
-
-/// And partitions and crashes.
-fn chaotic(seed: u64) -> Scenario {
-    let mut scenario = lossy(seed);
-    let rates = &mut scenario.faults.rates;
-    rates.crash = 0.02;
-    rates.restart_after = Duration::from_seconds(3);
-    rates.partition = 0.05;
-    rates.heal_after = Duration::from_seconds(5);
-    scenario
-}
-
-/// And overwrites the robots' state.
-fn corrupting(seed: u64) -> Scenario {
-    let mut scenario = chaotic(seed);
-    scenario.faults.rates.corrupt_state = 0.01;
-    scenario
-}
+use starl_sim::Scenario;
 
 /// Stands all the time, and resigns now and then.
 #[derive(Clone)]
@@ -207,32 +165,14 @@ fn naive(needed: usize) -> NaiveElector {
     })
 }
 
-/// The properties that are violated, each once, and how many times leaders changed.
-fn violated(scenario: Scenario, program: impl Program + Clone + 'static) -> (Vec<String>, usize) {
-    let mut run = Run::new(scenario, &|_| Ok(Box::new(program.clone()))).expect("the run starts");
-    let mut changes = 0;
-    while !run.is_over() {
-        let is_change = |record: &&starl_core::Record| matches!(&record.event, starl_core::Event::Primitive { name, .. } if name == "leader");
-        changes += run.step().iter().filter(is_change).count();
-    }
-    for violation in run.violations() {
-        println!(
-            "{} {}: {}",
-            violation.at, violation.property, violation.text
-        );
-    }
-    let verdicts = run.verdicts().into_iter();
-    let found = verdicts.filter(|verdict| verdict.violations > 0);
-    let found = found.map(|verdict| verdict.property.to_string());
-    (found.collect(), changes)
-}
-
 #[test]
 fn the_primitive_keeps_its_promises_under_every_fault() {
     for seed in 0..10 {
         for algorithm in [Algorithm::Leases, Algorithm::Ballots, Algorithm::Bully] {
-            for make in [five_robots, lossy, chaotic, corrupting] {
-                let (found, changes) = violated(make(seed), Elector::by(algorithm));
+            for weather in WEATHERS {
+                let mut scenario = fleet(5, seed);
+                weather(&mut scenario);
+                let (found, changes) = judge(scenario, Elector::by(algorithm), "leader");
                 assert_eq!(found, [] as [&str; 0], "{algorithm:?}, seed {seed}");
                 assert!(changes >= 10, "{changes}");
             }
@@ -242,7 +182,7 @@ fn the_primitive_keeps_its_promises_under_every_fault() {
 
 /// The network falls apart again and again.
 fn parted(seed: u64) -> Scenario {
-    let mut scenario = five_robots(seed);
+    let mut scenario = fleet(5, seed);
     scenario.faults.rates.partition = 0.1;
     scenario.faults.rates.heal_after = Duration::from_seconds(10);
     scenario
@@ -251,7 +191,7 @@ fn parted(seed: u64) -> Scenario {
 /// In how many of ten runs in which the network falls apart a property is violated.
 fn often(property: &str, program: &NaiveElector) -> usize {
     let is_violated = |&seed: &u64| {
-        let (found, _) = violated(parted(seed), program.clone());
+        let (found, _) = judge(parted(seed), program.clone(), "leader");
         found.iter().any(|found| found == property)
     };
     (0..10).filter(is_violated).count()
@@ -271,8 +211,9 @@ fn one_without_majorities_has_two_leaders_in_one_epoch() {
 
 #[test]
 fn bounds_that_are_too_short_are_found_out() {
-    let mut scenario = lossy(1);
+    let mut scenario = fleet(5, 1);
+    lossy(&mut scenario);
     scenario.properties.election_bound = Duration::from_millis(500);
-    let (found, _) = violated(scenario, Elector::by(Algorithm::Leases));
+    let (found, _) = judge(scenario, Elector::by(Algorithm::Leases), "leader");
     assert_eq!(found, ["election.progress"]);
 }

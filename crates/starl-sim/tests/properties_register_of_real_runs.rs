@@ -3,41 +3,11 @@
 
 mod engine_support;
 
-use engine_support::scenario;
-use starl_core::{
-    Destination, Duration, Input, Message, Port, Primitive, Program, Robot, RobotId, Value,
-};
+use engine_support::weather::{calm, chaotic, fleet, judge, lossy};
+use starl_core::{Destination, Input, Message, Port, Primitive, Program, Robot, RobotId, Value};
 use starl_primitives::Register;
 use starl_primitives::register::Options;
-use starl_sim::{Run, Scenario};
 use std::collections::BTreeSet;
-
-fn five_robots(seed: u64) -> Scenario {
-    let places: Vec<_> = (0..5).map(|robot| (f64::from(robot), 0.0)).collect();
-    let mut scenario = scenario("create", &places);
-    scenario.seed = seed;
-    scenario.properties.no_collision = false;
-    scenario.duration = Duration::from_seconds(120);
-    scenario
-}
-
-fn lossy(seed: u64) -> Scenario {
-    let mut scenario = five_robots(seed);
-    scenario.network.link.loss = 0.3;
-    scenario.network.link.duplication = 0.2;
-    scenario.network.link.reordering = 0.2;
-    scenario
-}
-
-fn chaotic(seed: u64) -> Scenario {
-    let mut scenario = lossy(seed);
-    let rates = &mut scenario.faults.rates;
-    rates.crash = 0.02;
-    rates.restart_after = Duration::from_seconds(3);
-    rates.partition = 0.05;
-    rates.heal_after = Duration::from_seconds(5);
-    scenario
-}
 
 /// Something with registers that robots read and write now and then.
 trait Registers: Primitive + Clone + Send + Sync + 'static {
@@ -195,30 +165,14 @@ impl Registers for Naive {
     }
 }
 
-/// The properties that are violated, and how many operations were done.
-fn violated(scenario: Scenario, registers: impl Registers) -> (Vec<String>, usize) {
-    let user = User(registers);
-    let mut run = Run::new(scenario, &|_| Ok(Box::new(user.clone()))).expect("the run starts");
-    let mut done = 0;
-    while !run.is_over() {
-        let is_done = |record: &&starl_core::Record| matches!(&record.event, starl_core::Event::Primitive { name, .. } if name == "done");
-        done += run.step().iter().filter(is_done).count();
-    }
-    for violation in run.violations() {
-        println!("{} {}", violation.at, violation.text);
-    }
-    let verdicts = run.verdicts().into_iter();
-    let violated = verdicts.filter(|verdict| verdict.violations > 0);
-    let names = violated.map(|verdict| verdict.property.to_string());
-    (names.collect(), done)
-}
-
 #[test]
 fn the_primitive_keeps_its_promise_under_every_fault() {
     for seed in 0..12 {
-        for make in [five_robots, lossy, chaotic] {
+        for weather in [calm, lossy, chaotic] {
+            let mut scenario = fleet(5, seed);
+            weather(&mut scenario);
             let register = Register::new("register", None, Options::default());
-            let (violated, done) = violated(make(seed), register);
+            let (violated, done) = judge(scenario, User(register), "done");
             assert_eq!(violated, [] as [&str; 0], "seed {seed}");
             assert!(done > 200, "seed {seed}: {done}");
         }
@@ -228,7 +182,9 @@ fn the_primitive_keeps_its_promise_under_every_fault() {
 #[test]
 fn reads_that_do_not_have_their_value_stored_are_found_out() {
     let found = (0..20).any(|seed| {
-        let (violated, done) = violated(lossy(seed), Naive::default());
+        let mut scenario = fleet(5, seed);
+        lossy(&mut scenario);
+        let (violated, done) = judge(scenario, User(Naive::default()), "done");
         assert!(done > 200, "{done}");
         violated == ["register.linearizability"]
     });

@@ -3,53 +3,11 @@
 
 mod engine_support;
 
-use engine_support::scenario;
+use engine_support::weather::{WEATHERS, fleet};
 use starl_core::{Duration, Event, Primitive, Program, Random, Robot, Time};
 use starl_primitives::failure_detector::{self, FailureDetector};
 use starl_primitives::{Barrier, Registration, barrier, registration};
-use starl_sim::scenario::Clock;
-use starl_sim::{Run, Scenario};
-
-/// Five robots within reach of each other for two minutes.
-fn five_robots(seed: u64) -> Scenario {
-    let places: Vec<_> = (0..5).map(|robot| (f64::from(robot), 0.0)).collect();
-    let mut scenario = scenario("create", &places);
-    scenario.seed = seed;
-    scenario.duration = Duration::from_seconds(120);
-    scenario.properties.no_collision = false;
-    scenario
-}
-
-/// Loses, repeats and reorders datagrams; clocks are up to an hour apart.
-fn lossy(seed: u64) -> Scenario {
-    let mut scenario = five_robots(seed);
-    scenario.network.link.loss = 0.3;
-    scenario.network.link.duplication = 0.2;
-    scenario.network.link.reordering = 0.2;
-    scenario.fleet.groups[0].clock = Clock {
-        offset: Duration::from_seconds(3600),
-        drift_ppm: 100.0,
-    };
-    scenario
-}
-
-/// And partitions and crashes.
-fn chaotic(seed: u64) -> Scenario {
-    let mut scenario = lossy(seed);
-    let rates = &mut scenario.faults.rates;
-    rates.crash = 0.02;
-    rates.restart_after = Duration::from_seconds(3);
-    rates.partition = 0.05;
-    rates.heal_after = Duration::from_seconds(5);
-    scenario
-}
-
-/// And overwrites the robots' state.
-fn corrupting(seed: u64) -> Scenario {
-    let mut scenario = chaotic(seed);
-    scenario.faults.rates.corrupt_state = 0.02;
-    scenario
-}
+use starl_sim::Run;
 
 /// Registers and leaves at random for the first minute, and comes to the barrier again and again.
 #[derive(Clone)]
@@ -102,9 +60,11 @@ impl Program for Visitor {
 #[test]
 fn the_primitives_keep_their_promises_under_every_fault() {
     for seed in 0..15 {
-        for make in [five_robots, lossy, chaotic, corrupting] {
+        for weather in WEATHERS {
+            let mut scenario = fleet(5, seed);
+            weather(&mut scenario);
             let make_program = |_: &_| Ok(Visitor::boxed());
-            let mut run = Run::new(make(seed), &make_program).expect("the run starts");
+            let mut run = Run::new(scenario, &make_program).expect("the run starts");
             let (mut lists, mut crossings) = (0, 0);
             while !run.is_over() {
                 for record in run.step() {

@@ -3,55 +3,14 @@
 
 mod engine_support;
 
-use engine_support::scenario;
+use engine_support::weather::{WEATHERS, fleet, judge};
 use starl_core::{
     Destination, Duration, Input, Message, Payload, Port, Primitive, Program, Random, Robot,
     RobotId, Time, Value, message,
 };
 use starl_primitives::SharedMemory;
 use starl_primitives::shared_memory::Options;
-use starl_sim::scenario::Clock;
-use starl_sim::{Run, Scenario};
-
-/// Six robots within reach of each other for two minutes, that write for the first.
-fn six_robots(seed: u64) -> Scenario {
-    let places: Vec<_> = (0..6).map(|robot| (f64::from(robot), 0.0)).collect();
-    let mut scenario = scenario("create", &places);
-    scenario.seed = seed;
-    scenario.duration = Duration::from_seconds(120);
-    scenario
-}
-
-/// Loses, repeats and reorders datagrams; clocks are up to an hour apart.
-fn lossy(seed: u64) -> Scenario {
-    let mut scenario = six_robots(seed);
-    scenario.network.link.loss = 0.3;
-    scenario.network.link.duplication = 0.2;
-    scenario.network.link.reordering = 0.2;
-    scenario.fleet.groups[0].clock = Clock {
-        offset: Duration::from_seconds(3600),
-        drift_ppm: 100.0,
-    };
-    scenario
-}
-
-/// And partitions and crashes.
-fn chaotic(seed: u64) -> Scenario {
-    let mut scenario = lossy(seed);
-    let rates = &mut scenario.faults.rates;
-    rates.crash = 0.02;
-    rates.restart_after = Duration::from_seconds(3);
-    rates.partition = 0.05;
-    rates.heal_after = Duration::from_seconds(5);
-    scenario
-}
-
-/// And overwrites the robots' state.
-fn corrupting(seed: u64) -> Scenario {
-    let mut scenario = chaotic(seed);
-    scenario.faults.rates.corrupt_state = 0.02;
-    scenario
-}
+use starl_sim::Scenario;
 
 /// Writes now and then.
 #[derive(Clone)]
@@ -178,33 +137,16 @@ impl Memory for Naive {
     fn corrupt(&mut self, _: &mut Random) {}
 }
 
-/// The properties that are violated, each once, and how many times memories changed.
+/// The properties that are violated, and how many times memories changed.
 fn violated(scenario: Scenario, memory: impl Memory) -> (Vec<String>, usize) {
-    let writer = Writer {
-        memory,
-        activations: 0,
-    };
-    let mut run = Run::new(scenario, &|_| Ok(Box::new(writer.clone()))).expect("the run starts");
-    let mut changes = 0;
-    while !run.is_over() {
-        let is_change = |record: &&starl_core::Record| matches!(&record.event, starl_core::Event::Primitive { name, .. } if name == "update");
-        changes += run.step().iter().filter(is_change).count();
-    }
-    for violation in run.violations() {
-        println!(
-            "{} {}: {}",
-            violation.at, violation.property, violation.text
-        );
-    }
-    let verdicts = run.verdicts();
-    let violated = verdicts
-        .into_iter()
-        .filter(|verdict| verdict.violations > 0);
-    (
-        violated
-            .map(|verdict| verdict.property.to_string())
-            .collect(),
-        changes,
+    let activations = 0;
+    judge(
+        scenario,
+        Writer {
+            memory,
+            activations,
+        },
+        "update",
     )
 }
 
@@ -215,9 +157,9 @@ fn shared_memory() -> SharedMemory {
 #[test]
 fn the_primitive_keeps_its_promises_under_every_fault() {
     for seed in 0..12 {
-        for make in [six_robots, lossy, chaotic, corrupting] {
-            let mut scenario = make(seed);
-            scenario.properties.no_collision = false;
+        for weather in WEATHERS {
+            let mut scenario = fleet(6, seed);
+            weather(&mut scenario);
             scenario.properties.shared_memory_bound = Duration::from_seconds(20);
             let (violated, changes) = violated(scenario, shared_memory());
             assert_eq!(violated, [] as [&str; 0], "seed {seed}");
@@ -228,9 +170,9 @@ fn the_primitive_keeps_its_promises_under_every_fault() {
 
 #[test]
 fn one_that_sends_once_does_not_converge_where_datagrams_are_lost() {
-    let (found, _) = violated(six_robots(1), Naive::default());
+    let (found, _) = violated(fleet(6, 1), Naive::default());
     assert_eq!(found, [] as [&str; 0]);
-    let mut lossy = six_robots(1);
+    let mut lossy = fleet(6, 1);
     lossy.network.link.loss = 0.6;
     let (found, _) = violated(lossy, Naive::default());
     assert_eq!(found, ["shared_memory.convergence"]);
@@ -238,7 +180,7 @@ fn one_that_sends_once_does_not_converge_where_datagrams_are_lost() {
 
 #[test]
 fn one_that_goes_by_raw_clocks_loses_later_writes() {
-    let mut scenario = six_robots(1);
+    let mut scenario = fleet(6, 1);
     scenario.fleet.groups[0].clock.offset = Duration::from_seconds(3600);
     let (found, _) = violated(scenario, Naive::default());
     assert!(
@@ -253,6 +195,6 @@ fn one_that_spoils_values_is_found_out() {
         spoils: true,
         ..Naive::default()
     };
-    let (found, _) = violated(six_robots(1), spoiling);
+    let (found, _) = violated(fleet(6, 1), spoiling);
     assert_eq!(found, ["shared_memory.integrity"]);
 }

@@ -1,6 +1,8 @@
 //! Small worlds and programs for the engine's tests.
 #![allow(dead_code, reason = "each test file uses a part")]
 
+pub mod weather;
+
 use starl_core::{
     Command, Destination, Duration, Event, Message, Payload, Point, Port, Pose, Program, Random,
     Record, Robot,
