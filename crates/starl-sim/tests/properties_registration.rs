@@ -187,3 +187,13 @@ fn what_a_corruption_makes_up_is_not_judged() {
     agree(&mut story, 3000, (3000, 0, &[0, 1]));
     assert_eq!(properties(&story), [""; 0]);
 }
+
+#[test]
+fn the_time_in_which_all_agreed_does_not_count() {
+    let mut story = robots(2);
+    agree(&mut story, 400, (400, 0, &[0, 1]));
+    // Robot 1 is suspected in error, when the first agreement lies back by almost the bound.
+    agree(&mut story, 5400, (5400, 0, &[0]));
+    agree(&mut story, 6000, (6000, 0, &[0, 1]));
+    assert_eq!(properties(&story), [""; 0]);
+}

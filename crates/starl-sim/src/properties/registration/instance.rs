@@ -17,8 +17,8 @@ pub(super) struct Instance {
     lists: BTreeMap<Id, List>,
     /// When somebody came or left last.
     pub changed: Time,
-    /// When all that are to agree did so last.
-    pub in_common: Time,
+    /// Since when not all that are to agree do.
+    pub apart_since: Option<Time>,
     /// Whether it was reported that they do not agree.
     pub is_reported: bool,
 }
@@ -199,6 +199,16 @@ impl Instance {
         }
         for life in self.robots.values_mut() {
             life.promised = None;
+        }
+    }
+
+    /// Something has changed: notes since when they do not agree.
+    pub fn note_agreement(&mut self, at: Time) {
+        if self.apart().is_empty() {
+            self.apart_since = None;
+            self.is_reported = false;
+        } else {
+            self.apart_since.get_or_insert(at);
         }
     }
 

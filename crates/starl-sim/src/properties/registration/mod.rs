@@ -77,10 +77,7 @@ impl Registration {
             }
             _ => return,
         }
-        if instance.apart().is_empty() {
-            instance.in_common = at;
-            instance.is_reported = false;
-        }
+        instance.note_agreement(at);
         self.due.insert((at + self.bound, port));
     }
 
@@ -90,6 +87,7 @@ impl Registration {
             (Some(robot), "crash" | "failed") => {
                 for instance in self.instances.values_mut() {
                     instance.crashes(robot, at);
+                    instance.note_agreement(at);
                 }
             }
             (Some(_), "corrupt state") => {
@@ -137,7 +135,10 @@ impl Registration {
                 );
                 found.push(violation(PROGRESS, due, late, text));
             }
-            let since = instance.changed.max(instance.in_common).max(disturbed);
+            let Some(apart_since) = instance.apart_since else {
+                continue;
+            };
+            let since = apart_since.max(instance.changed).max(disturbed);
             if self.disturbance.is_parted() || instance.is_reported || since + bound > due {
                 continue;
             }
