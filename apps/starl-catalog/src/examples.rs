@@ -24,171 +24,162 @@ pub struct Example {
 /// no program.
 pub const DEFAULT_SCENARIO: &str = include_str!("default.toml");
 
-/// A file of an example: its path from the scenario, and its content.
-macro_rules! file {
-    ($example:literal, $path:literal) => {
-        (
-            $path,
-            include_bytes!(concat!("../../../examples/", $example, "/", $path)),
-        )
+/// An example: its name, what one sees, its folder, and the scenario and its files in there.
+macro_rules! example {
+    ($name:literal, $summary:literal, $folder:literal, $scenario:literal, [$($file:literal),+]) => {
+        Example {
+            name: $name,
+            summary: $summary,
+            path: concat!("examples/", $folder, "/", $scenario),
+            text: include_str!(concat!("../../../examples/", $folder, "/", $scenario)),
+            files: &[$((
+                $file,
+                include_bytes!(concat!("../../../examples/", $folder, "/", $file)),
+            )),+],
+        }
     };
 }
 
-const INTERSECTION: &[(&str, &[u8])] = &[
-    file!("intersection", "intersection.starl"),
-    file!("intersection", "junction.starl"),
-    file!("intersection", "traffic.starl"),
-];
-
 /// All examples.
 pub const EXAMPLES: &[Example] = &[
-    Example {
-        name: "race",
-        summary: "ground robots and quadcopters race through way-points",
-        path: "examples/race/race.toml",
-        text: include_str!("../../../examples/race/race.toml"),
-        files: &[
-            file!("race", "race.starl"),
-            file!("race", "worlds/four.wpt"),
-            file!("race", "worlds/Obstacles.wpt"),
-            file!("race", "worlds/start.wpt"),
-        ],
-    },
-    Example {
-        name: "formation",
-        summary: "robots that know two others each form a regular polygon",
-        path: "examples/formation/formation.toml",
-        text: include_str!("../../../examples/formation/formation.toml"),
-        files: &[file!("formation", "formation.starl")],
-    },
-    Example {
-        name: "line",
-        summary: "robots spread evenly on the line between two of them",
-        path: "examples/line/line.toml",
-        text: include_str!("../../../examples/line/line.toml"),
-        files: &[file!("line", "line.starl")],
-    },
-    Example {
-        name: "intersection",
-        summary: "four cars agree on who crosses which zone when",
-        path: "examples/intersection/intersection.toml",
-        text: include_str!("../../../examples/intersection/intersection.toml"),
-        files: INTERSECTION,
-    },
-    Example {
-        name: "intersection-stream",
-        summary: "a hundred cars come to the intersection at random",
-        path: "examples/intersection/stream.toml",
-        text: include_str!("../../../examples/intersection/stream.toml"),
-        files: INTERSECTION,
-    },
-    Example {
-        name: "mutex",
-        summary: "robots hold sets of resources, one robot at a time",
-        path: "examples/primitives/mutex.toml",
-        text: include_str!("../../../examples/primitives/mutex.toml"),
-        files: &[file!("primitives", "mutex.starl")],
-    },
-    Example {
-        name: "election",
-        summary: "robots elect a leader again and again",
-        path: "examples/primitives/election.toml",
-        text: include_str!("../../../examples/primitives/election.toml"),
-        files: &[file!("primitives", "election.starl")],
-    },
-    Example {
-        name: "broadcast",
-        summary: "robots tell each other numbers in one order for all",
-        path: "examples/primitives/broadcast.toml",
-        text: include_str!("../../../examples/primitives/broadcast.toml"),
-        files: &[file!("primitives", "broadcast.starl")],
-    },
-    Example {
-        name: "flocking",
-        summary: "groups of robots travel in lines abreast",
-        path: "examples/flocking/flocking.toml",
-        text: include_str!("../../../examples/flocking/flocking.toml"),
-        files: &[file!("flocking", "flocking.starl")],
-    },
-    Example {
-        name: "maze",
-        summary: "robots look for goals and tell of the walls they meet",
-        path: "examples/maze/maze.toml",
-        text: include_str!("../../../examples/maze/maze.toml"),
-        files: &[file!("maze", "maze.starl")],
-    },
-    Example {
-        name: "auction",
-        summary: "robots share out places to visit by bidding for them",
-        path: "examples/auction/auction.toml",
-        text: include_str!("../../../examples/auction/auction.toml"),
-        files: &[file!("auction", "auction.starl")],
-    },
-    Example {
-        name: "traffic-signs",
-        summary: "robots stop at a crossing and go over it in turn",
-        path: "examples/traffic-signs/traffic-signs.toml",
-        text: include_str!("../../../examples/traffic-signs/traffic-signs.toml"),
-        files: &[file!("traffic-signs", "traffic-signs.starl")],
-    },
-    Example {
-        name: "light-painting",
-        summary: "robots share out a drawing and draw it with lights",
-        path: "examples/light-painting/light-painting.toml",
-        text: include_str!("../../../examples/light-painting/light-painting.toml"),
-        files: &[
-            file!("light-painting", "light-painting.starl"),
-            file!("light-painting", "house.svg"),
-        ],
-    },
-    Example {
-        name: "search",
-        summary: "robots look for an item in the rooms of a house",
-        path: "examples/search/search.toml",
-        text: include_str!("../../../examples/search/search.toml"),
-        files: &[
-            file!("search", "search.starl"),
-            file!("search", "worlds/house.wpt"),
-        ],
-    },
-    Example {
-        name: "search-building",
-        summary: "twenty robots look for an item in fifty rooms",
-        path: "examples/search/building.toml",
-        text: include_str!("../../../examples/search/building.toml"),
-        files: &[
-            file!("search", "search.starl"),
-            file!("search", "worlds/building.wpt"),
-        ],
-    },
-    Example {
-        name: "register",
-        summary: "robots draw tickets from one roll, each ticket once",
-        path: "examples/primitives/register.toml",
-        text: include_str!("../../../examples/primitives/register.toml"),
-        files: &[file!("primitives", "register.starl")],
-    },
-    Example {
-        name: "memory",
-        summary: "robots tell results before that they are done",
-        path: "examples/primitives/memory.toml",
-        text: include_str!("../../../examples/primitives/memory.toml"),
-        files: &[file!("primitives", "memory.starl")],
-    },
-    Example {
-        name: "registration",
-        summary: "robots come and go, and agree on who takes part",
-        path: "examples/primitives/registration.toml",
-        text: include_str!("../../../examples/primitives/registration.toml"),
-        files: &[file!("primitives", "registration.starl")],
-    },
-    Example {
-        name: "barrier",
-        summary: "robots begin each round together",
-        path: "examples/primitives/barrier.toml",
-        text: include_str!("../../../examples/primitives/barrier.toml"),
-        files: &[file!("primitives", "barrier.starl")],
-    },
+    example!(
+        "race",
+        "ground robots and quadcopters race through way-points",
+        "race",
+        "race.toml",
+        [
+            "race.starl",
+            "worlds/four.wpt",
+            "worlds/Obstacles.wpt",
+            "worlds/start.wpt"
+        ]
+    ),
+    example!(
+        "formation",
+        "robots that know two others each form a regular polygon",
+        "formation",
+        "formation.toml",
+        ["formation.starl"]
+    ),
+    example!(
+        "line",
+        "robots spread evenly on the line between two of them",
+        "line",
+        "line.toml",
+        ["line.starl"]
+    ),
+    example!(
+        "intersection",
+        "four cars agree on who crosses which zone when",
+        "intersection",
+        "intersection.toml",
+        ["intersection.starl", "junction.starl", "traffic.starl"]
+    ),
+    example!(
+        "intersection-stream",
+        "a hundred cars come to the intersection at random",
+        "intersection",
+        "stream.toml",
+        ["intersection.starl", "junction.starl", "traffic.starl"]
+    ),
+    example!(
+        "mutex",
+        "robots hold sets of resources, one robot at a time",
+        "primitives",
+        "mutex.toml",
+        ["mutex.starl"]
+    ),
+    example!(
+        "election",
+        "robots elect a leader again and again",
+        "primitives",
+        "election.toml",
+        ["election.starl"]
+    ),
+    example!(
+        "broadcast",
+        "robots tell each other numbers in one order for all",
+        "primitives",
+        "broadcast.toml",
+        ["broadcast.starl"]
+    ),
+    example!(
+        "flocking",
+        "groups of robots travel in lines abreast",
+        "flocking",
+        "flocking.toml",
+        ["flocking.starl"]
+    ),
+    example!(
+        "maze",
+        "robots look for goals and tell of the walls they meet",
+        "maze",
+        "maze.toml",
+        ["maze.starl"]
+    ),
+    example!(
+        "auction",
+        "robots share out places to visit by bidding for them",
+        "auction",
+        "auction.toml",
+        ["auction.starl"]
+    ),
+    example!(
+        "traffic-signs",
+        "robots stop at a crossing and go over it in turn",
+        "traffic-signs",
+        "traffic-signs.toml",
+        ["traffic-signs.starl"]
+    ),
+    example!(
+        "light-painting",
+        "robots share out a drawing and draw it with lights",
+        "light-painting",
+        "light-painting.toml",
+        ["light-painting.starl", "house.svg"]
+    ),
+    example!(
+        "search",
+        "robots look for an item in the rooms of a house",
+        "search",
+        "search.toml",
+        ["search.starl", "worlds/house.wpt"]
+    ),
+    example!(
+        "search-building",
+        "twenty robots look for an item in fifty rooms",
+        "search",
+        "building.toml",
+        ["search.starl", "worlds/building.wpt"]
+    ),
+    example!(
+        "register",
+        "robots draw tickets from one roll, each ticket once",
+        "primitives",
+        "register.toml",
+        ["register.starl"]
+    ),
+    example!(
+        "memory",
+        "robots tell results before that they are done",
+        "primitives",
+        "memory.toml",
+        ["memory.starl"]
+    ),
+    example!(
+        "registration",
+        "robots come and go, and agree on who takes part",
+        "primitives",
+        "registration.toml",
+        ["registration.starl"]
+    ),
+    example!(
+        "barrier",
+        "robots begin each round together",
+        "primitives",
+        "barrier.toml",
+        ["barrier.starl"]
+    ),
 ];
 
 impl Example {
