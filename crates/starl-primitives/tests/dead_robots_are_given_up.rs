@@ -3,7 +3,8 @@
 
 mod harness;
 
-use harness::{Talker, Wire, World, broadcast, geocast, int, unicast};
+use harness::talker::{Talker, broadcast, geocast, unicast};
+use harness::{Wire, World, int};
 use starl_core::event::Value;
 use starl_core::{Duration, RobotId, Time};
 use starl_primitives::reliable::Options;

@@ -3,7 +3,8 @@
 
 mod harness;
 
-use harness::{Talker, Wire, World, geocast};
+use harness::talker::{Talker, geocast};
+use harness::{Wire, World};
 use starl_core::{Duration, Point, Random};
 use starl_primitives::reliable::Options;
 

@@ -2,7 +2,8 @@
 
 mod harness;
 
-use harness::{Talker, Wire, World, broadcast, geocast, unicast};
+use harness::talker::{Talker, broadcast, geocast, unicast};
+use harness::{Wire, World};
 use starl_core::Duration;
 use starl_primitives::reliable::Options;
 use std::collections::BTreeMap;

@@ -3,7 +3,8 @@
 
 mod harness;
 
-use harness::{Talker, Wire, World, broadcast, unicast};
+use harness::talker::{Talker, broadcast, unicast};
+use harness::{Wire, World};
 use starl_core::Duration;
 use starl_primitives::reliable::Options;
 

@@ -3,7 +3,8 @@
 
 mod harness;
 
-use harness::{Talker, Wire, World, broadcast};
+use harness::talker::{Talker, broadcast};
+use harness::{Wire, World};
 use starl_core::Duration;
 use starl_primitives::reliable::Options;
 use std::collections::BTreeSet;

@@ -1,9 +1,9 @@
 //! A program that comes to a barrier, on command or by itself again and again; and what its events say of
 //! who passed what when.
 
-use super::World;
+use super::{World, command};
 use starl_core::{
-    Duration, Event, Port, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value,
+    Duration, Event, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value,
 };
 use starl_primitives::barrier::Options;
 use starl_primitives::{Barrier, FailureDetector, failure_detector};
@@ -41,11 +41,7 @@ impl Crosser {
 
 /// Tells a robot to come to the barrier.
 pub fn arrive() -> TimerKey {
-    TimerKey {
-        port: Port::PROGRAM,
-        kind: 0,
-        number: 0,
-    }
+    command(0, 0)
 }
 
 impl Program for Crosser {
@@ -85,11 +81,7 @@ impl Program for Crosser {
 
 /// The program of a robot that is up.
 pub fn crosser(world: &World, robot: usize) -> &Crosser {
-    let program = world.program(robot).expect("the robot is up");
-    let crosser = program
-        .inspect()
-        .and_then(|any| any.downcast_ref::<Crosser>());
-    crosser.expect("it is a crosser")
+    world.inspect(robot)
 }
 
 /// The barrier of a robot that is up.

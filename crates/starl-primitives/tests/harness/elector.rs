@@ -1,8 +1,8 @@
 //! A program that elects as a test tells it to; and what its events say of who led when.
 
-use super::{World, int, robot};
+use super::{World, command, int, robot};
 use starl_core::event::Value;
-use starl_core::{Event, Port, Primitive, Program, Random, Robot, RobotId, TimerKey};
+use starl_core::{Event, Primitive, Program, Random, Robot, RobotId, TimerKey};
 use starl_primitives::election::{Algorithm, Options};
 use starl_primitives::{FailureDetector, LeaderElection, failure_detector};
 use std::any::Any;
@@ -51,19 +51,11 @@ pub fn by(algorithm: Algorithm) -> Options {
 /// All algorithms.
 pub const ALGORITHMS: [Algorithm; 3] = [Algorithm::Leases, Algorithm::Ballots, Algorithm::Bully];
 
-const fn command(kind: u16) -> TimerKey {
-    TimerKey {
-        port: Port::PROGRAM,
-        kind,
-        number: 0,
-    }
-}
-
 /// Tells a robot to stand for election.
-pub const ELECT: TimerKey = command(0);
+pub const ELECT: TimerKey = command(0, 0);
 
 /// Tells a robot to resign.
-pub const RESIGN: TimerKey = command(1);
+pub const RESIGN: TimerKey = command(1, 0);
 
 impl Program for Elector {
     fn start(&mut self, robot: &mut Robot<'_>) {
@@ -99,11 +91,7 @@ impl Program for Elector {
 
 /// The election of a robot that is up.
 pub fn election(world: &World, robot: usize) -> &LeaderElection {
-    let program = world.program(robot).expect("the robot is up");
-    let elector = program
-        .inspect()
-        .and_then(|any| any.downcast_ref::<Elector>());
-    &elector.expect("it is an elector").election
+    &world.inspect::<Elector>(robot).election
 }
 
 /// Whom these robots show as leader.

@@ -1,9 +1,9 @@
 //! A program that reads and writes registers at random, or as a test tells it to; and whether what its
 //! events say is linearizable.
 
-use super::{World, int};
+use super::{World, command, int};
 use starl_core::{
-    Duration, Event, Port, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value,
+    Duration, Event, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value,
 };
 use starl_primitives::register::{OperationId, Options, Status};
 use starl_primitives::{FailureDetector, Register, failure_detector};
@@ -44,14 +44,6 @@ impl Keeper {
 const READ: u16 = 0;
 const WRITE: u16 = 1;
 const WITHDRAW: u16 = 2;
-
-fn command(kind: u16, number: u32) -> TimerKey {
-    TimerKey {
-        port: Port::PROGRAM,
-        kind,
-        number,
-    }
-}
 
 /// Tells a robot to read `x`.
 pub fn read() -> TimerKey {
@@ -118,11 +110,7 @@ impl Program for Keeper {
 
 /// The program of a robot that is up.
 pub fn keeper(world: &World, robot: usize) -> &Keeper {
-    let program = world.program(robot).expect("the robot is up");
-    let keeper = program
-        .inspect()
-        .and_then(|any| any.downcast_ref::<Keeper>());
-    keeper.expect("it is a keeper")
+    world.inspect(robot)
 }
 
 /// How far a robot's last operation is.

@@ -1,10 +1,10 @@
 //! A program that asks for resources, uses them for a while and gives them back, again and again; and
 //! what its events say of who held what when.
 
-use super::World;
+use super::{World, command};
 use starl_core::event::Name;
 use starl_core::{
-    Duration, Event, Port, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value,
+    Duration, Event, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value,
 };
 use starl_primitives::mutex::{Algorithm, Options, Resources};
 use starl_primitives::{FailureDetector, Mutex, failure_detector};
@@ -63,23 +63,22 @@ fn numbered(bits: u32) -> Resources {
 const ACQUIRE: u16 = 0;
 const RELEASE: u16 = 1;
 
-fn command(kind: u16, resources: &[&str]) -> TimerKey {
+fn about(kind: u16, resources: &[&str]) -> TimerKey {
     let bit = |resource: &&str| RESOURCES.iter().position(|name| name == resource);
-    TimerKey {
-        port: Port::PROGRAM,
+    command(
         kind,
-        number: resources.iter().filter_map(bit).map(|bit| 1 << bit).sum(),
-    }
+        resources.iter().filter_map(bit).map(|bit| 1 << bit).sum(),
+    )
 }
 
 /// Tells a robot to ask for these.
 pub fn acquire(resources: &[&str]) -> TimerKey {
-    command(ACQUIRE, resources)
+    about(ACQUIRE, resources)
 }
 
 /// Tells a robot to give these back.
 pub fn release(resources: &[&str]) -> TimerKey {
-    command(RELEASE, resources)
+    about(RELEASE, resources)
 }
 
 fn pause(random: &mut Random) -> Duration {
@@ -138,11 +137,7 @@ impl Program for Locker {
 
 /// The mutex of a robot that is up.
 pub fn mutex(world: &World, robot: usize) -> &Mutex {
-    let program = world.program(robot).expect("the robot is up");
-    let locker = program
-        .inspect()
-        .and_then(|any| any.downcast_ref::<Locker>());
-    &locker.expect("it is a locker").mutex
+    &world.inspect::<Locker>(robot).mutex
 }
 
 /// Judges a run by its events: at no time two robots hold the same resource, and the numbers of those who

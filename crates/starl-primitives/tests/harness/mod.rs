@@ -1,7 +1,7 @@
 //! A small deterministic host for tests: virtual time, robots that move along straight lines, and a
 //! wire that loses, delays, duplicates and reorders datagrams. Everything follows from one seed.
 
-#![allow(dead_code, unused_imports)] // each test uses a part of it
+#![allow(dead_code)] // each test uses a part of it
 
 pub mod crosser;
 pub mod elector;
@@ -10,11 +10,9 @@ pub mod locker;
 pub mod pilot;
 pub mod registrar;
 pub mod sharer;
-mod talker;
+pub mod talker;
 pub mod teller;
 pub mod watcher;
-
-pub use talker::{Talker, broadcast, geocast, unicast};
 
 use starl_core::effect::Effects;
 use starl_core::event::{Name, Value};
@@ -231,6 +229,13 @@ impl World {
     /// The program of a robot that is up.
     pub fn program(&self, robot: usize) -> Option<&dyn Program> {
         Some(self.nodes[robot].agent.as_ref()?.program())
+    }
+
+    /// The same, as what it is: tests look into their own programs.
+    pub fn inspect<P: 'static>(&self, robot: usize) -> &P {
+        let program = self.program(robot).expect("the robot is up");
+        let program = program.inspect().and_then(|any| any.downcast_ref());
+        program.expect("all robots run the same program")
     }
 
     pub fn corrupt(&mut self, robot: usize) {
@@ -475,6 +480,15 @@ impl World {
     fn queue(&mut self, after: Duration, occasion: Occasion) {
         self.queued += 1;
         self.queue.insert((self.now + after, self.queued), occasion);
+    }
+}
+
+/// What tells a program to do something, see [`World::command`]: what, and with which number.
+pub const fn command(kind: u16, number: u32) -> TimerKey {
+    TimerKey {
+        port: Port::PROGRAM,
+        kind,
+        number,
     }
 }
 

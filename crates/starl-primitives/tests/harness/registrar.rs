@@ -1,14 +1,14 @@
 //! A program that registers and leaves, on command or at random again and again; and what its events say
 //! of who showed what when.
 
-use super::World;
+use super::{World, command};
 use starl_core::{
-    Area, Duration, Port, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value,
+    Area, Duration, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value,
 };
 use starl_primitives::registration::Options;
 use starl_primitives::{FailureDetector, Registration, failure_detector};
 use std::any::Any;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 #[derive(Clone)]
 pub struct Registrar {
@@ -34,14 +34,6 @@ impl Registrar {
 
 const REGISTER: u16 = 0;
 const UNREGISTER: u16 = 1;
-
-fn command(kind: u16, number: u32) -> TimerKey {
-    TimerKey {
-        port: Port::PROGRAM,
-        kind,
-        number,
-    }
-}
 
 /// Tells a robot to register with the whole fleet.
 pub fn register() -> TimerKey {
@@ -101,11 +93,7 @@ impl Program for Registrar {
 
 /// The registration of a robot that is up.
 pub fn registration(world: &World, robot: usize) -> &Registration {
-    let program = world.program(robot).expect("the robot is up");
-    let registrar = program
-        .inspect()
-        .and_then(|any| any.downcast_ref::<Registrar>());
-    &registrar.expect("it is a registrar").registration
+    &world.inspect::<Registrar>(robot).registration
 }
 
 /// What a robot shows.

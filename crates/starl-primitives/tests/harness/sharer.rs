@@ -1,7 +1,7 @@
 //! A program that writes shared memory as a test tells it to.
 
-use super::World;
-use starl_core::{Port, Primitive, Program, Random, Robot, RobotId, TimerKey};
+use super::{World, command};
+use starl_core::{Primitive, Program, Random, Robot, RobotId, TimerKey};
 use starl_primitives::SharedMemory;
 use starl_primitives::shared_memory::Options;
 use std::any::Any;
@@ -32,11 +32,7 @@ const LONG: u16 = 1 << 14;
 
 /// Tells a sharer to write a value to the variable `x0`, `x1`, ...
 pub fn write(variable: u16, value: u32) -> TimerKey {
-    TimerKey {
-        port: Port::PROGRAM,
-        kind: variable,
-        number: value,
-    }
+    command(variable, value)
 }
 
 /// Tells a sharer to write a value to its element of the array `x0`, `x1`, ...
@@ -94,11 +90,7 @@ impl Program for Sharer {
 
 /// The memory of a robot that is up.
 pub fn memory(world: &World, robot: usize) -> &SharedMemory {
-    let program = world.program(robot).expect("the robot is up");
-    let sharer = program
-        .inspect()
-        .and_then(|any| any.downcast_ref::<Sharer>());
-    &sharer.expect("it is a sharer").memory
+    &world.inspect::<Sharer>(robot).memory
 }
 
 /// What a robot reads in the variable `x0`, `x1`, ...

@@ -1,8 +1,7 @@
 //! A program that sends what a test tells it to, and reports what it receives.
 
-use starl_core::{
-    Area, Message, Point, Port, Primitive, Program, Robot, RobotId, TimerKey, message,
-};
+use super::command;
+use starl_core::{Area, Message, Point, Primitive, Program, Robot, RobotId, TimerKey, message};
 use starl_primitives::reliable::Options;
 use starl_primitives::{Broadcast, Geocast, Unicast};
 
@@ -36,14 +35,6 @@ impl Talker {
 const BROADCAST: u16 = 0;
 const GEOCAST: u16 = 1;
 const UNICAST: u16 = 2;
-
-fn command(kind: u16, value: u32) -> TimerKey {
-    TimerKey {
-        port: Port::PROGRAM,
-        kind,
-        number: value,
-    }
-}
 
 /// Tells a talker to broadcast a value; a value above 1,000,000 is sent in a long message.
 pub fn broadcast(value: u32) -> TimerKey {

@@ -1,11 +1,10 @@
 //! A program that broadcasts in some order, by itself and when told to; and judges of what its events say
 //! of who was handed what when.
 
-use super::{World, int, robot};
+use super::{World, command, int, robot};
 use starl_core::event::Value;
 use starl_core::{
-    Duration, Event, Message, Port, Primitive, Program, Random, Robot, RobotId, Time, TimerKey,
-    message,
+    Duration, Event, Message, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, message,
 };
 use starl_primitives::broadcast::Order;
 use starl_primitives::reliable::Options;
@@ -39,11 +38,7 @@ impl Teller {
 
 /// Tells a robot to broadcast a number.
 pub fn tell(value: u32) -> TimerKey {
-    TimerKey {
-        port: Port::PROGRAM,
-        kind: 0,
-        number: value,
-    }
+    command(0, value)
 }
 
 impl Program for Teller {
@@ -83,11 +78,7 @@ impl Program for Teller {
 
 /// The broadcast of a robot that is up.
 pub fn teller(world: &World, robot: usize) -> &Broadcast {
-    let program = world.program(robot).expect("the robot is up");
-    let teller = program
-        .inspect()
-        .and_then(|any| any.downcast_ref::<Teller>());
-    &teller.expect("it is a teller").broadcast
+    &world.inspect::<Teller>(robot).broadcast
 }
 
 /// A message: its sender, the sender's incarnation, its number.

@@ -58,11 +58,7 @@ impl Program for Watcher {
 
 /// The program of a robot that is up.
 pub fn watcher(world: &World, robot: usize) -> &Watcher {
-    let program = world.program(robot).expect("the robot is up");
-    let watcher = program
-        .inspect()
-        .and_then(|any| any.downcast_ref::<Watcher>());
-    watcher.expect("it is a watcher")
+    world.inspect(robot)
 }
 
 /// The robots that a robot suspects.
