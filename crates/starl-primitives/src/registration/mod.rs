@@ -45,14 +45,16 @@ mod packet;
 mod proposing;
 mod repairing;
 mod roster;
+mod stage;
 
 pub use options::Options;
 pub use packet::ViewId;
 
 use crate::incarnation::Incarnation;
 use alloc::collections::{BTreeMap, BTreeSet};
-use packet::{NO_VIEW, View};
+use packet::NO_VIEW;
 use roster::{Peer, Shunned};
+use stage::{Leaving, Own, Stage};
 use starl_core::random::hash_key;
 use starl_core::{Area, Duration, Input, Port, Primitive, Robot, RobotId, Time, TimerKey};
 
@@ -90,45 +92,6 @@ pub struct Registration {
     /// When it announces itself next.
     announces_at: Time,
     failed: bool,
-}
-
-/// A registration of this robot.
-#[derive(Clone, Debug)]
-struct Own {
-    ticket: u32,
-    area: Option<Area>,
-    /// Until then it listens for others.
-    gathers_until: Time,
-    /// Announcements since the last change from a list to none or back.
-    announcements: u32,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Leaving {
-    ticket: u32,
-    repetitions: u32,
-}
-
-/// How far the agreement is. Invariant: a list here is the one that was promised.
-#[derive(Clone, Debug)]
-enum Stage {
-    /// There is no list.
-    Open,
-    /// It has proposed a list, and these have not accepted it.
-    Proposed {
-        view: View,
-        missing: BTreeSet<RobotId>,
-        repetitions: u32,
-    },
-    /// It has accepted a list and waits to hear that all have.
-    Accepted { view: View, repetitions: u32 },
-    /// It shows a list.
-    Agreed {
-        view: View,
-        members: BTreeSet<RobotId>,
-        /// Whether another robot has announced the same since this one last did.
-        heard: bool,
-    },
 }
 
 /// What timers are for.
