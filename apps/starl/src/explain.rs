@@ -6,10 +6,10 @@ use crate::console;
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::sources::{self, Source};
-use starl_catalog::examples::{self, EXAMPLES};
+use crate::target::no_example;
+use starl_catalog::examples;
 use starl_lang::diagnostic::Code;
 use starl_lang::explain::StateMachine;
-use starl_sim::read::suggest;
 use std::path::{Path, PathBuf};
 
 /// Draws a program, or shows the page of a code. False if the program has errors, of which is told.
@@ -72,12 +72,6 @@ fn find(program: &str) -> Result<Source, Failure> {
         "-" => Ok(Source::Input),
         _ if path.is_dir() => Err(Failure::file(&path, "is a folder; name the program in it")),
         _ if path.exists() => Ok(Source::File(path)),
-        _ => {
-            let names: Vec<&str> = EXAMPLES.iter().map(|example| example.name).collect();
-            let help = suggest::help(program, &names, "the examples are").unwrap_or_default();
-            Err(Failure(format!(
-                "{program}: there is no example or program called this; {help}"
-            )))
-        }
+        _ => Err(no_example(program, "program")),
     }
 }

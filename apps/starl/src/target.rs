@@ -209,11 +209,7 @@ fn scenario(name: &str) -> Result<(Source, Origin), Failure> {
     }
     let path = Path::new(name);
     if !path.exists() {
-        let names: Vec<&str> = EXAMPLES.iter().map(|example| example.name).collect();
-        let help = suggest::help(name, &names, "the examples are").unwrap_or_default();
-        return Err(Failure(format!(
-            "{name}: there is no example or scenario file called this; {help}"
-        )));
+        return Err(no_example(name, "scenario file"));
     }
     if path.is_dir() {
         return Err(Failure::file(
@@ -222,6 +218,16 @@ fn scenario(name: &str) -> Result<(Source, Origin), Failure> {
         ));
     }
     Ok((Source::new(name, text(path)?), Origin::file(path)))
+}
+
+/// Neither an example nor a file of the other kind goes by this name.
+pub fn no_example(name: &str, other: &str) -> Failure {
+    let names: Vec<&str> = EXAMPLES.iter().map(|example| example.name).collect();
+    let help = suggest::help(name, &names, "the examples are");
+    let help = help.unwrap_or_else(|| "`starl list` names the examples".into());
+    Failure(format!(
+        "{name}: there is no example or {other} called this; {help}"
+    ))
 }
 
 /// The text of a file.

@@ -197,6 +197,7 @@ fn what_is_no_scenario_or_trace_is_refused() {
             "did you mean `race`?",
         ],
     );
+    refused(&folder, &["run", "nosuch"], &["nosuch", "starl list"]);
     refused(&folder, &["run", "."], &["folder"]);
     refused(&folder, &["run", "empty"], &["empty:1", "robots"]);
     refused(&folder, &["run", "words"], &["words:1"]);
