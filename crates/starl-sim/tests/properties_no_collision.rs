@@ -110,6 +110,49 @@ fn a_flyer_passes_over_a_ground_robot_but_not_through_it() {
     }
 }
 
+/// A flyer over a ground robot that crashes, comes down from 0.5 m within a second, and lies on it.
+fn crash_landing() -> Story {
+    let mut story = Story::of(&[GROUND, FLYER]);
+    story.stays(0, 3000, 0, at(0.0, 0.0));
+    story.stays(0, 500, 1, Point::new(0.1, 0.0, 0.5));
+    story.fault(550, Some(1), "crash");
+    let low = Point::new(0.1, 0.0, 0.09);
+    story.walks(600, 1500, 1, Point::new(0.1, 0.0, 0.5), low);
+    story.stays(1600, 3000, 1, low);
+    story
+}
+
+#[test]
+fn what_a_crashed_flyer_falls_on_has_not_collided() {
+    let mut story = crash_landing();
+    story.collided(1500, 0, WITH_ROBOT_1);
+    // It lies on the robot, which bumps against it as it drives away.
+    story.collided(2900, 0, WITH_ROBOT_1);
+    assert_none(&story.verdict(3000));
+}
+
+#[test]
+fn who_runs_into_a_flyer_that_fell_collides() {
+    let mut story = Story::of(&[GROUND, FLYER]);
+    story.stays(0, 3000, 0, at(2.0, 0.0));
+    story.stays(0, 500, 1, Point::new(0.0, 0.0, 0.5));
+    story.fault(550, Some(1), "crash");
+    story.walks(600, 1500, 1, Point::new(0.0, 0.0, 0.5), at(0.0, 0.0));
+    story.stays(1600, 3000, 1, at(0.0, 0.0));
+    story.collided(2100, 0, WITH_ROBOT_1);
+    assert_only(&story.verdict(3000), "no_collision", 2100, &[0, 1]);
+}
+
+#[test]
+fn a_crash_on_the_ground_excuses_nobody() {
+    let mut story = Story::of_ground_robots(2);
+    story.stays(0, 1000, 0, at(0.0, 0.0));
+    story.stays(0, 1000, 1, at(0.45, 0.0));
+    story.fault(500, Some(1), "crash");
+    story.collided(600, 0, WITH_ROBOT_1);
+    assert_only(&story.verdict(1000), "no_collision", 600, &[0, 1]);
+}
+
 #[test]
 fn poses_of_different_moments_are_not_compared() {
     let mut story = Story::of_ground_robots(2);

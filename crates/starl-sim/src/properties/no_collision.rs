@@ -2,15 +2,16 @@
 //!
 //! Two witnesses that know nothing of each other: the collisions that the host reports, and bodies
 //! that overlap in the poses on record. Robots are compared at poses of the same moment only. From the
-//! first touch until the two are [`APART`] it is one collision, reported once.
+//! first touch until the two are [`APART`] it is one collision, reported once. What a robot touches that
+//! has crashed in the air and falls is none.
 
 use super::bodies::{Sweep, gap};
 use super::{Checker, Setting, Violation};
 use starl_core::event::{Event, Hit};
 use starl_core::geometry::{Bounds, ObstacleIndex};
 use starl_core::motion::Body;
-use starl_core::{Obstacle, Point, Record, RobotId, Time};
-use std::collections::BTreeSet;
+use starl_core::{Duration, Obstacle, Point, Record, RobotId, Time};
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -23,6 +24,9 @@ const OVERLAP: f64 = 0.001;
 /// Once bodies are this far from each other a collision is over, metres: farther than a body that is
 /// stopped stands off what it would have hit.
 const APART: f64 = 0.1;
+
+/// A robot that fell has come to lie when it has come no lower for so long.
+const LIES_AFTER: Duration = Duration::from_millis(500);
 
 /// What the walls around the world are called.
 const EDGE: &str = "the edge of the world";
@@ -43,6 +47,16 @@ pub(super) struct NoCollision {
     pairs: BTreeSet<(RobotId, RobotId)>,
     /// The obstacles that each robot touches.
     walls: Vec<Vec<Wall>>,
+    /// Robots that have crashed in the air, until they restart.
+    falls: BTreeMap<RobotId, Fall>,
+}
+
+/// A robot that has crashed in the air.
+#[derive(Clone, Copy, Debug)]
+struct Fall {
+    /// The least height that it has come to, metres, and when it came there.
+    lowest: f64,
+    since: Time,
 }
 
 /// An obstacle that a robot touches.
@@ -62,6 +76,12 @@ struct Round {
     sweep: Sweep,
 }
 
+impl Fall {
+    fn lasts(self, now: Time) -> bool {
+        now.since(self.since) <= LIES_AFTER
+    }
+}
+
 impl NoCollision {
     pub fn new(setting: &Setting) -> NoCollision {
         let robots = setting.bodies.len();
@@ -79,6 +99,28 @@ impl NoCollision {
             },
             pairs: BTreeSet::new(),
             walls: vec![Vec::new(); robots],
+            falls: BTreeMap::new(),
+        }
+    }
+
+    /// Whether nobody can help what a robot touches now: it has crashed and falls.
+    fn falls(&self, robot: RobotId, at: Time) -> bool {
+        self.falls.get(&robot).is_some_and(|fall| fall.lasts(at))
+    }
+
+    fn changed(&mut self, at: Time, robot: RobotId, fault: &str) {
+        let Some(&Some(place)) = self.positions.get(robot.index()) else {
+            return;
+        };
+        match fault {
+            "crash" if place.z > OVERLAP => {
+                let (lowest, since) = (place.z, at);
+                self.falls.insert(robot, Fall { lowest, since });
+            }
+            "restart" => {
+                self.falls.remove(&robot);
+            }
+            _ => {}
         }
     }
 
@@ -99,6 +141,10 @@ impl NoCollision {
             }
         };
         if !is_new {
+            return;
+        }
+        let other_falls = matches!(with, Hit::Robot(other) if self.falls(other, at));
+        if other_falls || self.falls(robot, at) {
             return;
         }
         let near = place.map_or(String::new(), |place| format!(" near {place}"));
@@ -130,6 +176,11 @@ impl NoCollision {
             return;
         }
         self.positions[index] = Some(position);
+        if let Some(fall) = self.falls.get_mut(&robot)
+            && position.z < fall.lowest - OVERLAP
+        {
+            (fall.lowest, fall.since) = (position.z, at);
+        }
         self.check_obstacles(at, robot, position, found);
         let round = &mut self.round;
         round.at = at;
@@ -168,7 +219,11 @@ impl NoCollision {
         let _ = map.for_each_near(&around, |index| {
             let gap = gap(index).unwrap_or(f64::INFINITY);
             let stands = at <= self.expires[index as usize];
-            if gap < -OVERLAP && stands && self.touch(robot, index, position) {
+            if gap < -OVERLAP
+                && stands
+                && self.touch(robot, index, position)
+                && !self.falls(robot, at)
+            {
                 found.push(Violation {
                     property: NO_COLLISION.into(),
                     at,
@@ -192,14 +247,15 @@ impl NoCollision {
             count,
             sweep,
         } = &mut self.round;
-        let (bodies, pairs) = (&self.bodies, &mut self.pairs);
+        let (bodies, pairs, falls) = (&self.bodies, &mut self.pairs, &self.falls);
+        let falls = |robot: RobotId| falls.get(&robot).is_some_and(|fall| fall.lasts(*at));
         let place = |robot: RobotId| poses[robot.index()];
         pairs.retain(|&(a, b)| match (place(a), place(b)) {
             (Some(p), Some(q)) => gap((&bodies[a.index()], p), (&bodies[b.index()], q)) < APART,
             _ => true,
         });
         sweep.overlaps(bodies, poses, OVERLAP, |a, b, gap| {
-            if pairs.insert((a, b)) {
+            if pairs.insert((a, b)) && !falls(a) && !falls(b) {
                 let near = place(a).map_or(String::new(), |place| format!(" near {place}"));
                 found.push(Violation {
                     property: NO_COLLISION.into(),
@@ -239,6 +295,7 @@ impl Checker for NoCollision {
                 self.catch_up(record.at, violations);
                 self.collided(record.at, robot, with, violations);
             }
+            (Event::Fault(fault), Some(robot)) => self.changed(record.at, robot, fault),
             _ => {}
         }
     }
