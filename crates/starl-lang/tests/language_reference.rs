@@ -24,6 +24,7 @@ fn place(purity: Purity) -> &'static str {
         Purity::Pure => "anywhere",
         Purity::Query => "not in functions",
         Purity::Effect => "effects",
+        Purity::Property => "properties",
     }
 }
 

@@ -19,6 +19,7 @@ struct Given {
     up: Vec<bool>,
     /// The versions of the robots' states, if they are told.
     versions: Option<Vec<u64>>,
+    undisturbed: Duration,
 }
 
 impl Given {
@@ -33,6 +34,7 @@ impl Given {
             finished: vec![false; robots],
             up: vec![true; robots],
             versions: None,
+            undisturbed: Duration::ZERO,
         }
     }
 
@@ -81,6 +83,10 @@ impl Fleet for Given {
     fn is_up(&self, robot: RobotId) -> bool {
         self.up[robot.index()]
     }
+
+    fn undisturbed(&self) -> Duration {
+        self.undisturbed
+    }
 }
 
 fn seconds(seconds: u64) -> Time {
@@ -90,6 +96,25 @@ fn seconds(seconds: u64) -> Time {
 fn rows(violations: &[Violation]) -> Vec<Vec<u32>> {
     let row = |violation: &Violation| violation.robots.iter().map(|robot| robot.0).collect();
     violations.iter().map(row).collect()
+}
+
+#[test]
+fn a_property_may_ask_for_time_without_faults() {
+    let source = "program Calm
+
+count: Int = 0
+
+work()
+    eff count += 1
+
+always done: count > 0 or undisturbed < 5s
+";
+    let mut fleet = Given::new(source, 1);
+    let mut judge = fleet.judge();
+    for (time, undisturbed, violations) in [(1, 4, 0), (2, 0, 0), (7, 5, 1)] {
+        fleet.undisturbed = Duration::from_seconds(undisturbed);
+        assert_eq!(judge.observe(seconds(time), &fleet).len(), violations);
+    }
 }
 
 const ALWAYS: &str = "program Always

@@ -2,7 +2,7 @@
 
 use starl_core::event::Name;
 use starl_core::motion::Obstacles;
-use starl_core::{Point, Pose, RobotId, WayPoint};
+use starl_core::{Duration, Point, Pose, RobotId, WayPoint};
 use starl_lang::machine::State;
 use starl_lang::robot::properties::{Fleet, Judge, Standing};
 use starl_lang::robot::{Code, RobotProgram};
@@ -103,6 +103,10 @@ impl Fleet for Members<'_> {
 
     fn is_up(&self, robot: RobotId) -> bool {
         self.witness.is_up(robot)
+    }
+
+    fn undisturbed(&self) -> Duration {
+        self.witness.undisturbed()
     }
 
     fn everyone(&self) -> Option<&[RobotId]> {

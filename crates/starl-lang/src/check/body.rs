@@ -29,8 +29,9 @@ impl Where {
     pub fn allows(self, purity: Purity) -> bool {
         match self {
             Self::Constant | Self::Function | Self::Binding => purity == Purity::Pure,
-            Self::Initial(_) | Self::Guard | Self::Property => purity <= Purity::Query,
-            Self::Effect => true,
+            Self::Initial(_) | Self::Guard => purity <= Purity::Query,
+            Self::Property => purity <= Purity::Query || purity == Purity::Property,
+            Self::Effect => purity <= Purity::Effect,
         }
     }
 

@@ -212,7 +212,11 @@ impl Checker {
             return true;
         }
         let what = place.what();
-        if purity == Purity::Query {
+        if purity == Purity::Property {
+            let message = format!("only a property can ask for `{name}`");
+            let problem = Diagnostic::new(Code::StateOutOfReach, span, message);
+            self.report(problem.note("no robot knows it"));
+        } else if purity == Purity::Query {
             let message = format!("{what} cannot ask for `{name}`");
             let problem = Diagnostic::new(Code::StateOutOfReach, span, message);
             self.report(match place {

@@ -66,6 +66,11 @@ pub struct Condition {
 }
 
 impl Condition {
+    /// Whether the robot neither moves nor senses as it should.
+    pub fn is_impaired(&self) -> bool {
+        self.motor_stuck || self.sensors_frozen
+    }
+
     /// Whether the robot is up and its program has reached its goal.
     pub fn has_finished(&self) -> bool {
         !self.down && self.finished && !self.failed

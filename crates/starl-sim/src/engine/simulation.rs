@@ -32,6 +32,10 @@ pub struct Simulation {
     hits: Vec<Option<Hit>>,
     faults: Vec<Fault>,
     faults_done: usize,
+    /// When the last fault came.
+    disturbed: Time,
+    /// How many robots have a motor that is stuck, or sensors that are frozen.
+    impaired: usize,
     /// When the next obstacle vanishes.
     next_expiry: Time,
     world_digest: Digest,
@@ -95,6 +99,8 @@ impl Simulation {
             shards,
             calendar: Calendar::default(),
             faults_done: 0,
+            disturbed: Time::ZERO,
+            impaired: 0,
             next_expiry: Time::NEVER,
             world_digest: Digest::default(),
             world_records: Vec::new(),
@@ -126,6 +132,15 @@ impl Simulation {
     /// The present time, a multiple of the physics step.
     pub fn now(&self) -> Time {
         self.now
+    }
+
+    /// How long it is since the start and since the last fault began or was mended; zero while the network is
+    /// parted, a motor is stuck or sensors are frozen.
+    pub fn undisturbed(&self) -> Duration {
+        if self.impaired > 0 || !self.shared.parts.is_empty() {
+            return Duration::ZERO;
+        }
+        self.now.since(self.disturbed)
     }
 
     /// Advances by one physics step.
@@ -239,6 +254,7 @@ impl Simulation {
     }
 
     fn bring_fault(&mut self, at: Time, kind: &FaultKind) {
+        self.disturbed = at;
         let robots = match kind {
             FaultKind::Partition(groups) => {
                 self.shared.parts = fault::parts(groups, self.shared.bodies.len());
@@ -261,6 +277,7 @@ impl Simulation {
             let mind = &mut shard.minds[robot.index() % SIZE];
             let event = Event::Fault(fault::name(kind).into());
             shard.log.record(&mut mind.digest, robot, at, event);
+            self.impaired -= usize::from(mind.condition.is_impaired());
             match kind {
                 FaultKind::Crash(_) => crash(mind),
                 FaultKind::Restart(_) if mind.condition.down => {
@@ -285,6 +302,7 @@ impl Simulation {
                 }
                 _ => {}
             }
+            self.impaired += usize::from(mind.condition.is_impaired());
         }
     }
 

@@ -6,7 +6,7 @@ use crate::Scenario;
 use crate::engine::Simulation;
 use starl_core::event::Name;
 use starl_core::motion::Obstacles;
-use starl_core::{Point, Pose, RobotId, Time};
+use starl_core::{Duration, Point, Pose, RobotId, Time};
 use std::any::Any;
 
 /// Watches properties on a live simulation. A trace does not hold what it sees, so its verdicts come
@@ -41,6 +41,13 @@ impl<'a> Witness<'a> {
     /// The time, a multiple of the physics step.
     pub fn now(&self) -> Time {
         self.simulation.now()
+    }
+
+    /// How long it is since the start and since the last fault began or was mended; zero while the network is
+    /// parted, a motor is stuck or sensors are frozen. A robot that is down disturbs when it crashes and when it
+    /// starts again, not in between.
+    pub fn undisturbed(&self) -> Duration {
+        self.simulation.undisturbed()
     }
 
     /// What is simulated.

@@ -1,6 +1,6 @@
 //! Built-in functions and names.
 
-use super::Purity::{self, Effect, Pure, Query};
+use super::Purity::{self, Effect, Property, Pure, Query};
 use super::Signature;
 
 macro_rules! builtins {
@@ -56,6 +56,9 @@ builtins! {
     Detected = "detected: List[Detection]" Query "The things and robots in sight, nearest first."
 
     AtomicBlocked = "atomic_blocked: Bool" Query "Whether the action with `atomic` that this robot waits for, or has run, cannot go on: a robot whose permission is missing seems to have failed, or no majority of the robots answers."
+
+    // The run.
+    Undisturbed = "undisturbed: Duration" Property "How long it is since the start and since the last fault began or was mended; zero while the network is parted, a motor is stuck or sensors are frozen."
 
     // Input.
     WayPoints = "way_points() -> List[Point]" Query "The way-points of the scenario, in their order."

@@ -23,4 +23,6 @@ pub enum Purity {
     Query,
     /// It does something: only in `init`, effects and handlers.
     Effect,
+    /// It is known to whoever watches the run, and to no robot: only in properties.
+    Property,
 }

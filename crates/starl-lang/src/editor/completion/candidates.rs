@@ -8,7 +8,7 @@ use super::super::describe::describe;
 use super::super::words::{self, Word};
 use super::context::Context;
 use super::{Call, Completion};
-use crate::check::{BUILTINS, Checked, Libraries, PRIMITIVES, Reach, Surroundings, Symbol};
+use crate::check::{BUILTINS, Checked, Libraries, PRIMITIVES, Purity, Reach, Surroundings, Symbol};
 use crate::ir::{
     BindingId, ConstantId, EnumId, FunctionId, ParameterId, RecordId, SharedId, Site, Type,
     VariableId,
@@ -263,7 +263,8 @@ impl<'a> Candidates<'a> {
     /// What every program has, as far as it may be used.
     fn common(&mut self, reach: &Reach) {
         for builtin in BUILTINS {
-            if builtin.purity() <= reach.purity {
+            let of_property = reach.in_property && builtin.purity() == Purity::Property;
+            if builtin.purity() <= reach.purity || of_property {
                 self.symbol(Symbol::Builtin(*builtin), COMMON);
             }
         }

@@ -26,7 +26,7 @@ pub use violation::{Reason, Violation};
 
 use crate::machine::State;
 use starl_core::motion::Obstacles;
-use starl_core::{Point, Pose, RobotId, WayPoint};
+use starl_core::{Duration, Point, Pose, RobotId, WayPoint};
 
 /// The true state of robots that run a program.
 pub trait Fleet {
@@ -55,6 +55,11 @@ pub trait Fleet {
 
     /// Whether a robot is there and has not crashed.
     fn is_up(&self, robot: RobotId) -> bool;
+
+    /// How long it is since the start and since the last fault began or was mended; zero where that is not known.
+    fn undisturbed(&self) -> Duration {
+        Duration::ZERO
+    }
 
     /// All robots of the application; none if they are those of [`Fleet::robots`].
     fn everyone(&self) -> Option<&[RobotId]> {
