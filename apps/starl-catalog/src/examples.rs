@@ -62,6 +62,13 @@ pub const EXAMPLES: &[Example] = &[
         ["formation.starl"]
     ),
     example!(
+        "formation-space",
+        "quadcopters form a regular polygon that is tilted",
+        "formation",
+        "space.toml",
+        ["formation.starl"]
+    ),
+    example!(
         "line",
         "robots spread evenly on the line between two of them",
         "line",

@@ -1,19 +1,40 @@
-//! The robots of Formation form a regular polygon and keep it, from any start and over a bad network, if
-//! their number is odd; if it is even they do not, and the program's own properties say so.
+//! The robots of Formation form a regular polygon and keep it, from any start and over a bad network, on the
+//! floor and in a tilted plane, around one that has failed too, if their number is odd; if it is even they do
+//! not, and the program's own properties say so.
 
 use rayon::prelude::*;
 use starl_catalog::examples;
-use starl_sim::read::{Override, Request};
+use starl_sim::read::{Override, Request, Source};
 use starl_sim::{Outcome, Run};
 
 const SEEDS: u64 = 10;
 
-fn run(robots: Option<&str>, sets: &[&str]) -> Run {
-    let example = examples::find("formation").expect("it is an example");
-    let sets = sets.iter();
+/// What is run: an example, another fleet than its own, settings, and faults.
+#[derive(Clone, Copy)]
+struct Case<'a> {
+    example: &'a str,
+    robots: Option<&'a str>,
+    sets: &'a [&'a str],
+    faults: &'a str,
+}
+
+const PLANE: Case<'_> = Case {
+    example: "formation",
+    robots: None,
+    sets: &[],
+    faults: "",
+};
+
+fn run(case: Case<'_>, seed: u64) -> Run {
+    let example = examples::find(case.example).expect("it is an example");
+    let seed = format!("seed={seed}");
+    let sets = ["duration=150s", &seed]
+        .into_iter()
+        .chain(case.sets.iter().copied());
     let request = Request {
         overrides: sets.map(|set| Override::set(set).unwrap()).collect(),
-        robots: robots.map(String::from),
+        robots: case.robots.map(String::from),
+        faults: (!case.faults.is_empty()).then(|| Source::new("faults.toml", case.faults)),
         ..Request::new(example.source())
     };
     let application = starl_catalog::read(&request, example).unwrap();
@@ -24,19 +45,19 @@ fn run(robots: Option<&str>, sets: &[&str]) -> Run {
     run
 }
 
-fn all_form(robots: Option<&str>, sets: &[&str]) {
+fn all_form(case: Case<'_>) {
     let form = |seed| {
-        let seed = format!("seed={seed}");
-        let sets: Vec<&str> = sets.iter().copied().chain([&*seed]).collect();
-        let run = run(robots, &sets);
+        let run = run(case, seed);
         let first = run.violations().first();
+        let (robots, sets) = (case.robots, case.sets);
         assert_eq!(
             run.outcome(),
             Outcome::Reached,
-            "{robots:?} {sets:?} {first:?}"
+            "{} {robots:?} {sets:?} seed {seed} {first:?}",
+            case.example
         );
         let verdicts = run.verdicts();
-        let judged = ["Formation.formed", "Formation.kept"]
+        let judged = ["Formation.polygon", "Formation.level"]
             .map(|name| verdicts.iter().any(|verdict| verdict.property == name));
         assert_eq!(judged, [true, true]);
     };
@@ -45,30 +66,58 @@ fn all_form(robots: Option<&str>, sets: &[&str]) {
 
 #[test]
 fn five_in_calm() {
-    all_form(None, &[]);
+    all_form(PLANE);
 }
 
 #[test]
 fn five_over_a_bad_network() {
-    all_form(None, &["network.loss=0.2", "network.delay=100ms"]);
+    let sets = &["network.loss=0.2", "network.delay=100ms"];
+    all_form(Case { sets, ..PLANE });
 }
 
 #[test]
 fn the_three_of_the_thesis() {
-    all_form(Some("create=2,drone=1"), &[]);
+    let robots = Some("create=2,drone=1");
+    all_form(Case { robots, ..PLANE });
 }
 
 #[test]
 fn seven_on_the_floor() {
-    all_form(Some("create=7"), &[]);
+    let robots = Some("create=7");
+    all_form(Case { robots, ..PLANE });
+}
+
+#[test]
+fn five_in_a_tilted_plane() {
+    let example = "formation-space";
+    all_form(Case { example, ..PLANE });
+}
+
+#[test]
+fn seven_in_a_steep_plane() {
+    all_form(Case {
+        example: "formation-space",
+        robots: Some("drone=7"),
+        sets: &["parameters.tilt=45deg", "parameters.height=8m"],
+        ..PLANE
+    });
+}
+
+#[test]
+fn four_around_one_that_crashed_on_its_way() {
+    for robot in ["iRobot1", "quadcopter0"] {
+        let faults = format!("[[fault]]\nat = \"5s\"\nkind = \"crash\"\nrobots = [\"{robot}\"]\n");
+        let faults = &faults;
+        all_form(Case { faults, ..PLANE });
+    }
 }
 
 #[test]
 fn an_even_number_forms_none() {
     for robots in ["create=4", "create=6"] {
-        let run = run(Some(robots), &[]);
+        let robots = Some(robots);
+        let run = run(Case { robots, ..PLANE }, 1);
         let violated = |name: &str| run.violations().iter().any(|v| v.property == name);
-        assert!(violated("Formation.formed"), "{robots}");
-        assert!(violated("Formation.kept"), "{robots}");
+        assert!(violated("Formation.polygon"), "{robots:?}");
     }
 }
