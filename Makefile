@@ -50,10 +50,12 @@ trace: $(STARL)
 examples: $(STARL)
 	tools/examples.sh $(STARL)
 
-# The primitives under every profile of faults, for a few seconds; what goes wrong is kept in target/.
+# The primitives and the applications under every profile of faults, for a minute; what goes wrong is kept in target/.
 faults: $(STARL)
 	mkdir -p target/faults
 	$(STARL) test examples/primitives/*.toml --seeds 25 --out target/faults
+	$(STARL) test race formation formation-space line intersection search flocking maze auction traffic-signs light-painting \
+		--seeds 3 --out target/faults
 
 # The same a million times; goes on where it was stopped. Not part of `make test`, since it takes hours.
 million: $(STARL)
