@@ -190,6 +190,20 @@ fn who_waits_for_a_dead_robot_is_told_and_passes_when_it_is_back() {
     }
 }
 
+/// Those that wait for a dead robot repeat their questions, and do not answer each other's again and again.
+#[test]
+fn robots_that_do_not_know_fall_silent() {
+    let mut world = idle(6, 1, Wire::perfect());
+    world.crash(5);
+    (0..5).for_each(|robot| world.command(robot, arrive()));
+    world.run_for(SECOND * 20);
+    let before = world.sent_on("gate");
+    world.run_for(SECOND * 40);
+    // Every 4 s each.
+    let sent = world.sent_on("gate") - before;
+    assert!(sent <= 60, "{sent}");
+}
+
 #[test]
 fn who_crashes_at_the_barrier_had_come() {
     let mut world = idle(3, 1, Wire::perfect());
@@ -222,7 +236,7 @@ fn messages_are_as_many_as_the_theory_says() {
         };
         assert_eq!(
             sent_for(&mut world),
-            2 * count - 1,
+            3 * count - 2,
             "{count} robots, first crossing"
         );
         for _ in 0..3 {

@@ -20,8 +20,7 @@ impl Barrier {
             peer.generation = word(random);
             peer.waits = random.chance(0.5);
             peer.knows = random.chance(0.5);
-            peer.met_at = word(random);
-            peer.answer = random.chance(0.5).then(|| word(random));
+            peer.has_heard = random.chance(0.5);
             peer.is_told = random.chance(0.5);
         }
         self.owed.retain(|_| random.chance(0.5));

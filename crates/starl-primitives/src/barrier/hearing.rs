@@ -2,6 +2,10 @@
 //!
 //! Invariant: of robots that know their generation, none is more than one ahead of another that keeps its
 //! memory; and what counts of a robot's words was said after it had heard of this robot's present life.
+//!
+//! Lives have no order, so a late message may be of any life. That does no harm: what a robot says it has come
+//! to once it knows stays true for ever. Of one that does not know yet nothing counts but its questions, since
+//! it may have restarted and passed generations meanwhile.
 
 use super::packet::Packet;
 use super::{Barrier, GREATEST, KIND, Peer};
@@ -28,19 +32,16 @@ impl Barrier {
     fn hear(&mut self, robot: &mut Robot<'_>, from: RobotId, said: &Packet) {
         let me = robot.id();
         let mine = self.incarnation.of(robot);
-        let answer = said.heard.get(&me).filter(|(heard, _)| *heard == mine);
-        let answer = answer.map(|(_, met_at)| *met_at);
         let is_same = |known: &&mut Peer| known.incarnation == said.incarnation;
         let known = match self.peers.get_mut(&from).filter(is_same) {
             Some(known) => known,
             None => {
                 let new = Peer {
                     incarnation: said.incarnation,
-                    met_at: self.generation,
                     generation: 0,
                     waits: false,
                     knows: false,
-                    answer: None,
+                    has_heard: false,
                     is_told: false,
                 };
                 self.peers.insert(from, new);
@@ -50,22 +51,12 @@ impl Barrier {
                 }
             }
         };
-        known.answer = answer.or(known.answer);
-        // This robot never goes back.
-        known.met_at = known.met_at.min(self.generation);
-        let generation = match said.knows {
-            true => said.generation,
-            false => said.generation.max(known.met_at),
-        };
-        // Once it knows it speaks no longer as one that does not: such a message is late.
-        let is_later = match (known.knows, said.knows) {
-            (true, false) => false,
-            (false, true) => true,
-            _ => (generation, said.waits) > (known.generation, known.waits),
-        };
+        known.has_heard |= said.heard.get(&me) == Some(&mine);
+        let is_later = (said.generation, said.waits, said.knows)
+            > (known.generation, known.waits, known.knows);
         // A number that is far too great does not stay, e.g. after a corruption.
         if is_later || known.generation > self.generation + 1 {
-            known.generation = generation;
+            known.generation = said.generation;
             known.waits = said.waits;
             known.knows = said.knows;
         }
@@ -83,7 +74,7 @@ impl Barrier {
         if self.knows {
             // Nobody is two ahead of this robot, which they would have waited for.
             let next = self.generation + 1;
-            let mut counted = self.peers.values().filter(|peer| peer.answer.is_some());
+            let mut counted = self.peers.values().filter(|peer| peer.has_heard);
             if counted.any(|peer| peer.knows && peer.generation > next) {
                 self.ask_all(robot);
             }
@@ -94,17 +85,17 @@ impl Barrier {
         }
         let mut greatest = self.generation;
         for peer in self.others(robot) {
-            match self.answer_of(peer) {
-                Some(answer) => greatest = greatest.max(answer),
+            match self.peers.get(&peer).filter(|known| known.has_heard) {
+                Some(known) => greatest = greatest.max(known.generation),
                 None => return,
             }
         }
         self.knows = true;
-        if self.generation != greatest {
-            self.generation = greatest;
-            self.move_on(robot);
-        }
+        self.generation = greatest.min(GREATEST);
+        self.move_on(robot);
         self.report_waiting(robot);
+        // Nobody counts this robot's arrival before.
+        self.say(robot, None);
     }
 
     /// Forgets what was heard, and asks anew.
@@ -135,7 +126,7 @@ impl Barrier {
     pub(super) fn has_arrived(&self, peer: RobotId) -> bool {
         self.peers.get(&peer).is_some_and(|known| {
             let place = (known.generation, known.waits);
-            known.answer.is_some() && place >= (self.generation, true)
+            known.has_heard && known.knows && place >= (self.generation, true)
         })
     }
 
@@ -146,19 +137,21 @@ impl Barrier {
         all.filter(move |peer| *peer != me)
     }
 
-    /// Those from whom this robot needs to hear before it can pass.
+    /// Those from whom this robot needs to hear: before it can pass, or first before it knows. Two that do not
+    /// know and have answered each other have no more to say, or they would answer for ever.
     pub(super) fn missing(&self, robot: &Robot<'_>) -> Vec<RobotId> {
-        let others = self.others(robot);
-        let is_missing = |peer: &RobotId| {
-            !self.has_arrived(*peer) || !self.knows && self.answer_of(*peer).is_none()
+        let has_spoken = |peer: &RobotId| match self.knows {
+            true => self.has_arrived(*peer),
+            false => self.has_heard(*peer),
         };
-        others.filter(is_missing).collect()
+        let others = self.others(robot);
+        others.filter(|peer| !has_spoken(peer)).collect()
     }
 
-    /// The generation that a robot named in answer to this one.
-    fn answer_of(&self, peer: RobotId) -> Option<u64> {
-        let answer = self.peers.get(&peer)?.answer;
-        answer.filter(|generation| *generation <= GREATEST)
+    /// Whether a robot is known to have heard of this robot's present life.
+    fn has_heard(&self, peer: RobotId) -> bool {
+        let known = self.peers.get(&peer);
+        known.is_some_and(|known| known.has_heard)
     }
 
     pub(super) fn pass_if_all_have_come(&mut self, robot: &mut Robot<'_>) {
@@ -169,9 +162,7 @@ impl Barrier {
         // Who has passed has seen that all have come.
         let has_passed = |peer: RobotId| {
             let known = self.peers.get(&peer);
-            known.is_some_and(|known| {
-                known.answer.is_some() && known.knows && known.generation == next
-            })
+            known.is_some_and(|known| known.has_heard && known.knows && known.generation == next)
         };
         if !self.others(robot).any(has_passed) && !self.missing(robot).is_empty() {
             return;

@@ -9,7 +9,7 @@
 //! A robot that has just started, or restarted without memory, does not know which generation comes next.
 //! It asks all others, naming its life, and takes the greatest number in their answers; answers to an
 //! earlier life do not count. Until all have answered it passes nothing, which costs nothing, as it needs
-//! all of them to pass.
+//! all of them to pass; and its arrival does not count before, since nobody can tell for which generation.
 //!
 //! What holds, whatever the network does and whichever robots crash and restart, as long as state is not
 //! corrupted and one participant at least keeps its memory:
@@ -26,8 +26,8 @@
 //! What a robot said before it crashed still counts: one that had come and crashed is waited for no longer
 //! in that generation.
 //!
-//! Messages for n robots: n datagrams to all for each generation; 2n - 1 for the first, and where somebody
-//! has restarted up to n - 1 more; and those that repeat what was lost.
+//! Messages for n robots: n datagrams to all for each generation; 3n - 2 for the first, and where somebody
+//! has restarted up to n more; and those that repeat what was lost.
 //!
 //! Self-stabilising: numbers that do not fit each other make robots ask all others again, and they agree on
 //! the greatest. After a corruption of state robots may pass one generation too early.
@@ -81,14 +81,12 @@ pub struct Barrier {
 struct Peer {
     /// Which life it is that has said so.
     incarnation: u32,
-    /// This robot's generation when it first heard that life.
-    met_at: u64,
-    /// What it waits for, or will wait for next; at least `met_at` if it does not know.
+    /// What it waits for, or will wait for next, or more if it does not know.
     generation: u64,
     waits: bool,
     knows: bool,
-    /// The generation that it named in answer to this robot, which shows that it has heard this life.
-    answer: Option<u64>,
+    /// Whether that life has heard of this robot's present one.
+    has_heard: bool,
     /// Whether it was told how far this robot is.
     is_told: bool,
 }

@@ -15,8 +15,8 @@ pub(super) struct Packet {
     pub waits: bool,
     /// Whether that number is certain.
     pub knows: bool,
-    /// Lives of others that the sender has heard, and the generation at which it first did.
-    pub heard: BTreeMap<RobotId, (u32, u64)>,
+    /// Lives of others that the sender has heard.
+    pub heard: BTreeMap<RobotId, u32>,
     /// From whom the sender needs to hear before it can pass.
     pub missing: Vec<RobotId>,
     /// Whether it has said the same before.

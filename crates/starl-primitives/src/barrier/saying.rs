@@ -40,7 +40,7 @@ impl Barrier {
             |peer: &RobotId, known: &Peer| !self.knows || !known.knows || self.owed.contains(peer);
         let heard = self.peers.iter();
         let heard = heard.filter(|(peer, known)| addressed(**peer) && needs_answer(peer, known));
-        let heard = heard.map(|(&peer, known)| (peer, (known.incarnation, known.met_at)));
+        let heard = heard.map(|(&peer, known)| (peer, known.incarnation));
         let packet = Packet {
             incarnation: self.incarnation.of(robot),
             generation: self.generation,
