@@ -69,6 +69,27 @@ fn a_restarted_robot_has_forgotten_everything() {
     assert_eq!(payloads, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0]);
 }
 
+/// Checkers count on it: what is on record of a robot after it has crashed is of its next life.
+#[test]
+fn a_robot_that_restarts_within_the_step_of_its_crash_was_down_before() {
+    for step in [1000, 1050] {
+        let mut scenario = pair();
+        scenario.physics.step = Duration::from_millis(50);
+        let (crash, restart) = (step + 1, step + 30);
+        fault(&mut scenario, crash, FaultKind::Crash(vec![RobotId(1)]));
+        fault(&mut scenario, restart, FaultKind::Restart(vec![RobotId(1)]));
+        let records = run(&mut simulate(scenario, Chatter::default()), 2.0);
+        let down =
+            Time::ZERO + Duration::from_millis(step)..Time::ZERO + Duration::from_millis(restart);
+        let does = |event: &Event| matches!(event, Event::Program { .. } | Event::Estimated(_));
+        let mut early = records.iter().filter(|record| {
+            record.robot == Some(RobotId(1)) && down.contains(&record.at) && does(&record.event)
+        });
+        assert_eq!(early.next(), None, "{step}");
+        assert!(count(&records, |event| matches!(event, Event::Program { .. })) >= 18);
+    }
+}
+
 #[test]
 fn a_partition_keeps_its_parts_apart_until_it_heals() {
     let mut scenario = pair();

@@ -52,16 +52,22 @@ impl Turn<'_> {
                 self.drop_arrival(delivery);
             }
         } else {
-            self.begin();
-            self.take_in_order(&arrivals);
+            let up_from = self.begin();
+            let early = arrivals.partition_point(|delivery| delivery.at < up_from);
+            for delivery in &arrivals[..early] {
+                self.drop_arrival(delivery);
+            }
+            self.take_in_order(&arrivals[early..]);
         }
         self.scratch.arrivals = arrivals;
     }
 
-    /// What comes before anything else: the start, paths that planners have found, and readings.
-    fn begin(&mut self) {
-        let from = self.window.from;
+    /// What comes before anything else: the start, paths that planners have found, and readings. Gives from
+    /// when on the robot is up: one that restarts within this step was down before.
+    fn begin(&mut self) -> Time {
+        let mut from = self.window.from;
         if !self.mind.condition.started {
+            from = from.max(self.mind.next_activation);
             self.mind.condition.started = true;
             self.locate(from);
             self.feed(from, &Input::Start);
@@ -73,6 +79,7 @@ impl Turn<'_> {
             self.sense();
             self.sensed = true;
         }
+        from
     }
 
     /// Inputs by time; at equal times estimates come before messages, then timers, then activations.
