@@ -305,6 +305,8 @@ pub fn trouble(world: &mut World, robots: usize, seed: u64, span: Duration) -> V
         }
     }
     world.wire.cut.clear();
+    // What a robot does as it starts is told from what it did before it crashed by the time.
+    world.run_for(Duration::from_millis(1));
     for robot in down {
         starts.push((world.now, robot));
         world.start(robot as usize);
