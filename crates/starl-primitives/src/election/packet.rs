@@ -90,4 +90,6 @@ pub(super) struct Memory {
     pub promised: Epoch,
     /// Whether it remembers all that it promised before the receiver started.
     pub remembers: bool,
+    /// If not: for how long it has begun anew with a majority.
+    pub anew_for: Duration,
 }

@@ -23,7 +23,7 @@ mod vote;
 
 use super::epoch::Epoch;
 use super::options::no_later;
-use super::packet::Packet;
+use super::packet::{Claim, Packet};
 use super::rules::{Leadership, Rules, Scene};
 use claim::Standing;
 use recovery::Stage;
@@ -41,6 +41,8 @@ pub(super) struct Leases {
     latest: Epoch,
     /// The latest that its robot gave up.
     voided: Epoch,
+    /// The latest claim that it did not vote for, since it was bound by a promise.
+    put_off: Option<(RobotId, Claim)>,
     /// While this robot stands or leads.
     claim: Option<Standing>,
     /// Counts this robot's claims.
@@ -121,6 +123,9 @@ impl Leases {
                 *epoch = Epoch::default();
             }
         }
+        self.put_off.take_if(|(from, claim)| {
+            !claim.epoch.is_plausible(now) || claim.epoch.leader() != *from
+        });
         no_later(&mut self.promise.until, now + options.lease);
         let spread = options.timeout(0) * (scene.others.len() as u64 + 1);
         no_later(&mut self.stand_at, now + spread);
@@ -228,6 +233,9 @@ impl Rules for Leases {
         self.known = Epoch::random(random);
         self.latest = Epoch::random(random);
         self.voided = Epoch::random(random);
+        if let Some((_, claim)) = &mut self.put_off {
+            (claim.epoch, claim.number) = (Epoch::random(random), random.bits());
+        }
         self.number = random.bits();
         self.stand_at = time(random);
         if let Some(claim) = &mut self.claim {

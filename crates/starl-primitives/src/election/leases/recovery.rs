@@ -11,7 +11,8 @@
 //!
 //! Where a majority is recovering at once, all memory may be lost, and waiting for it would be in vain. That
 //! is so when a fleet starts. Then these robots begin anew, from the latest epoch that any of them has heard of
-//! and from their clocks. Who begins anew does not count as one that remembers for those that were up then.
+//! and from their clocks. Who begins anew does not count as one that remembers for those that were up then. A robot
+//! that was up when others began anew, and learns so from them, counts as having done so at the same time.
 
 use super::{Leases, Promise};
 use crate::election::KIND;
@@ -46,8 +47,8 @@ pub(super) struct Learning {
     /// Answers are collected for the time of a lease. Those collected before then count no more.
     attempt: u32,
     until: Time,
-    /// Whether they remember.
-    answers: BTreeMap<RobotId, bool>,
+    /// None from those that remember. Since when they and this robot count as having begun anew from the others.
+    answers: BTreeMap<RobotId, Option<Time>>,
     repeat_at: Time,
     repetitions: u32,
 }
@@ -119,16 +120,20 @@ impl Leases {
         }
         let drift = scene.options.drift.clamp(0.0, 0.9);
         let up_for = up_for.seconds() * (1.0 - drift) / (1.0 + drift);
-        let remembers = match self.stage {
-            Stage::Remembering(None) => true,
-            Stage::Remembering(Some(begun)) => up_for <= scene.now().since(begun).seconds(),
-            _ => false,
+        let (remembers, anew_for) = match self.stage {
+            Stage::Remembering(None) => (true, Duration::ZERO),
+            Stage::Remembering(Some(begun)) => {
+                let anew_for = scene.now().since(begun);
+                (up_for <= anew_for.seconds(), anew_for)
+            }
+            _ => (false, Duration::ZERO),
         };
         let promised = self.known.max(self.promise.epoch);
         let memory = Memory {
             attempt,
             promised,
             remembers,
+            anew_for,
         };
         scene.send(from, Packet::Tell(memory));
     }
@@ -139,7 +144,9 @@ impl Leases {
         if let Stage::Learning(learning) = &mut self.stage
             && learning.attempt == memory.attempt
         {
-            learning.answers.insert(from, memory.remembers);
+            let anew_since = scene.now() - memory.anew_for;
+            let answer = (!memory.remembers).then_some(anew_since);
+            learning.answers.insert(from, answer);
             self.begin_if_told(scene);
         }
     }
@@ -150,13 +157,18 @@ impl Leases {
             return;
         };
         let majority = scene.majority();
-        let remembering = learning.answers.values().filter(|&&remembers| remembers);
-        let remembering = remembering.count();
-        let recovering = 1 + learning.answers.len() - remembering;
+        let anew = learning.answers.values().flatten();
+        let recovering = 1 + anew.clone().count();
+        let remembering = learning.answers.len() + 1 - recovering;
+        // Nothing is lost since then but what this robot promised before it started.
+        let anew_since = anew
+            .copied()
+            .min()
+            .map_or(scene.now(), |at| at.min(scene.now()));
         if remembering + majority > scene.others.len() + 1 {
             self.stage = Stage::Remembering(None);
         } else if recovering >= majority {
-            self.stage = Stage::Remembering(Some(scene.now()));
+            self.stage = Stage::Remembering(Some(anew_since));
         } else {
             return;
         }
@@ -215,7 +227,7 @@ impl Stage {
                 attempt: random.bits(),
                 until: time(random),
                 answers: (0..random.below(5))
-                    .map(|robot| (RobotId(robot), random.chance(0.5)))
+                    .map(|robot| (RobotId(robot), random.chance(0.5).then(|| time(random))))
                     .collect(),
                 repeat_at: time(random),
                 repetitions: random.bits(),

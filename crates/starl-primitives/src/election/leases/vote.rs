@@ -6,7 +6,7 @@ use super::{Leases, Promise};
 use crate::election::epoch::Epoch;
 use crate::election::packet::{Claim, Packet};
 use crate::election::rules::Scene;
-use starl_core::{RobotId, Time};
+use starl_core::{Duration, RobotId, Time};
 
 impl Leases {
     /// A robot asks for a vote.
@@ -23,6 +23,10 @@ impl Leases {
             return;
         }
         if let Some(promised) = self.objection(scene, epoch) {
+            if promised < epoch {
+                let remaining = Duration::ZERO;
+                self.put_off = Some((from, Claim { remaining, ..claim }));
+            }
             scene.send(from, Packet::Refuse { epoch, promised });
             return;
         }
@@ -35,6 +39,7 @@ impl Leases {
             epoch,
             until: scene.now() + scene.options.lease,
         };
+        self.put_off.take_if(|(_, other)| other.epoch <= epoch);
         let number = claim.number;
         scene.send(from, Packet::Grant { epoch, number });
     }
@@ -53,13 +58,24 @@ impl Leases {
         own.filter(|&own| own > epoch || self.leads(scene))
     }
 
+    /// The promise binds no longer: votes for the claim that it stood in the way of. If this were left to the
+    /// next time that the claim is made, robots might stand against each other until then, one after the other
+    /// and for ever, where every vote is needed.
+    fn vote_at_last(&mut self, scene: &mut Scene<'_, '_>) {
+        if let Some((from, claim)) = self.put_off.take() {
+            self.consider(scene, from, claim);
+        }
+    }
+
     /// A robot no longer leads in this epoch, nor asks for votes for it.
     pub(super) fn released(&mut self, scene: &mut Scene<'_, '_>, epoch: Epoch) {
         self.learn(epoch);
         self.voided = epoch;
+        self.put_off.take_if(|(_, claim)| claim.epoch == epoch);
         if self.promise.epoch == epoch {
             self.promise.until = Time::ZERO;
             self.postpone(scene);
+            self.vote_at_last(scene);
         }
         if self.shown.is_some_and(|shown| shown.epoch == epoch) {
             self.lose(scene);
