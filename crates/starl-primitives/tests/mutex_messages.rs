@@ -4,7 +4,7 @@
 
 mod harness;
 
-use harness::locker::{ALGORITHMS, Locker, acquire, mutex, release};
+use harness::locker::{ALGORITHMS, Locker, acquire, asked, mutex, release};
 use harness::{Wire, World};
 use starl_core::{Duration, Input, Port};
 use starl_primitives::mutex::Algorithm;
@@ -55,18 +55,6 @@ fn counted(world: &mut World, count: usize, run: fn(&mut World, usize)) -> (f64,
     let after = world.traffic[&lock];
     let share = |count_of: usize| count_of as f64 / count as f64;
     (share(after.1 - before.1), share(after.0 - before.0))
-}
-
-/// Robots asked by an entry besides oneself, on average: for quorums the robot's row and column in a grid.
-fn asked(algorithm: Algorithm, count: usize) -> f64 {
-    if algorithm != Algorithm::Quorum {
-        return (count - 1) as f64;
-    }
-    let root = (count as f64).sqrt().ceil() as usize;
-    let columns = if count < 4 { root } else { root.min(count / 2) };
-    let heights = (0..columns).map(|column| (count - column).div_ceil(columns));
-    let sizes = heights.map(|height| height * (height + columns - 2));
-    sizes.sum::<usize>() as f64 / count as f64
 }
 
 #[test]

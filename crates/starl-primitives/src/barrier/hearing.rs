@@ -131,21 +131,26 @@ impl Barrier {
     }
 
     /// The other participants.
-    pub(super) fn others(&self, robot: &Robot<'_>) -> impl Iterator<Item = RobotId> + use<> {
-        let me = robot.id();
-        let all = self.all(robot).into_iter();
-        all.filter(move |peer| *peer != me)
+    pub(super) fn others<'a>(
+        &'a self,
+        robot: &Robot<'a>,
+    ) -> impl Iterator<Item = RobotId> + use<'a> {
+        robot.peers().filter(|peer| self.takes_part(*peer))
+    }
+
+    /// Whether this robot needs to hear from another: see [`Barrier::missing`].
+    fn is_missing(&self, peer: RobotId) -> bool {
+        match self.knows {
+            true => !self.has_arrived(peer),
+            false => !self.has_heard(peer),
+        }
     }
 
     /// Those from whom this robot needs to hear: before it can pass, or first before it knows. Two that do not
     /// know and have answered each other have no more to say, or they would answer for ever.
     pub(super) fn missing(&self, robot: &Robot<'_>) -> Vec<RobotId> {
-        let has_spoken = |peer: &RobotId| match self.knows {
-            true => self.has_arrived(*peer),
-            false => self.has_heard(*peer),
-        };
         let others = self.others(robot);
-        others.filter(|peer| !has_spoken(peer)).collect()
+        others.filter(|peer| self.is_missing(*peer)).collect()
     }
 
     /// Whether a robot is known to have heard of this robot's present life.
@@ -164,7 +169,8 @@ impl Barrier {
             let known = self.peers.get(&peer);
             known.is_some_and(|known| known.has_heard && known.knows && known.generation == next)
         };
-        if !self.others(robot).any(has_passed) && !self.missing(robot).is_empty() {
+        let is_missing = |peer: RobotId| self.is_missing(peer);
+        if self.others(robot).any(is_missing) && !self.others(robot).any(has_passed) {
             return;
         }
         let generation = ("generation", Value::Int(self.generation as i64));

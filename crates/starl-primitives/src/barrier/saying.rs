@@ -2,7 +2,6 @@
 
 use super::packet::Packet;
 use super::{Barrier, GREATEST, KIND, Peer};
-use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use starl_core::{Destination, Robot, RobotId, Value};
 
@@ -74,11 +73,10 @@ impl Barrier {
 
     /// To all participants: one by one where they are few of the fleet.
     fn send_to_all(&self, robot: &mut Robot<'_>, packet: &Packet) {
-        let others: BTreeSet<RobotId> = self.others(robot).collect();
-        if 2 * others.len() > robot.peers().count() {
+        if 2 * self.others(robot).count() > robot.peers().count() {
             return robot.transmit(Destination::All, self.port, packet);
         }
-        for peer in others {
+        for peer in self.others(robot) {
             robot.transmit(Destination::Robot(peer), self.port, packet);
         }
     }

@@ -14,6 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Crosser {
     pub barrier: Barrier,
     detector: FailureDetector,
+    has_detector: bool,
     /// Whether it comes by itself, and with which pauses at most, milliseconds.
     pause_ms: Option<u32>,
     next_arrival: Option<Time>,
@@ -25,12 +26,26 @@ impl Crosser {
         participants: Option<&[u32]>,
         pause_ms: Option<u32>,
     ) -> impl Fn() -> Box<dyn Program> + use<> {
-        let participants: Option<BTreeSet<RobotId>> =
-            participants.map(|robots| robots.iter().map(|&robot| RobotId(robot)).collect());
+        let participants =
+            participants.map(|robots| robots.iter().map(|&id| RobotId(id)).collect());
+        Crosser::made(participants, pause_ms, true)
+    }
+
+    /// Robots that come when they are told to, and have nothing but the barrier.
+    pub fn bare() -> impl Fn() -> Box<dyn Program> {
+        Crosser::made(None, None, false)
+    }
+
+    fn made(
+        participants: Option<BTreeSet<RobotId>>,
+        pause_ms: Option<u32>,
+        has_detector: bool,
+    ) -> impl Fn() -> Box<dyn Program> {
         move || {
             Box::new(Crosser {
                 barrier: Barrier::new("gate", participants.clone(), Options::default()),
                 detector: FailureDetector::new("watch", failure_detector::Options::default()),
+                has_detector,
                 pause_ms,
                 next_arrival: Some(Time::ZERO),
                 crossings: 0,
@@ -66,7 +81,9 @@ impl Program for Crosser {
     }
 
     fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.detector);
+        if self.has_detector {
+            visit(&mut self.detector);
+        }
         visit(&mut self.barrier);
     }
 

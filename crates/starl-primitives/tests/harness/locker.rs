@@ -18,6 +18,7 @@ pub const RESOURCES: [&str; 4] = ["a", "b", "c", "d"];
 pub struct Locker {
     pub mutex: Mutex,
     detector: FailureDetector,
+    has_detector: bool,
     /// Whether it asks by itself.
     is_busy: bool,
     /// When it gives back the next resource.
@@ -32,6 +33,19 @@ pub const ALGORITHMS: [Algorithm; 3] = [Algorithm::Permission, Algorithm::Quorum
 impl Locker {
     /// Robots that ask by themselves, at random, if they are busy.
     pub fn boxed(algorithm: Algorithm, is_busy: bool) -> impl Fn() -> Box<dyn Program> {
+        Locker::made(algorithm, is_busy, true)
+    }
+
+    /// Robots that ask when they are told to, and have nothing but the mutex.
+    pub fn bare(algorithm: Algorithm) -> impl Fn() -> Box<dyn Program> {
+        Locker::made(algorithm, false, false)
+    }
+
+    fn made(
+        algorithm: Algorithm,
+        is_busy: bool,
+        has_detector: bool,
+    ) -> impl Fn() -> Box<dyn Program> {
         move || {
             let options = Options {
                 algorithm,
@@ -40,6 +54,7 @@ impl Locker {
             Box::new(Locker {
                 mutex: Mutex::new("lock", None, options),
                 detector: FailureDetector::new("watch", failure_detector::Options::default()),
+                has_detector,
                 is_busy,
                 next_release: None,
                 next_request: Time::ZERO,
@@ -122,7 +137,9 @@ impl Program for Locker {
     }
 
     fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.detector);
+        if self.has_detector {
+            visit(&mut self.detector);
+        }
         visit(&mut self.mutex);
     }
 
@@ -133,6 +150,18 @@ impl Program for Locker {
     fn inspect(&self) -> Option<&dyn Any> {
         Some(self)
     }
+}
+
+/// Robots asked by an entry besides oneself, on average: for quorums the robot's row and column in a grid.
+pub fn asked(algorithm: Algorithm, count: usize) -> f64 {
+    if algorithm != Algorithm::Quorum {
+        return (count - 1) as f64;
+    }
+    let root = (count as f64).sqrt().ceil() as usize;
+    let columns = if count < 4 { root } else { root.min(count / 2) };
+    let heights = (0..columns).map(|column| (count - column).div_ceil(columns));
+    let sizes = heights.map(|height| height * (height + columns - 2));
+    sizes.sum::<usize>() as f64 / count as f64
 }
 
 /// The mutex of a robot that is up.

@@ -48,6 +48,14 @@ impl Wire {
         }
     }
 
+    /// Every datagram takes just so long.
+    pub fn delayed(delay_ms: u64) -> Wire {
+        Wire {
+            delay_ms: (delay_ms, delay_ms),
+            ..Wire::perfect()
+        }
+    }
+
     /// 30 % lost, 30 % twice, delays that reorder.
     pub fn bad() -> Wire {
         Wire {
@@ -300,10 +308,34 @@ impl World {
         self.now = end;
     }
 
+    /// Runs until this is so, and gives how long that took; none if it took longer than `most`. It is looked at
+    /// when everything of a moment has happened.
+    pub fn run_until(&mut self, most: Duration, done: impl Fn(&World) -> bool) -> Option<Duration> {
+        let begun = self.now;
+        while !done(self) {
+            let (next, _) = *self.queue.first_key_value()?.0;
+            if next > begun + most {
+                return None;
+            }
+            self.run_for(next.since(self.now));
+        }
+        Some(self.now.since(begun))
+    }
+
     /// How many datagrams the instances of this name have sent.
     pub fn sent_on(&self, name: &str) -> usize {
+        self.traffic_on(name).0
+    }
+
+    /// How many datagrams these were, and to how many robots they went in all.
+    pub fn traffic_on(&self, name: &str) -> (usize, usize) {
         let traffic = self.traffic.get(&Port::named(name));
-        traffic.map_or(0, |(datagrams, _)| *datagrams)
+        traffic.copied().unwrap_or_default()
+    }
+
+    /// How many robots there are, up or not.
+    pub fn size(&self) -> usize {
+        self.nodes.len()
     }
 
     /// The number of timers that are armed on a robot.

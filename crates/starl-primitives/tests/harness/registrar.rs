@@ -14,6 +14,7 @@ use std::collections::BTreeMap;
 pub struct Registrar {
     pub registration: Registration,
     detector: FailureDetector,
+    has_detector: bool,
     /// Whether it registers and leaves by itself.
     is_busy: bool,
     next_change: Time,
@@ -21,10 +22,20 @@ pub struct Registrar {
 
 impl Registrar {
     pub fn boxed(is_busy: bool, options: Options) -> impl Fn() -> Box<dyn Program> {
+        Registrar::made(is_busy, true, options)
+    }
+
+    /// Robots that register when they are told to, and have nothing but the registration.
+    pub fn bare(options: Options) -> impl Fn() -> Box<dyn Program> {
+        Registrar::made(false, false, options)
+    }
+
+    fn made(is_busy: bool, has_detector: bool, options: Options) -> impl Fn() -> Box<dyn Program> {
         move || {
             Box::new(Registrar {
                 registration: Registration::new("who", options),
                 detector: FailureDetector::new("watch", failure_detector::Options::default()),
+                has_detector,
                 is_busy,
                 next_change: Time::ZERO,
             })
@@ -78,7 +89,9 @@ impl Program for Registrar {
     }
 
     fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.detector);
+        if self.has_detector {
+            visit(&mut self.detector);
+        }
         visit(&mut self.registration);
     }
 

@@ -14,6 +14,7 @@ use super::super::lease::Numbers;
 use super::Post;
 use super::entry::{Entry, Terms, inquire, is_later};
 use super::packet::{Behind, Packet, Wish};
+use super::standing::standings;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use starl_core::{Random, RobotId};
@@ -128,21 +129,17 @@ impl Arbiter {
     /// Grants what can be granted, and tells all others how it stands.
     pub fn settle(&mut self, terms: Terms, post: &mut Post) {
         self.expire(terms);
-        let waiting = self.entries.iter().filter(|(_, entry)| !entry.is_granted);
-        let mut waiting: Vec<_> = waiting.map(|(&robot, entry)| entry.rank(robot)).collect();
-        waiting.sort_unstable();
-        for (_, robot) in waiting {
+        for standing in standings(&self.entries) {
             if let Some(behind) = terms.unready {
-                self.tell(robot, behind, true, terms, post);
+                self.tell(standing.robot, behind, true, terms, post);
                 continue;
             }
-            let (before, after) = self.in_the_way(robot);
-            if let Some(&behind) = before.first() {
-                self.tell(robot, behind, true, terms, post);
-            } else if after.is_empty() {
-                self.grant(robot, terms, post);
+            if let Some(behind) = standing.behind {
+                self.tell(standing.robot, behind, true, terms, post);
+            } else if standing.is_next {
+                self.grant(standing.robot, terms, post);
             }
-            for peer in after {
+            for peer in standing.granted_before_it {
                 if let Some(entry) = self.entries.get_mut(&peer)
                     && !entry.is_inquired
                 {
@@ -157,6 +154,14 @@ impl Arbiter {
     pub fn keep_only(&mut self, everyone: &[RobotId]) {
         self.entries.retain(|peer, _| everyone.contains(peer));
         self.finished.retain(|peer, _| everyone.contains(peer));
+    }
+
+    /// Adds what was granted, and what is asked for.
+    pub fn add_resources(&self, known: &mut Resources) {
+        for entry in self.entries.values() {
+            known.extend(entry.wish.resources.iter().cloned());
+        }
+        self.numbers.add_resources(known);
     }
 
     /// Overwrites the state at random.

@@ -14,6 +14,7 @@ mod post;
 mod recalling;
 mod recovery;
 mod request;
+mod standing;
 
 use super::Resources;
 use super::common::Common;
@@ -127,6 +128,14 @@ impl Arbitration {
             post.send(peer, Packet::Request(request.wish(peer, common)));
         }
         self.deliver(common, robot, post);
+    }
+
+    /// Adds what this robot asks for, and what it has granted or is asked for.
+    pub fn add_resources(&self, known: &mut Resources) {
+        if let Some(request) = &self.request {
+            known.extend(request.resources.iter().cloned());
+        }
+        self.arbiter.add_resources(known);
     }
 
     /// Overwrites the state at random; `some` are what it comes to ask for.
