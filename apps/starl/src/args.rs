@@ -262,6 +262,9 @@ pub struct ExploreArguments {
     /// Stop at this many states, some 100 bytes each, with exit status 3
     #[arg(long, value_name = "N", default_value_t = 10_000_000)]
     pub most_states: u32,
+    /// Stop after this time on the clock, with exit status 3
+    #[arg(long, value_name = "TIME", default_value = "1min")]
+    pub within: String,
     /// Compare robots that are taken for the same with each other in every input
     #[arg(long)]
     pub doubt: bool,

@@ -145,11 +145,55 @@ fn a_bound_that_is_hit_is_no_proof() {
 }
 
 #[test]
+fn an_exploration_that_takes_too_long_says_what_it_has_covered() {
+    let folder = folder("explore_within");
+    let target = polite(&folder);
+    let arguments = ["explore", &target, "--within", "1ns"];
+    let output = starl(&folder, &arguments);
+    assert_eq!(status(&output), 3);
+    let text = stdout(&output);
+    assert!(
+        text.contains("NOT complete: stopped after --within 1ns"),
+        "{text}"
+    );
+    assert!(
+        text.contains("nothing is violated within 0 steps"),
+        "{text}"
+    );
+    let output = starl(&folder, &[&arguments[..], &["--json"]].concat());
+    assert_eq!(json(&output)["outcome"], "time_bound");
+    assert_eq!(json(&output)["within"], "1ns");
+}
+
+#[test]
+fn what_never_comes_is_noted() {
+    let folder = folder("explore_notes");
+    let output = starl(&folder, &["explore", "election"]);
+    assert_eq!(status(&output), 0, "{}", stderr(&output));
+    let text = stdout(&output);
+    assert!(text.contains("nobody is ever elected"), "{text}");
+    assert!(text.contains("--tick"), "{text}");
+    let ballots = [
+        "explore",
+        "election",
+        "--robots",
+        "2",
+        "--set",
+        "parameters.algorithm=ballots",
+        "--depth",
+        "9",
+    ];
+    let output = starl(&folder, &ballots);
+    let text = stdout(&output);
+    assert!(!text.contains("nobody is ever elected"), "{text}");
+}
+
+#[test]
 fn bad_input_is_refused() {
     let folder = folder("explore_bad");
     let target = polite(&folder);
     file(&folder, "torn.json", "{");
-    let refused: [(&[&str], &str); 6] = [
+    let refused: [(&[&str], &str); 7] = [
         (&[], "name what to explore"),
         (
             &["--replay", "torn.json"],
@@ -157,6 +201,7 @@ fn bad_input_is_refused() {
         ),
         (&["nothing.toml"], "nothing.toml"),
         (&[&target, "--robots", "3"], "the scenario has 2 robots"),
+        (&[&target, "--within", "0s"], "--within: give a time"),
         (&[&target, "--tick", "long"], "--tick: give a time"),
         (&[&target, "--tick", "1ms", "--time", "1000s"], "--time"),
     ];

@@ -99,6 +99,11 @@ impl Robots {
         &self.batches[batch as usize]
     }
 
+    /// All events of all turns.
+    pub fn all_events(&self) -> impl Iterator<Item = &Event> {
+        self.batches.iter().flatten().map(|(_, event)| event)
+    }
+
     /// The numbers of what was sent in a turn.
     pub fn sent(&self, outcome: &Outcome) -> &[u32] {
         &self.sent[outcome.sent.clone()]

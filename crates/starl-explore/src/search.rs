@@ -14,8 +14,9 @@ use crate::step::Step;
 use crate::table::Table;
 use crate::walk::Walk;
 use crate::watch::Watches;
-use starl_core::RobotId;
+use starl_core::{Event, RobotId};
 use starl_sim::properties::Violation;
+use std::collections::BTreeSet;
 
 /// A search under way.
 #[derive(Clone)]
@@ -201,6 +202,19 @@ impl Search {
             compared: self.robots.doubt.as_ref().map_or(0, |doubt| doubt.compared),
             bytes: self.states.bytes() + self.origins.capacity() * size_of::<(u32, Code)>(),
         }
+    }
+
+    /// What primitives have told of in some behaviour: their kinds, and the names of the events. About what
+    /// never happens nothing is found out.
+    pub fn told(&self) -> BTreeSet<(&str, &str)> {
+        let events = self.robots.all_events();
+        let told = events.filter_map(|event| match event {
+            Event::Primitive {
+                primitive, name, ..
+            } => Some((&**primitive, &**name)),
+            _ => None,
+        });
+        told.collect()
     }
 
     fn go_on(&mut self) {

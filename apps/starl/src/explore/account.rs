@@ -27,6 +27,10 @@ pub struct Account {
     ignored_motions: u64,
     /// Wall-clock seconds.
     pub seconds: f64,
+    /// The time that it was given, where that was up before all was explored.
+    within: Option<String>,
+    /// What may have been meant otherwise.
+    pub hints: Vec<String>,
     violation: Option<Violation>,
     /// The way to the violation, line by line.
     pub steps: Vec<String>,
@@ -92,10 +96,18 @@ impl Account {
             compared_turns: report.compared,
             ignored_motions: report.motions,
             seconds: 0.0,
+            within: None,
+            hints: Vec::new(),
             violation,
             steps: Vec::new(),
             saved: None,
         }
+    }
+
+    /// The time was up before all was explored.
+    pub fn run_late(&mut self, within: &str) {
+        self.outcome = "time_bound";
+        self.within = Some(within.to_string());
     }
 
     /// All of it, for a person.
@@ -143,6 +155,9 @@ impl Account {
             );
         }
         line("outcome", self.verdict());
+        for hint in &self.hints {
+            line("note", hint.clone());
+        }
         text + &self.violation_text()
     }
 
@@ -165,6 +180,15 @@ impl Account {
         text
     }
 
+    /// What is known where a search was not complete. It goes breadth first.
+    fn covered(&self) -> String {
+        format!(
+            "nothing is violated within {} from the start. Allow more, or bound more: fewer robots (--robots 2), \
+             no timers (--timers 0), fewer faults, fewer turns (--set parameters.NAME=1)",
+            counted(self.depth.saturating_sub(1) as usize, "step")
+        )
+    }
+
     fn verdict(&self) -> String {
         match (self.outcome, &self.violation) {
             ("complete", _) => "complete: no behaviour within the bounds violates anything".into(),
@@ -178,9 +202,14 @@ impl Account {
                 self.depth
             ),
             ("state_bound", _) => format!(
-                "NOT complete: there are more states than --most-states {}; allow more, or fewer faults, \
-                 timers or robots",
-                self.bounds.most_states
+                "NOT complete: there are more states than --most-states {}; {}",
+                self.bounds.most_states,
+                self.covered()
+            ),
+            ("time_bound", _) => format!(
+                "NOT complete: stopped after --within {}; {}",
+                self.within.as_deref().unwrap_or_default(),
+                self.covered()
             ),
             _ => "NOT complete: interrupted".into(),
         }

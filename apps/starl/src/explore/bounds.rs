@@ -8,11 +8,6 @@ use starl_sim::read;
 
 /// Reads them.
 pub fn read(arguments: &ExploreArguments) -> Result<Bounds, Failure> {
-    let duration = |option: &str, text: &str| {
-        read::duration(text)
-            .filter(|span| !span.is_zero())
-            .ok_or_else(|| Failure(format!("{option}: give a time above zero, such as 500ms")))
-    };
     let clocks = match &arguments.tick {
         None => Clocks::Still,
         Some(tick) => {
@@ -36,6 +31,17 @@ pub fn read(arguments: &ExploreArguments) -> Result<Bounds, Failure> {
         depth: arguments.depth,
         most_states: arguments.most_states,
     })
+}
+
+/// Reads how long the search may take.
+pub fn within(arguments: &ExploreArguments) -> Result<Duration, Failure> {
+    duration("--within", &arguments.within)
+}
+
+fn duration(option: &str, text: &str) -> Result<Duration, Failure> {
+    read::duration(text)
+        .filter(|span| !span.is_zero())
+        .ok_or_else(|| Failure(format!("{option}: give a time above zero, such as 500ms")))
 }
 
 fn ticks(time: Duration, tick: Duration) -> Result<u16, Failure> {

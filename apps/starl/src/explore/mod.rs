@@ -1,11 +1,13 @@
 //! `starl explore`: every behaviour of a small fleet within bounds, and the way to a violation.
 //!
 //! Exit status: 0 all was explored and nothing is violated; 1 something is; 2 bad input; 3 a bound on the
-//! number of states or steps was hit first, or someone stopped it, so that nothing is proved.
+//! number of states or steps, or on the time that it takes, was hit first, or someone stopped it, so that only
+//! a part is proved.
 
 mod account;
 mod bounds;
 mod events;
+mod hints;
 mod progress;
 mod record;
 mod replay;
@@ -29,7 +31,7 @@ use std::time::Instant;
 const ROBOTS: usize = 3;
 
 /// States that are expanded between two looks at the clock and at the keyboard.
-const STRIDE: u32 = 2_000;
+const STRIDE: u32 = 500;
 
 /// Explores what the arguments say, or goes a way that was found before.
 pub fn run(arguments: &ExploreArguments) -> Result<ExitCode, Failure> {
@@ -51,6 +53,7 @@ fn explore(target: &str, arguments: &ExploreArguments) -> Result<ExitCode, Failu
         heartbeats: arguments.heartbeats,
         warm_up: arguments.warm_up,
     };
+    let within = bounds::within(arguments)?;
     let setup = recording.setup(&application)?;
     let output = match &arguments.save {
         Some(path) => Some(Output::create(path)?),
@@ -62,12 +65,21 @@ fn explore(target: &str, arguments: &ExploreArguments) -> Result<ExitCode, Failu
     let begun = Instant::now();
     let mut search = start(&recording, setup.clone())?;
     search.set_doubting(arguments.doubt);
-    while search.advance(STRIDE).is_none() && !stop.load(Ordering::Relaxed) {
+    let is_interrupted = || stop.load(Ordering::Relaxed);
+    let is_late = || begun.elapsed().as_secs_f64() >= within.seconds();
+    while search.advance(STRIDE).is_none() && !is_interrupted() && !is_late() {
         progress.advance(&search.report());
     }
     progress.clear();
     let end = search.advance(0).cloned();
     let mut account = Account::new(target, &recording, &search.report(), end.as_ref());
+    if end.is_none() && !is_interrupted() {
+        account.run_late(&arguments.within);
+    }
+    if !matches!(end, Some(End::Violated(_))) {
+        let is_complete = end == Some(End::Complete);
+        account.hints = hints::hints(&recording.bounds, &search.told(), is_complete);
+    }
     account.seconds = begun.elapsed().as_secs_f64();
     if let Some(End::Violated(found)) = &end {
         account.saved = Some(save(target, output, &application, &recording, found)?);
