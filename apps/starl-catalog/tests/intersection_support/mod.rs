@@ -6,7 +6,7 @@ use starl_catalog::examples;
 use starl_core::{Event, RobotId, Time, Value};
 use starl_sim::read::{Override, Request, Source};
 use starl_sim::{Outcome, Run};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What came of a run.
 #[derive(Debug, Default)]
@@ -19,6 +19,8 @@ pub struct Traffic {
     pub locks: Vec<(Time, RobotId, Lock)>,
     /// The properties that were violated, with what was seen.
     pub violations: Vec<String>,
+    /// Which properties these are.
+    pub violated: BTreeSet<String>,
     pub outcome: Option<Outcome>,
 }
 
@@ -85,6 +87,10 @@ impl Traffic {
     fn conclude(&mut self, run: &Run) {
         self.outcome = Some(run.outcome());
         let violations = run.violations().iter();
+        let properties = violations.clone();
+        self.violated = properties
+            .map(|violation| violation.property.to_string())
+            .collect();
         self.violations = violations
             .map(|violation| format!("{violation:?}"))
             .collect();
