@@ -118,3 +118,72 @@ fn equal_random_streams_give_equal_faults() {
     };
     assert_eq!(corrupted(), corrupted());
 }
+
+/// Programs with one primitive each that robots use.
+const PRIMITIVES: [&str; 8] = [
+    "mux = Mutex(\"x\")
+use()
+    pre not mux.waiting and not mux.held({\"a\"})
+    eff mux.acquire({\"a\"})
+give_back()
+    pre mux.held({\"a\"})
+    eff mux.release({\"a\"})",
+    "mux = Mutex(\"x\", algorithm = MutexAlgorithm.quorum)
+use()
+    pre not mux.waiting and not mux.held({\"a\"})
+    eff mux.acquire({\"a\"})
+give_back()
+    pre mux.held({\"a\"})
+    eff mux.release({\"a\"})",
+    "gate = Barrier(\"x\")
+use()
+    eff gate.arrive()",
+    "who = Registration(\"x\")
+use()
+    eff who.register()",
+    "chief = LeaderElection(\"x\")
+use()
+    eff chief.elect()",
+    "chief = LeaderElection(\"x\", algorithm = ElectionAlgorithm.ballots)
+use()
+    eff chief.elect()",
+    "message Hello(n: Int)
+radio = Broadcast(order = Order.causal)
+use()
+    eff radio.broadcast(Hello(1))",
+    "motion = ReachAvoid()
+use()
+    pre not motion.active
+    eff motion.reach_avoid(Point(3.0, 4.0), obstacles())",
+];
+
+/// What a program without variables shows of its primitives.
+fn primitives(world: &World) -> String {
+    let mut text = String::new();
+    assert!(world.program(0).write_state(&mut text));
+    let services = text.find("Services").expect("it shows its services");
+    text.truncate(services);
+    text
+}
+
+#[test]
+fn primitives_are_overwritten_and_the_program_runs_on() {
+    for primitive in PRIMITIVES {
+        let code = compile(&format!("program One\n{primitive}\n"));
+        let mut world = World::of(&code, 3);
+        let mut random = Random::keyed(4, &[]);
+        for _ in 0..20 {
+            world.step();
+        }
+        let mut changes = 0;
+        for _ in 0..30 {
+            let before = primitives(&world);
+            world.nodes[0].agent.corrupt(&mut random);
+            changes += usize::from(primitives(&world) != before);
+            (0..5).for_each(|_| world.step());
+            let failed = world.nodes.iter().find_map(|node| node.failed.as_deref());
+            assert_eq!(failed, None, "{primitive}");
+        }
+        assert!(changes > 10, "{primitive}: {changes}");
+    }
+}

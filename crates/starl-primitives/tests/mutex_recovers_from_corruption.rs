@@ -4,7 +4,7 @@
 
 mod harness;
 
-use harness::locker::{ALGORITHMS, Locker, RESOURCES, mutex, set};
+use harness::locker::{ALGORITHMS, Locker, RESOURCES, acquire, mutex, set};
 use harness::{Wire, World};
 use starl_core::Duration;
 
@@ -17,6 +17,30 @@ fn is_doubly_held(world: &World) -> bool {
         let holds = |&robot: &usize| mutex(world, robot).holds(&set(&[resource]));
         (0..4).filter(holds).count() > 1
     })
+}
+
+/// Whoever holds something asks for nothing. Two robots that a fault made hold what the other one asks for would
+/// wait for each other.
+#[test]
+fn robots_that_wait_give_up_what_a_fault_has_made_up() {
+    for algorithm in ALGORITHMS {
+        let mut found = 0;
+        for seed in 0..SEEDS {
+            let make = Locker::boxed(algorithm, false);
+            let mut world = World::new(2, seed, Wire::perfect(), PERIOD, make);
+            world.run_for(Duration::from_seconds(10));
+            world.command(0, acquire(&["a"]));
+            world.run_for(Duration::from_seconds(1));
+            world.command(1, acquire(&["a", "b"]));
+            world.run_for(Duration::from_seconds(1));
+            world.corrupt(1);
+            let is_odd = |world: &World| mutex(world, 1).is_waiting() && mutex(world, 1).crit();
+            found += usize::from(is_odd(&world));
+            world.run_for(Duration::from_seconds(5));
+            assert!(!is_odd(&world), "{algorithm:?}, seed {seed}");
+        }
+        assert!(found > 10, "{algorithm:?}: {found}");
+    }
 }
 
 #[test]

@@ -262,6 +262,9 @@ impl Program for RobotProgram {
     fn corrupt(&mut self, random: &mut Random) {
         self.version += 1;
         corruption::corrupt(self.code.program(), &mut self.state, random);
+        for bound in self.bound.iter_mut().flatten() {
+            bound.corrupt(random);
+        }
         self.services.corrupt(&self.code, random);
     }
 

@@ -183,6 +183,13 @@ impl Mutex {
         each!(&mut self.protocol, state => state.corrupt(random, wanted));
     }
 
+    /// All resources that this robot knows of: those that it or others hold, ask for or held.
+    pub fn known_resources(&self) -> Resources {
+        let mut known = self.common.held.clone();
+        each!(&self.protocol, state => state.add_resources(&mut known));
+        known
+    }
+
     /// What is asked for.
     fn wanted(&self) -> Option<&Resources> {
         each!(&self.protocol, state => state.wanted())

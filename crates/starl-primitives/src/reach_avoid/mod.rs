@@ -13,6 +13,7 @@
 //! The flags are the thesis's: `active` while it is under way, `done`, `failed`, and none of them once
 //! it has given up.
 
+mod corrupt;
 mod following;
 mod options;
 mod planning;

@@ -106,7 +106,7 @@ impl ReachAvoid {
         let Some(command) = &mut self.command else {
             return;
         };
-        command.plan_failures += 1;
+        command.plan_failures = command.plan_failures.saturating_add(1);
         if command.plan_failures >= self.options.most_plan_failures {
             return self.give_up(robot, "no path");
         }

@@ -181,3 +181,27 @@ impl Sequence {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether the first message of an incarnation is handed out.
+    fn takes_first(inbox: &mut Inbox, incarnation: u32) -> bool {
+        let sequence = inbox.sequence(incarnation, Stream::Multicast);
+        let taken = sequence.take_in_order(1, 1, Payload::new(), 8);
+        assert_eq!(taken.again, taken.arrived.is_empty());
+        !taken.arrived.is_empty()
+    }
+
+    #[test]
+    fn a_restart_of_either_side_undoes_that_messages_are_believed_to_be_taken() {
+        let mut inbox = Inbox::default();
+        // As a fault may have it.
+        inbox.sequence(7, Stream::Multicast).next = 1_000_000;
+        assert!(!takes_first(&mut inbox, 7));
+        assert!(takes_first(&mut inbox, 8), "the sender has restarted");
+        let mut inbox = Inbox::default();
+        assert!(takes_first(&mut inbox, 7), "the receiver has restarted");
+    }
+}

@@ -4,7 +4,7 @@ use super::{Arguments, Context, Instance, Kind, Member, Needs, method, query};
 use crate::robot::shape::Shape;
 use alloc::borrow::Cow;
 use alloc::format;
-use starl_core::Primitive;
+use starl_core::{Primitive, Random};
 use starl_primitives::Barrier;
 use starl_primitives::barrier::Options;
 
@@ -47,5 +47,9 @@ impl Kind for Barrier {
 
     fn primitive(&mut self) -> Option<&mut dyn Primitive> {
         Some(self)
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        Barrier::corrupt(self, random);
     }
 }

@@ -6,7 +6,7 @@ use crate::robot::shape::{ELECTION_ALGORITHMS, Shape};
 use alloc::borrow::Cow;
 use alloc::format;
 use alloc::vec::Vec;
-use starl_core::Primitive;
+use starl_core::{Primitive, Random};
 use starl_primitives::LeaderElection;
 use starl_primitives::election::{Algorithm, Change, Options};
 
@@ -94,6 +94,10 @@ impl Kind for LeaderElection {
 
     fn primitive(&mut self) -> Option<&mut dyn Primitive> {
         Some(self)
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        LeaderElection::corrupt(self, random);
     }
 
     fn take_reports(&mut self, take: &mut dyn FnMut(Report)) {

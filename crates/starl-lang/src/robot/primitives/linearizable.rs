@@ -9,7 +9,7 @@ use super::{Arguments, Context, Instance, Kind, Member, Needs, method, query};
 use crate::robot::atomic::Atomic;
 use crate::robot::shape::Shape;
 use alloc::borrow::Cow;
-use starl_core::{Payload, Primitive};
+use starl_core::{Payload, Primitive, Random};
 
 /// A variable that all robots write, one after the other.
 #[derive(Clone, Debug)]
@@ -74,4 +74,7 @@ impl Kind for Linearizable {
     fn primitive(&mut self) -> Option<&mut dyn Primitive> {
         None
     }
+
+    /// Its values lie in the services.
+    fn corrupt(&mut self, _: &mut Random) {}
 }

@@ -12,7 +12,7 @@ use alloc::borrow::Cow;
 use alloc::vec::Vec;
 use core::fmt;
 use serde::ser::{Serialize, SerializeTuple, Serializer};
-use starl_core::{Input, Payload, Primitive, Robot};
+use starl_core::{Input, Payload, Primitive, Random, Robot};
 use starl_primitives::broadcast::{Gap, Order};
 use starl_primitives::reliable::{MessageId, Options};
 use starl_primitives::{Broadcast, Failure, Geocast, Unicast};
@@ -67,6 +67,8 @@ pub trait Channel: Primitive + Clone + fmt::Debug + Send + Sync + Sized + 'stati
     fn is_outstanding(&self, message: MessageId) -> bool;
     /// The messages that were given up since the last call.
     fn take_failures(&mut self) -> Vec<Failure>;
+    /// Overwrites its state at random.
+    fn corrupt(&mut self, random: &mut Random);
     /// What was passed over since the last call.
     fn take_gaps(&mut self) -> Vec<Gap> {
         Vec::new()
@@ -124,6 +126,11 @@ impl<C: Channel> Kind for Sender<C> {
 
     fn primitive(&mut self) -> Option<&mut dyn Primitive> {
         Some(&mut self.channel)
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        self.channel.corrupt(random);
+        self.outstanding.retain(|_| random.chance(0.5));
     }
 
     fn take_reports(&mut self, take: &mut dyn FnMut(Report)) {
@@ -195,6 +202,9 @@ macro_rules! unordered {
         ) -> Result<Self, Cow<'static, str>> {
             Ok(Self::new(name, Options::default()))
         }
+
+        /// What it would believe to have sent and taken nothing could tell from the truth.
+        fn corrupt(&mut self, _: &mut Random) {}
     };
 }
 
@@ -235,6 +245,10 @@ impl Channel for Broadcast {
 
     fn take_gaps(&mut self) -> Vec<Gap> {
         Broadcast::take_gaps(self)
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        Broadcast::corrupt(self, random);
     }
 
     const SEND: Member<Sender<Broadcast>> = method(

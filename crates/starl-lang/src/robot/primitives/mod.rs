@@ -28,7 +28,7 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::fmt;
 use dyn_clone::DynClone;
-use starl_core::{Primitive, Robot};
+use starl_core::{Primitive, Random, Robot};
 
 /// The place of a primitive on a robot: none until it is bound.
 pub type Slot = Option<Box<dyn Bound>>;
@@ -113,6 +113,10 @@ pub trait Kind: Clone + fmt::Debug + Send + Sync + Sized + 'static {
     /// The state machine; none if it has none of its own.
     fn primitive(&mut self) -> Option<&mut dyn Primitive>;
 
+    /// Overwrites its state at random, as a transient fault would. What lies in the program's shared services
+    /// is overwritten there.
+    fn corrupt(&mut self, random: &mut Random);
+
     /// Hands over what has happened since the last call.
     fn take_reports(&mut self, take: &mut dyn FnMut(Report)) {
         let _ = take;
@@ -135,6 +139,8 @@ pub trait Bound: DynClone + fmt::Debug + Send + Sync {
         context: &mut Context<'_, '_>,
         call: &mut HostCall<'_>,
     ) -> Called;
+    /// See [`Kind::corrupt`].
+    fn corrupt(&mut self, random: &mut Random);
     /// See [`Kind::take_reports`].
     fn take_reports(&mut self, take: &mut dyn FnMut(Report));
     /// See [`Kind::halt`].
@@ -158,6 +164,10 @@ impl<P: Kind> Bound for P {
             Some(member) => (member.run)(self, context, call),
             None => Err("the primitive has no such member".into()),
         }
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        Kind::corrupt(self, random);
     }
 
     fn take_reports(&mut self, take: &mut dyn FnMut(Report)) {

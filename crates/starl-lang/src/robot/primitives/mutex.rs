@@ -7,7 +7,7 @@ use alloc::borrow::Cow;
 use alloc::boxed::Box;
 use alloc::collections::BTreeSet;
 use alloc::format;
-use starl_core::{Primitive, RobotId};
+use starl_core::{Primitive, Random, RobotId};
 use starl_primitives::Mutex;
 use starl_primitives::mutex::{AcquireError, Options, Resources};
 
@@ -121,6 +121,11 @@ impl Kind for Mutex {
 
     fn primitive(&mut self) -> Option<&mut dyn Primitive> {
         Some(self)
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        let known = self.known_resources();
+        Mutex::corrupt(self, random, &known);
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{Arguments, Context, Instance, Kind, Member, method, query};
 use crate::robot::shape::{PLANNERS, Shape};
 use alloc::borrow::Cow;
-use starl_core::{Primitive, Robot};
+use starl_core::{Primitive, Random, Robot};
 use starl_primitives::ReachAvoid;
 use starl_primitives::reach_avoid::Options;
 
@@ -97,6 +97,10 @@ impl Kind for ReachAvoid {
 
     fn primitive(&mut self) -> Option<&mut dyn Primitive> {
         Some(self)
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        ReachAvoid::corrupt(self, random);
     }
 
     fn halt(&mut self, robot: &mut Robot<'_>) {

@@ -7,7 +7,7 @@ use crate::robot::shape::Shape;
 use crate::robot::workbench::robots;
 use alloc::borrow::Cow;
 use alloc::format;
-use starl_core::Primitive;
+use starl_core::{Primitive, Random};
 use starl_primitives::Registration;
 use starl_primitives::registration::Options;
 
@@ -72,6 +72,10 @@ impl Kind for Registration {
 
     fn primitive(&mut self) -> Option<&mut dyn Primitive> {
         Some(self)
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        Registration::corrupt(self, random);
     }
 }
 

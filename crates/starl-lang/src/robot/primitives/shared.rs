@@ -13,7 +13,7 @@ use alloc::borrow::Cow;
 use alloc::boxed::Box;
 use alloc::string::ToString;
 use alloc::vec::Vec;
-use starl_core::{Payload, Primitive, Robot, RobotId};
+use starl_core::{Payload, Primitive, Random, Robot, RobotId};
 use starl_primitives::SharedMemory;
 use starl_primitives::shared_memory::WriteError;
 
@@ -189,6 +189,9 @@ impl Kind for SingleWriter {
     fn primitive(&mut self) -> Option<&mut dyn Primitive> {
         None
     }
+
+    /// Its values lie in the services.
+    fn corrupt(&mut self, _: &mut Random) {}
 }
 
 impl Kind for MultiWriter {
@@ -237,4 +240,7 @@ impl Kind for MultiWriter {
     fn primitive(&mut self) -> Option<&mut dyn Primitive> {
         None
     }
+
+    /// Its values lie in the services.
+    fn corrupt(&mut self, _: &mut Random) {}
 }

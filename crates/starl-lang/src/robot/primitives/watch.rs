@@ -7,7 +7,7 @@ use crate::robot::shape::Shape;
 use crate::robot::workbench::robots;
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
-use starl_core::{Input, Port, Primitive, Robot};
+use starl_core::{Input, Port, Primitive, Random, Robot};
 
 /// A program's view of its failure detector.
 #[derive(Clone, Debug)]
@@ -65,6 +65,11 @@ impl Kind for Watch {
 
     fn primitive(&mut self) -> Option<&mut dyn Primitive> {
         Some(self)
+    }
+
+    /// The detector itself is the services'.
+    fn corrupt(&mut self, random: &mut Random) {
+        self.reports.retain(|_| random.chance(0.5));
     }
 
     fn take_reports(&mut self, take: &mut dyn FnMut(Report)) {

@@ -103,6 +103,11 @@ impl Numbers {
         }
     }
 
+    /// Adds the resources that a number is known of.
+    pub fn add_resources(&self, known: &mut Resources) {
+        known.extend(self.known.keys().cloned());
+    }
+
     /// Overwrites the state at random.
     pub fn corrupt(&mut self, random: &mut Random) {
         self.known.retain(|_, _| random.chance(0.5));

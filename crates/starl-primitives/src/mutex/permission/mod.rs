@@ -119,6 +119,12 @@ impl Permission {
         if key != common.timer(REPEAT) {
             return;
         }
+        if self.waiting.is_some() && !common.held.is_empty() {
+            // Who holds something asks for nothing, so a fault has made up what it holds.
+            let made_up = core::mem::take(&mut common.held);
+            common.report(robot, "expire", &made_up);
+            self.permit_deferred(common, robot);
+        }
         let others = common.others(robot);
         if let Some(waiting) = &mut self.waiting
             && waiting.missing.is_empty()
@@ -129,6 +135,14 @@ impl Permission {
             waiting.missing = others.into_iter().map(|peer| (peer, attempt)).collect();
         }
         self.ask(common, robot);
+    }
+
+    /// Adds what this robot and others ask for.
+    pub fn add_resources(&self, known: &mut Resources) {
+        let waiting = self.waiting.iter().map(|waiting| &waiting.wish);
+        for wish in waiting.chain(self.deferred.values()) {
+            known.extend(wish.resources.iter().cloned());
+        }
     }
 
     /// Overwrites the state at random; `some` are what it comes to ask for.
