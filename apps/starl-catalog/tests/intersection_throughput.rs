@@ -61,11 +61,12 @@ fn measure() {
                 mean(&|run| run.delays().0),
                 mean(&|run| run.through.len() as f64),
             );
-            if network.is_empty() {
-                for run in &runs {
-                    assert!(run.violations.is_empty(), "{:?}", run.violations);
-                    assert_eq!(run.through.len(), 100);
-                }
+            // Cars may wait for longer than they should, and that is told; they never collide.
+            for safety in ["Intersection.traffic_safety", "no_collision"] {
+                assert!(!violated.contains(&safety.to_string()), "{rate} {control}");
+            }
+            for run in runs.iter().filter(|_| network.is_empty()) {
+                assert_eq!(run.through.len(), 100, "{rate} {control}");
             }
         }
     }

@@ -1,5 +1,8 @@
 //! What the one who asked may not have noticed: that something was waited for and came in no behaviour, so that
 //! nothing was found out about it.
+//!
+//! A tick of 981 ms suits the primitives' leases of 2 s and 3 s: what a robot believes to hold ends a hundredth
+//! earlier for each clock, and so a tick before what others have granted it.
 
 use starl_explore::{Bounds, Clocks};
 use std::collections::BTreeSet;
@@ -29,12 +32,12 @@ pub fn hints(bounds: &Bounds, told: &BTreeSet<(&str, &str)>, is_complete: bool) 
     });
     let advice = match (bounds.clocks, is_complete) {
         (Clocks::Still, true) => {
-            "clocks stand still, so leases and other waits do not end: let them tick, e.g. --tick 1s \
-             --time 5s --delay 1"
+            "clocks stand still, so leases and other waits do not end: let them tick, e.g. --tick \
+             981ms --time 4s --delay 1"
         }
         (Clocks::Still, false) => {
             "it may come later; but leases and other waits do not end while clocks stand still: let them \
-             tick, e.g. --tick 1s --time 5s --delay 1"
+             tick, e.g. --tick 981ms --time 4s --delay 1"
         }
         (Clocks::Ticking { .. }, true) => "--time may be too short",
         (Clocks::Ticking { .. }, false) => "it may come later",
