@@ -42,7 +42,7 @@ fn ballots() {
 
 #[test]
 fn leases() {
-    assert_eq!(explore(Algorithm::Leases, 1, 0, 0), (30_839, 154_399, 21));
+    assert_eq!(explore(Algorithm::Leases, 1, 0, 0), (33_845, 169_606, 21));
 }
 
 #[test]
@@ -50,7 +50,7 @@ fn leases() {
 fn leases_that_end() {
     assert_eq!(
         explore(Algorithm::Leases, 2, 0, 0),
-        (1_659_005, 10_629_631, 30)
+        (1_899_397, 12_175_998, 31)
     );
 }
 
@@ -58,7 +58,7 @@ fn leases_that_end() {
 fn leases_with_a_crash() {
     assert_eq!(
         explore(Algorithm::Leases, 1, 0, 1),
-        (550_917, 2_866_218, 25)
+        (592_579, 3_080_516, 25)
     );
 }
 

@@ -90,6 +90,8 @@ pub(super) struct Memory {
     pub promised: Epoch,
     /// Whether it remembers all that it promised before the receiver started.
     pub remembers: bool,
-    /// If not: for how long it has begun anew with a majority.
-    pub anew_for: Duration,
+    /// For how long it has been up, by its clock.
+    pub up_for: Duration,
+    /// For how long it has begun anew with a majority, if it has.
+    pub anew_for: Option<Duration>,
 }

@@ -33,6 +33,8 @@ use starl_core::{Duration, Random, RobotId, Time};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Leases {
     stage: Stage,
+    /// When it started.
+    up_since: Time,
     /// The last vote.
     promise: Promise,
     /// The latest epoch heard of.
@@ -126,6 +128,7 @@ impl Leases {
         self.put_off.take_if(|(from, claim)| {
             !claim.epoch.is_plausible(now) || claim.epoch.leader() != *from
         });
+        no_later(&mut self.up_since, now);
         no_later(&mut self.promise.until, now + options.lease);
         let spread = options.timeout(0) * (scene.others.len() as u64 + 1);
         no_later(&mut self.stand_at, now + spread);
@@ -237,6 +240,7 @@ impl Rules for Leases {
             (claim.epoch, claim.number) = (Epoch::random(random), random.bits());
         }
         self.number = random.bits();
+        self.up_since = time(random);
         self.stand_at = time(random);
         if let Some(claim) = &mut self.claim {
             claim.corrupt(random);

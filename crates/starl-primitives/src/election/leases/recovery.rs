@@ -11,8 +11,9 @@
 //!
 //! Where a majority is recovering at once, all memory may be lost, and waiting for it would be in vain. That
 //! is so when a fleet starts. Then these robots begin anew, from the latest epoch that any of them has heard of
-//! and from their clocks. Who begins anew does not count as one that remembers for those that were up then. A robot
-//! that was up when others began anew, and learns so from them, counts as having done so at the same time.
+//! and from their clocks. Who begins anew does not count as one that remembers for those that were up then. They do
+//! not all begin anew at the same moment; for one that started in between, those that have been up since the first
+//! of them did remember too: what was promised before may be lost, and since then they have forgotten nothing.
 
 use super::{Leases, Promise};
 use crate::election::KIND;
@@ -47,10 +48,22 @@ pub(super) struct Learning {
     /// Answers are collected for the time of a lease. Those collected before then count no more.
     attempt: u32,
     until: Time,
-    /// None from those that remember. Since when they and this robot count as having begun anew from the others.
-    answers: BTreeMap<RobotId, Option<Time>>,
+    answers: BTreeMap<RobotId, Answer>,
+    /// When the first of this attempt's questions was asked.
+    asked_at: Time,
     repeat_at: Time,
     repetitions: u32,
+}
+
+/// What another robot remembers, in this robot's time.
+#[derive(Clone, Copy, Debug)]
+struct Answer {
+    /// Whether it remembers all that it promised before this robot started.
+    remembers: bool,
+    /// It has been up since then, or longer.
+    up_since: Time,
+    /// It began anew then, or later.
+    anew_since: Option<Time>,
 }
 
 impl Leases {
@@ -66,7 +79,10 @@ impl Leases {
         self.stage.make_plausible(now, scene);
         match &mut self.stage {
             _ if !scene.takes_part => {}
-            Stage::Fresh => self.stage = Stage::Waiting(now),
+            Stage::Fresh => {
+                self.stage = Stage::Waiting(now);
+                self.up_since = now;
+            }
             Stage::Waiting(begun) if now >= *begun + lease => {
                 let (begun, attempt) = (*begun, 0);
                 self.collect(scene, begun, attempt);
@@ -99,6 +115,7 @@ impl Leases {
             attempt,
             until: now + scene.options.lease.max(scene.options.timeout(0)),
             answers: BTreeMap::new(),
+            asked_at: now,
             repeat_at: now,
             repetitions: 0,
         };
@@ -121,18 +138,19 @@ impl Leases {
         let drift = scene.options.drift.clamp(0.0, 0.9);
         let up_for = up_for.seconds() * (1.0 - drift) / (1.0 + drift);
         let (remembers, anew_for) = match self.stage {
-            Stage::Remembering(None) => (true, Duration::ZERO),
+            Stage::Remembering(None) => (true, None),
             Stage::Remembering(Some(begun)) => {
                 let anew_for = scene.now().since(begun);
-                (up_for <= anew_for.seconds(), anew_for)
+                (up_for <= anew_for.seconds(), Some(anew_for))
             }
-            _ => (false, Duration::ZERO),
+            _ => (false, None),
         };
         let promised = self.known.max(self.promise.epoch);
         let memory = Memory {
             attempt,
             promised,
             remembers,
+            up_for: scene.now().since(self.up_since),
             anew_for,
         };
         scene.send(from, Packet::Tell(memory));
@@ -144,8 +162,17 @@ impl Leases {
         if let Stage::Learning(learning) = &mut self.stage
             && learning.attempt == memory.attempt
         {
-            let anew_since = scene.now() - memory.anew_for;
-            let answer = (!memory.remembers).then_some(anew_since);
+            let drift = scene.options.drift.clamp(0.0, 0.9);
+            let slowest = (1.0 - drift) / (1.0 + drift);
+            let shortest = |span: Duration| Duration::from_seconds_f64(span.seconds() * slowest);
+            let longest = |span: Duration| Duration::from_seconds_f64(span.seconds() / slowest);
+            let answer = Answer {
+                remembers: memory.remembers,
+                up_since: scene.now() - shortest(memory.up_for),
+                anew_since: memory
+                    .anew_for
+                    .map(|span| learning.asked_at - longest(span)),
+            };
             learning.answers.insert(from, answer);
             self.begin_if_told(scene);
         }
@@ -157,18 +184,12 @@ impl Leases {
             return;
         };
         let majority = scene.majority();
-        let anew = learning.answers.values().flatten();
-        let recovering = 1 + anew.clone().count();
-        let remembering = learning.answers.len() + 1 - recovering;
-        // Nothing is lost since then but what this robot promised before it started.
-        let anew_since = anew
-            .copied()
-            .min()
-            .map_or(scene.now(), |at| at.min(scene.now()));
+        let remembering = learning.remembering();
+        let recovering = 1 + learning.answers.len() - remembering;
         if remembering + majority > scene.others.len() + 1 {
             self.stage = Stage::Remembering(None);
         } else if recovering >= majority {
-            self.stage = Stage::Remembering(Some(anew_since));
+            self.stage = Stage::Remembering(Some(scene.now()));
         } else {
             return;
         }
@@ -184,6 +205,17 @@ impl Leases {
 }
 
 impl Learning {
+    /// How many remember.
+    fn remembering(&self) -> usize {
+        let answers = self.answers.values();
+        let remembering = answers.clone().filter(|answer| answer.remembers);
+        let anew = remembering.filter_map(|answer| answer.anew_since).max();
+        let has_forgotten_nothing = |answer: &Answer| anew.is_some_and(|at| answer.up_since <= at);
+        answers
+            .filter(|answer| answer.remembers || has_forgotten_nothing(answer))
+            .count()
+    }
+
     /// Asks those that have not answered.
     fn ask(&mut self, scene: &mut Scene<'_, '_>) {
         let now = scene.now();
@@ -227,8 +259,16 @@ impl Stage {
                 attempt: random.bits(),
                 until: time(random),
                 answers: (0..random.below(5))
-                    .map(|robot| (RobotId(robot), random.chance(0.5).then(|| time(random))))
+                    .map(|robot| {
+                        let answer = Answer {
+                            remembers: random.chance(0.5),
+                            up_since: time(random),
+                            anew_since: random.chance(0.5).then(|| time(random)),
+                        };
+                        (RobotId(robot), answer)
+                    })
                     .collect(),
+                asked_at: time(random),
                 repeat_at: time(random),
                 repetitions: random.bits(),
             }),
