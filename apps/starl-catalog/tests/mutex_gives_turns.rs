@@ -3,12 +3,13 @@
 
 use rayon::prelude::*;
 use starl_catalog::examples;
+use starl_core::{Duration, Event, Time};
 use starl_sim::read::{Override, Request};
 use starl_sim::{Outcome, Run};
 
 const ALGORITHMS: [&str; 3] = ["permission", "quorum", "lease"];
 
-fn run(sets: &[&str], algorithm: &str, seed: u64) -> Run {
+fn start(sets: &[&str], algorithm: &str, seed: u64) -> Run {
     let example = examples::find("mutex").expect("it is an example");
     let chosen = format!("parameters.algorithm={algorithm}");
     let seed = format!("seed={seed}");
@@ -18,7 +19,11 @@ fn run(sets: &[&str], algorithm: &str, seed: u64) -> Run {
         ..Request::new(example.source())
     };
     let application = starl_catalog::read(&request, example).unwrap();
-    let mut run = application.run().unwrap();
+    application.run().unwrap()
+}
+
+fn run(sets: &[&str], algorithm: &str, seed: u64) -> Run {
+    let mut run = start(sets, algorithm, seed);
     while !run.is_over() {
         run.step();
     }
@@ -81,11 +86,34 @@ fn through_crashes_and_partitions() {
     all_have_turns(&trouble(), 20);
 }
 
+/// Whoever crashes begins anew with its turns, so a fleet need not finish in the end; but while nothing breaks
+/// somebody enters every while, as soon as those that restarted have asked all others what they had granted.
 #[test]
-#[ignore = "is not mended yet: nobody enters any more"]
 fn a_quorum_goes_on_after_crashes_and_partitions() {
-    let run = run(&trouble(), "quorum", 20);
-    assert_eq!(run.outcome(), Outcome::Reached);
+    (20..28).into_par_iter().for_each(|seed| {
+        let mut run = start(&trouble(), "quorum", seed);
+        let (mut last, mut longest) = (Time::ZERO, Duration::ZERO);
+        while !run.is_over() {
+            for record in run.step() {
+                let is_entry = |event: &Event| match event {
+                    Event::Primitive {
+                        primitive, name, ..
+                    } => primitive == "mutex" && name == "enter",
+                    Event::Fault(_) => true,
+                    _ => false,
+                };
+                if is_entry(&record.event) {
+                    longest = longest.max(record.at.since(last));
+                    last = record.at;
+                }
+            }
+        }
+        assert_eq!(run.violations(), [], "seed {seed}");
+        assert!(
+            longest < Duration::from_seconds(30),
+            "seed {seed}: {longest}"
+        );
+    });
 }
 
 #[test]
