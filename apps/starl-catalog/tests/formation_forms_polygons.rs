@@ -105,10 +105,14 @@ fn seven_in_a_steep_plane() {
 
 #[test]
 fn four_around_one_that_crashed_on_its_way() {
-    for robot in ["iRobot1", "quadcopter0"] {
+    for (example, robot) in [("formation", "iRobot1"), ("formation-space", "quadcopter0")] {
         let faults = format!("[[fault]]\nat = \"5s\"\nkind = \"crash\"\nrobots = [\"{robot}\"]\n");
         let faults = &faults;
-        all_form(Case { faults, ..PLANE });
+        all_form(Case {
+            example,
+            faults,
+            ..PLANE
+        });
     }
 }
 
