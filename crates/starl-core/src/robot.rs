@@ -127,6 +127,11 @@ impl<'a> Robot<'a> {
         self.view.obstacles.clone()
     }
 
+    /// The same, not to be kept.
+    pub fn known_obstacles(&self) -> &'a Obstacles {
+        self.view.obstacles
+    }
+
     /// This robot's random stream.
     pub fn random(&mut self) -> &mut Random {
         self.random

@@ -7,6 +7,7 @@
 use crate::Model;
 use crate::avoidance::{Avoidance, Options};
 use crate::tracking::{Goal, Tracking};
+use alloc::boxed::Box;
 use starl_core::motion::Estimate;
 use starl_core::{Command, MotionRequest, Obstacle, Point, Random};
 
@@ -37,7 +38,7 @@ enum Wish {
 pub struct Pilot {
     wish: Wish,
     tracking: Tracking,
-    avoidance: Option<Avoidance>,
+    avoidance: Option<Box<Avoidance>>,
     /// How far avoidance needs to see, metres.
     sight: f64,
 }
@@ -46,7 +47,7 @@ impl Pilot {
     /// A pilot for a robot of this model, which stands still; without options it does not avoid
     /// other robots.
     pub fn new(model: &dyn Model, avoidance: Option<Options>) -> Pilot {
-        let avoidance = avoidance.map(Avoidance::new);
+        let avoidance = avoidance.map(|options| Box::new(Avoidance::new(options)));
         let sight = avoidance.as_ref().map_or(0.0, |avoidance| {
             avoidance.range(&model.body(), &model.limits())
         });

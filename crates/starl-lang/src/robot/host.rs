@@ -4,7 +4,7 @@ use super::arguments::{Arguments, Called};
 use super::code::{Code, Instance};
 use super::joint::OnRobot;
 use super::messages::Outgoing;
-use super::primitives::{KINDS, Slot};
+use super::primitives::{KINDS, Seat, Slot};
 use super::services::Services;
 use super::workbench::Memo;
 use crate::machine::{Host, HostCall};
@@ -81,27 +81,27 @@ impl RobotHost<'_, '_> {
         }
         self.context.instance = Some(form);
         let mut arguments = Arguments::after_instance(call);
-        let mut bound = (kind_of.bind)(form, &mut self.context, &mut arguments)?;
-        if let Some(primitive) = bound.primitive() {
-            if self.is_taken(primitive.port(), instance) {
-                return Err("another primitive of the program has this name".into());
-            }
+        let mut seat = Seat::new((kind_of.bind)(form, &mut self.context, &mut arguments)?);
+        if seat.port.is_some_and(|port| self.is_taken(port, instance)) {
+            return Err("another primitive of the program has this name".into());
+        }
+        if let Some(primitive) = seat.bound.primitive() {
             // It hears of the start, as those do that are there before it.
             primitive.handle(self.context.robot, &Input::Start);
         }
         if let Some(slot) = self.bound.get_mut(instance) {
-            *slot = Some(bound);
+            *slot = Some(seat);
         }
         Ok(1)
     }
 
     /// Whether another primitive than this instance listens at the port.
     fn is_taken(&mut self, port: Port, instance: usize) -> bool {
-        let mut others = self.bound.iter_mut().enumerate();
+        let mut others = self.bound.iter().enumerate();
         self.context.services.listen_at(self.context.code, port)
             || others.any(|(other, slot)| {
-                let primitive = slot.as_mut().and_then(|bound| bound.primitive());
-                other != instance && primitive.is_some_and(|primitive| primitive.port() == port)
+                let seat = slot.as_ref().filter(|_| other != instance);
+                seat.is_some_and(|seat| seat.port == Some(port))
             })
     }
 
@@ -113,7 +113,11 @@ impl RobotHost<'_, '_> {
         }
         self.context.instance = form;
         match self.bound.get_mut(instance) {
-            Some(Some(bound)) => bound.call(usize::from(member), &mut self.context, call),
+            Some(Some(seat)) => {
+                seat.is_stirred = true;
+                seat.bound
+                    .call(usize::from(member), &mut self.context, call)
+            }
             _ => Err("the primitive is not bound yet".into()),
         }
     }

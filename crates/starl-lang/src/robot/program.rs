@@ -123,10 +123,11 @@ impl RobotProgram {
 impl RobotProgram {
     /// Runs the actions that have what they waited for.
     fn go_on(&mut self, robot: &mut Robot<'_>) {
-        while self.phase == Phase::Running {
+        while self.phase == Phase::Running
+            && let Some(atomic) = &mut self.services.atomic
+        {
             let code = self.code.clone();
-            let atomic = self.services.atomic.as_mut();
-            let Some(action) = atomic.and_then(|atomic| atomic.go_on(robot, &code)) else {
+            let Some(action) = atomic.go_on(robot, &code) else {
                 return;
             };
             self.run(robot, Part::Atomic(action));
@@ -244,12 +245,10 @@ impl Program for RobotProgram {
     fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
         let forms = self.code.instances().iter();
         for ((number, form), slot) in forms.enumerate().zip(&mut self.bound) {
-            let Some(bound) = slot else { continue };
-            let Some(port) = bound.primitive().map(|primitive| primitive.port()) else {
-                continue;
-            };
+            let Some(seat) = slot else { continue };
+            let Some(port) = seat.port else { continue };
             visit(&mut Attended {
-                bound: &mut **bound,
+                seat,
                 port,
                 form,
                 number: number as u32,
@@ -262,8 +261,9 @@ impl Program for RobotProgram {
     fn corrupt(&mut self, random: &mut Random) {
         self.version += 1;
         corruption::corrupt(self.code.program(), &mut self.state, random);
-        for bound in self.bound.iter_mut().flatten() {
-            bound.corrupt(random);
+        for seat in self.bound.iter_mut().flatten() {
+            seat.is_stirred = true;
+            seat.bound.corrupt(random);
         }
         self.services.corrupt(&self.code, random);
     }

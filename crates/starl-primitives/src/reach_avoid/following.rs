@@ -3,7 +3,7 @@
 use super::route::Route;
 use super::{Command, Options, Phase, ReachAvoid};
 use alloc::sync::Arc;
-use starl_core::motion::Body;
+use starl_core::motion::{Body, Obstacles};
 use starl_core::{Obstacle, Point, Robot};
 
 impl ReachAvoid {
@@ -81,8 +81,8 @@ impl ReachAvoid {
         let body = robot.body();
         let position = body.reachable(robot.position());
         let settled = robot.now().since(*since) >= self.options.plan_pause;
-        let now_known = robot.obstacles();
-        if !Arc::ptr_eq(&now_known, &command.known) {
+        let now_known = robot.known_obstacles();
+        if !Arc::ptr_eq(now_known, &command.known) {
             let known = core::mem::replace(&mut command.known, now_known.clone());
             let news = || {
                 now_known
@@ -101,9 +101,9 @@ impl ReachAvoid {
         // Avoidance of other robots, or wind, may have pushed it aside so that the straight way to
         // the next point is not the one that was planned.
         let slack = 0.5 * self.options.vicinity;
-        let mut obstacles = command.unsafe_set.iter().chain(command.known.iter());
+        let blocked = |o: &Obstacle| blocks(o, position, route.current(), body, slack);
         if route.cross_track(position) > self.options.off_path
-            || settled && obstacles.any(|o| blocks(o, position, route.current(), body, slack))
+            || settled && either(&command.unsafe_set, &command.known).any(blocked)
         {
             self.replan(robot, "off the path", false);
             return true;
@@ -127,7 +127,7 @@ impl ReachAvoid {
         };
         let body = robot.body();
         let free = |from: Point, to: Point| {
-            let mut obstacles = unsafe_set.iter().chain(known.iter());
+            let mut obstacles = either(unsafe_set, known);
             !obstacles.any(|obstacle| blocks(obstacle, from, to, body, 0.0))
         };
         let Options {
@@ -145,7 +145,7 @@ impl ReachAvoid {
         let command = self.command.as_ref()?;
         let body = robot.body();
         let route = Route::new(robot.position(), points.to_vec(), body)?;
-        let mut obstacles = command.unsafe_set.iter().chain(command.known.iter());
+        let mut obstacles = either(&command.unsafe_set, &command.known);
         let is_blocked = |obstacle: &Obstacle| {
             let mut ways = route.ahead(body.reachable(robot.position()));
             ways.any(|(from, to)| blocks(obstacle, from, to, body, 0.0))
@@ -199,6 +199,13 @@ pub(super) fn to_go(route: &Route, position: Point, body: &Body) -> f64 {
         0.0
     };
     climb + route.remaining(reachable)
+}
+
+/// The obstacles of either set; where they are the same, as with programs that keep out of all they know,
+/// once.
+fn either<'a>(a: &'a Obstacles, b: &'a Obstacles) -> impl Iterator<Item = &'a Obstacle> {
+    let others = if Arc::ptr_eq(a, b) { &[][..] } else { &b[..] };
+    a.iter().chain(others)
 }
 
 /// Whether the body comes nearer to the obstacle than `-slack` on the straight way, metres. Positions are

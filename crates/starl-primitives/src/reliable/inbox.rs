@@ -9,7 +9,9 @@
 //! an earlier one, never taken before, is taken.
 
 use super::packet::Stream;
+use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
 use smallvec::SmallVec;
 use starl_core::Payload;
 
@@ -69,9 +71,17 @@ impl Inbox {
 pub(super) struct Sequence {
     /// All earlier messages have been taken or will never come.
     next: u32,
+    /// What has come ahead of others; none while nothing has, as is usual.
+    ahead: Option<Box<Ahead>>,
+}
+
+/// What has come of a stream while something before it is missing. One of the two is in use: the first
+/// where messages are taken as they come, the second in FIFO order.
+#[derive(Clone, Debug, Default)]
+struct Ahead {
     /// First and last numbers of the runs of messages taken after a gap, in order, not touching.
-    runs: SmallVec<[(u32, u32); 1]>,
-    /// In FIFO order, messages that wait for an earlier one.
+    runs: Vec<(u32, u32)>,
+    /// Messages that wait for an earlier one.
     held: BTreeMap<u32, Payload>,
 }
 
@@ -79,8 +89,7 @@ impl Default for Sequence {
     fn default() -> Sequence {
         Sequence {
             next: 1,
-            runs: SmallVec::new(),
-            held: BTreeMap::new(),
+            ahead: None,
         }
     }
 }
@@ -111,17 +120,18 @@ impl Sequence {
             again: number < self.next,
             ..Taken::default()
         };
-        if !taken.again && (number == self.next || self.held.len() < most_gaps as usize) {
-            self.held.insert(number, content);
-        }
-        while let Some(first) = self.held.first_entry() {
-            let number = *first.key();
-            if number != self.next && number > oldest {
-                break;
-            }
-            taken.arrived.push((number, first.remove()));
+        let held = self.ahead.as_ref().map_or(0, |ahead| ahead.held.len());
+        if taken.again {
+        } else if number == self.next {
+            taken.arrived.push((number, content));
             self.next = number.saturating_add(1);
+        } else if held < most_gaps as usize {
+            let ahead = self.ahead.get_or_insert_default();
+            ahead.held.insert(number, content);
         }
+        self.release(&mut taken, |number, next| {
+            number == next || number <= oldest
+        });
         self.next = self.next.max(oldest);
         taken
     }
@@ -130,55 +140,73 @@ impl Sequence {
     pub fn settle(&mut self, oldest: u32) -> Taken {
         let mut taken = Taken::default();
         self.skip_to(oldest);
-        while let Some(first) = self.held.first_entry() {
+        self.release(&mut taken, |number, next| number <= next);
+        taken
+    }
+
+    /// Hands out the first of the messages held as long as its number and the one that comes next say
+    /// that it waits for nothing.
+    fn release(&mut self, taken: &mut Taken, is_ready: impl Fn(u32, u32) -> bool) {
+        let Some(ahead) = &mut self.ahead else { return };
+        while let Some(first) = ahead.held.first_entry() {
             let number = *first.key();
-            if number > self.next {
+            if !is_ready(number, self.next) {
                 break;
             }
             taken.arrived.push((number, first.remove()));
             self.next = self.next.max(number.saturating_add(1));
         }
-        taken
+        self.tidy();
     }
 
     fn contains(&self, number: u32) -> bool {
-        number < self.next
-            || self
-                .runs
-                .iter()
-                .any(|&(first, last)| first <= number && number <= last)
+        let mut runs = self.ahead.iter().flat_map(|ahead| &ahead.runs);
+        number < self.next || runs.any(|&(first, last)| first <= number && number <= last)
     }
 
     /// Marks a message that is not contained yet; false if that would need too much memory.
     fn insert(&mut self, number: u32, most_runs: usize) -> bool {
-        let at = self.runs.partition_point(|&(_, last)| last < number);
-        let extends_left = at > 0 && self.runs[at - 1].1 + 1 == number;
-        let extends_right = self.runs.get(at).is_some_and(|run| run.0 - 1 == number);
+        if number == self.next {
+            self.skip_to(number.saturating_add(1));
+            return true;
+        }
+        let runs = &mut self.ahead.get_or_insert_default().runs;
+        let at = runs.partition_point(|&(_, last)| last < number);
+        let extends_left = at > 0 && runs[at - 1].1 + 1 == number;
+        let extends_right = runs.get(at).is_some_and(|run| run.0 - 1 == number);
+        let fits = extends_left || extends_right || runs.len() < most_runs;
         match (extends_left, extends_right) {
             (true, true) => {
-                self.runs[at - 1].1 = self.runs[at].1;
-                self.runs.remove(at);
+                runs[at - 1].1 = runs[at].1;
+                runs.remove(at);
             }
-            (true, false) => self.runs[at - 1].1 = number,
-            (false, true) => self.runs[at].0 = number,
-            (false, false) if number == self.next => self.next = number.saturating_add(1),
-            (false, false) if self.runs.len() < most_runs => self.runs.insert(at, (number, number)),
-            (false, false) => return false,
+            (true, false) => runs[at - 1].1 = number,
+            (false, true) => runs[at].0 = number,
+            (false, false) if fits => runs.insert(at, (number, number)),
+            (false, false) => {}
         }
-        self.skip_to(self.next);
-        true
+        self.tidy();
+        fits
     }
 
     /// Counts everything before `oldest` as taken.
     fn skip_to(&mut self, oldest: u32) {
         self.next = self.next.max(oldest);
-        while let Some(&(first, last)) = self.runs.first() {
+        let Some(ahead) = &mut self.ahead else { return };
+        while let Some(&(first, last)) = ahead.runs.first() {
             if first > self.next {
                 break;
             }
             self.next = self.next.max(last.saturating_add(1));
-            self.runs.remove(0);
+            ahead.runs.remove(0);
         }
+        self.tidy();
+    }
+
+    /// Gives the memory back that is not needed any more.
+    fn tidy(&mut self) {
+        self.ahead
+            .take_if(|ahead| ahead.runs.is_empty() && ahead.held.is_empty());
     }
 }
 

@@ -29,6 +29,7 @@ pub use notice::{Arrival, MessageId, Notice, Notices};
 pub use options::Options;
 
 use crate::incarnation::Incarnation;
+use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use inbox::{Inbox, Taken};
@@ -48,7 +49,8 @@ pub struct Reliable {
     /// The number of the last message to each robot.
     last_direct: BTreeMap<RobotId, u32>,
     outbox: Outbox,
-    inboxes: BTreeMap<RobotId, Inbox>,
+    /// Boxed, since a node of the map has room for eleven, and most robots hear few.
+    inboxes: BTreeMap<RobotId, Box<Inbox>>,
 }
 
 impl Reliable {

@@ -1,10 +1,11 @@
 //! The armed timers of one robot.
 
+use smallvec::SmallVec;
 use starl_core::{Time, TimerKey};
 
-/// Timers by the simulator's time; those due first are last, ready to be taken.
+/// Timers by the simulator's time; those due first are last, ready to be taken. Most robots have one.
 #[derive(Clone, Debug, Default)]
-pub struct Timers(Vec<(Time, TimerKey)>);
+pub struct Timers(SmallVec<[(Time, TimerKey); 1]>);
 
 impl Timers {
     /// Arms a timer, or moves it if it is armed.
@@ -16,7 +17,7 @@ impl Timers {
 
     /// Forgets a timer.
     pub fn cancel(&mut self, key: TimerKey) {
-        self.0.retain(|&(_, armed)| armed != key);
+        self.0.retain(|&mut (_, armed)| armed != key);
     }
 
     /// Forgets all.

@@ -224,8 +224,9 @@ pub static BUILTINS: &[Builtin] = &[
     }),
     effect("fail", &[Shape::Text], None, telling::fail),
     effect("stop", &[], None, |host, _| {
-        for bound in host.bound.iter_mut().flatten() {
-            bound.halt(host.context.robot);
+        for seat in host.bound.iter_mut().flatten() {
+            seat.is_stirred = true;
+            seat.bound.halt(host.context.robot);
         }
         host.context.robot.halt();
         Ok(1)

@@ -3,7 +3,7 @@
 //! A program knows its messages by numbers of its own, which count from 1 whatever their receivers:
 //! those of the protocol count for each receiver by itself. Only messages on their way are remembered.
 
-use super::{Arguments, Context, Event, Instance, Kind, Member, Report, method, query};
+use super::{Arguments, Attention, Context, Event, Instance, Kind, Member, Report, method, query};
 use crate::machine::HostCall;
 use crate::robot::arguments::Called;
 use crate::robot::shape::{ORDERS, Shape};
@@ -109,6 +109,8 @@ impl<C: Channel> Kind for Sender<C> {
     const MEMBERS: &'static [Member<Sender<C>>] = C::MEMBERS;
 
     const EVENTS: &'static [Event] = C::EVENTS;
+
+    const ATTENTION: Attention = Attention::NONE;
 
     fn bind(
         instance: &Instance,

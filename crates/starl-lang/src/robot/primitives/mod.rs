@@ -16,7 +16,7 @@ mod registration;
 mod shared;
 mod watch;
 
-pub use attended::Attended;
+pub use attended::{Attended, Seat};
 
 use super::arguments::{Arguments, Called};
 use super::code::Instance;
@@ -28,10 +28,10 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::fmt;
 use dyn_clone::DynClone;
-use starl_core::{Primitive, Random, Robot};
+use starl_core::{Input, Primitive, Random, Robot};
 
 /// The place of a primitive on a robot: none until it is bound.
-pub type Slot = Option<Box<dyn Bound>>;
+pub type Slot = Option<Seat>;
 
 /// A method or flag of a kind of primitive.
 pub struct Member<P: 'static> {
@@ -90,6 +90,38 @@ impl Needs {
     }
 }
 
+/// Which of the inputs that come all the time a kind does something at. A fleet is large and most
+/// primitives wait for messages: those that have nothing to do are not looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Attention {
+    /// Position estimates.
+    pub estimates: bool,
+    /// Activations.
+    pub activations: bool,
+}
+
+impl Attention {
+    /// All of them.
+    pub const FULL: Attention = Attention {
+        estimates: true,
+        activations: true,
+    };
+    /// None of them.
+    pub const NONE: Attention = Attention {
+        estimates: false,
+        activations: false,
+    };
+
+    /// Whether it does something at this input.
+    pub fn is_paid_to(self, input: &Input) -> bool {
+        match input {
+            Input::Estimate => self.estimates,
+            Input::Activate => self.activations,
+            _ => true,
+        }
+    }
+}
+
 /// A kind of primitive.
 pub trait Kind: Clone + fmt::Debug + Send + Sync + Sized + 'static {
     /// Its name.
@@ -102,6 +134,8 @@ pub trait Kind: Clone + fmt::Debug + Send + Sync + Sized + 'static {
     const EVENTS: &'static [Event] = &[];
     /// What it shares with the program's other primitives.
     const NEEDS: Needs = Needs::NOTHING;
+    /// What it must be shown.
+    const ATTENTION: Attention = Attention::FULL;
 
     /// Binds an instance.
     fn bind(
@@ -191,6 +225,8 @@ pub struct Entry {
     pub events: &'static [Event],
     /// What it shares with the program's other primitives.
     pub needs: Needs,
+    /// What it must be shown.
+    pub attention: Attention,
     /// Binds an instance.
     pub bind: Bind,
 }
@@ -209,6 +245,7 @@ impl Entry {
             member: |index| P::MEMBERS.get(index).map(|member| &member.signature),
             events: P::EVENTS,
             needs: P::NEEDS,
+            attention: P::ATTENTION,
             bind: |instance, context, arguments| {
                 Ok(Box::new(P::bind(instance, context, arguments)?))
             },

@@ -1,6 +1,6 @@
 //! ReachAvoid in programs.
 
-use super::{Arguments, Context, Instance, Kind, Member, method, query};
+use super::{Arguments, Attention, Context, Instance, Kind, Member, method, query};
 use crate::robot::shape::{PLANNERS, Shape};
 use alloc::borrow::Cow;
 use starl_core::{Primitive, Random, Robot};
@@ -64,6 +64,11 @@ impl Kind for ReachAvoid {
             Ok(0)
         }),
     ];
+
+    const ATTENTION: Attention = Attention {
+        activations: false,
+        ..Attention::FULL
+    };
 
     fn bind(
         instance: &Instance,

@@ -2,7 +2,7 @@
 //!
 //! There is one detector for all primitives of a program; any number of these look at it.
 
-use super::{Arguments, Context, Event, Instance, Kind, Member, Needs, Report, query};
+use super::{Arguments, Attention, Context, Event, Instance, Kind, Member, Needs, Report, query};
 use crate::robot::shape::Shape;
 use crate::robot::workbench::robots;
 use alloc::borrow::Cow;
@@ -51,6 +51,8 @@ impl Kind for Watch {
         detector: true,
         ..Needs::NOTHING
     };
+
+    const ATTENTION: Attention = Attention::NONE;
 
     fn bind(
         instance: &Instance,
