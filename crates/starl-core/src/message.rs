@@ -27,9 +27,15 @@ impl Message {
 
 /// Encodes a value in postcard's format: compact, and the same on every target.
 pub fn encode<T: Serialize>(value: &T) -> Payload {
+    encode_within(value)
+}
+
+/// The same with room for so many bytes in place.
+pub(crate) fn encode_within<const N: usize, T: Serialize>(value: &T) -> SmallVec<[u8; N]> {
     // The only error postcard reports for an unbounded buffer is a type without a known length,
     // which no message of ours has.
-    postcard::serialize_with_flavor(value, Buffer::default()).expect("a message has a known length")
+    postcard::serialize_with_flavor(value, Buffer::<N>::default())
+        .expect("a message has a known length")
 }
 
 /// Decodes what [`encode`] made; none where the bytes are not a `T`, or are more than one.
@@ -41,10 +47,10 @@ pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
 }
 
 #[derive(Default)]
-struct Buffer(Payload);
+struct Buffer<const N: usize>(SmallVec<[u8; N]>);
 
-impl postcard::ser_flavors::Flavor for Buffer {
-    type Output = Payload;
+impl<const N: usize> postcard::ser_flavors::Flavor for Buffer<N> {
+    type Output = SmallVec<[u8; N]>;
 
     fn try_extend(&mut self, data: &[u8]) -> postcard::Result<()> {
         self.0.extend_from_slice(data);
@@ -56,7 +62,7 @@ impl postcard::ser_flavors::Flavor for Buffer {
         Ok(())
     }
 
-    fn finalize(self) -> postcard::Result<Payload> {
+    fn finalize(self) -> postcard::Result<SmallVec<[u8; N]>> {
         Ok(self.0)
     }
 }
