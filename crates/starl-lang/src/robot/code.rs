@@ -5,6 +5,7 @@ use super::joint::{Joiner, Joint};
 use super::messages::Inbox;
 use super::parameter;
 use super::primitives::{KINDS, Needs};
+use super::services::Services;
 use super::shape::Declared;
 use crate::machine::{Bytecode, Import, LoadError, Program, RuntimeError, State};
 use alloc::format;
@@ -20,8 +21,10 @@ struct Inner {
     program: Program,
     joints: Vec<Joint>,
     instances: Vec<Instance>,
-    /// What its primitives have in common.
+    /// What its primitives need in common.
     needs: Needs,
+    /// The same, made once for all robots: it takes longer to make than to copy.
+    services: Services,
     inbox: Inbox,
     /// The parameters' defaults; or what went wrong when they were worked out.
     initial: Result<State, String>,
@@ -58,6 +61,7 @@ impl Code {
         Ok(Code(Arc::new(Inner {
             initial: initial.map_err(|error| place(&program, &error)),
             joints: joiner.finish(),
+            services: Services::of(&program.bytecode().name, needs(&instances)),
             needs: needs(&instances),
             program,
             instances,
@@ -98,7 +102,12 @@ impl Code {
         (0..count).filter_map(|action| self.group(action))
     }
 
-    /// What the program's primitives have in common.
+    /// What the program's primitives have in common, not started.
+    pub(super) fn services(&self) -> &Services {
+        &self.0.services
+    }
+
+    /// What the program's primitives need in common.
     pub(super) fn needs(&self) -> Needs {
         self.0.needs
     }

@@ -22,14 +22,13 @@ pub struct Services {
 }
 
 impl Services {
-    /// What a program needs, started.
-    pub fn start(code: &Code, robot: &mut Robot<'_>) -> Services {
+    /// What a program of this name needs, not started.
+    pub fn of(program: &str, needs: Needs) -> Services {
         let Needs {
             memory,
             detector,
             atomic,
-        } = code.needs();
-        let program = &code.program().bytecode().name;
+        } = needs;
         let memory = memory.then(|| {
             let options = shared_memory::Options::default();
             Box::new(SharedMemory::new(&format!("{program}/shared"), options))
@@ -39,11 +38,16 @@ impl Services {
             Box::new(FailureDetector::new(&detector_name(program), options))
         });
         let atomic = atomic.then(|| Box::new(Atomic::new(program)));
-        let mut services = Services {
+        Services {
             memory,
             atomic,
             detector,
-        };
+        }
+    }
+
+    /// What a program needs, started.
+    pub fn start(code: &Code, robot: &mut Robot<'_>) -> Services {
+        let mut services = code.services().clone();
         services.primitives(code, &mut |primitive| {
             primitive.handle(robot, &Input::Start)
         });
