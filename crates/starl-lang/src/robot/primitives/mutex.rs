@@ -61,9 +61,15 @@ impl Kind for Mutex {
             &[Shape::Set(&Shape::Text)],
             Shape::Bool,
             |mutex, _, call| {
-                let resources = texts(&mut Arguments::after_instance(call));
-                call.set_bool(0, mutex.holds(&resources));
-                Ok(1 + resources.len() as u64)
+                // Programs ask at every activation: the set is not made anew for that.
+                let arguments = &mut Arguments::after_instance(call);
+                let (mut count, mut held) = (0, true);
+                for resource in names(arguments) {
+                    count += 1;
+                    held &= mutex.held().contains(resource);
+                }
+                call.set_bool(0, held);
+                Ok(1 + count)
             },
         ),
         query("waiting", &[], Shape::Bool, |mutex, _, call| {
@@ -131,9 +137,14 @@ impl Kind for Mutex {
 
 /// A set of texts.
 fn texts(arguments: &mut Arguments<'_>) -> Resources {
+    names(arguments).map(Box::from).collect()
+}
+
+/// The texts of a set in their order.
+fn names<'a>(arguments: &mut Arguments<'a>) -> impl Iterator<Item = &'a str> + use<'a> {
     let elements = arguments.object().list().into_iter().flat_map(List::iter);
     let texts = elements.filter_map(|block| block.objects.first());
-    texts.map(|text| Box::from(text.text())).collect()
+    texts.map(|text| text.text())
 }
 
 /// A set of robots.
