@@ -156,7 +156,9 @@ impl Simulation {
             self.raise_obstacles();
         }
         self.shared.wind = wind(&self.shared.scenario, window.from);
-        self.shared.grid.rebuild(&self.shared.bodies);
+        if self.have_moved() {
+            self.shared.grid.rebuild(&self.shared.bodies);
+        }
         self.calendar
             .turn(self.shared.bodies.len(), &mut self.shared.inboxes);
         self.act(window);
@@ -165,6 +167,12 @@ impl Simulation {
         self.route(window, step);
         self.now = window.to;
         self.collect();
+    }
+
+    /// Whether some body is not where the spatial index has it: where it was a step ago.
+    fn have_moved(&self) -> bool {
+        let mut places = self.shared.bodies.iter().zip(&self.bodies);
+        self.now == Time::ZERO || places.any(|(now, before)| now.position != before.position)
     }
 
     fn act(&mut self, window: Window) {
