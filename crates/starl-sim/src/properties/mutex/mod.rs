@@ -95,7 +95,7 @@ impl Mutex {
             }
             _ => {}
         }
-        self.next_look = Time::ZERO;
+        self.look_after(at);
     }
 
     /// A robot has forgotten what it held and asked for.
@@ -103,7 +103,7 @@ impl Mutex {
         for locks in self.locks.values_mut() {
             locks.forget(robot, at);
         }
-        self.next_look = Time::ZERO;
+        self.look_after(at);
     }
 
     /// A robot's state was overwritten, perhaps before its last reports.
@@ -113,7 +113,12 @@ impl Mutex {
         for locks in self.locks.values_mut() {
             locks.doubt(robot, at);
         }
-        self.next_look = Time::ZERO;
+        self.look_after(at);
+    }
+
+    /// Something has changed at this time; what was overdue then has been reported.
+    fn look_after(&mut self, at: Time) {
+        self.next_look = at;
     }
 
     /// Time has come to `now`.

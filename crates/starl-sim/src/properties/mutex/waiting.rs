@@ -51,8 +51,8 @@ impl Locks {
         if self.waiting.is_empty() {
             return;
         }
-        let mut reached: BTreeSet<Arc<str>> = resources.iter().map(|&name| name.into()).collect();
-        for robot in self.group(&mut reached) {
+        let group = self.group(&mut resources.iter().copied().collect());
+        for robot in group {
             if let Some(waiting) = self.waiting.get_mut(&robot) {
                 waiting.changed = at;
             }
@@ -87,12 +87,14 @@ impl Locks {
         let well_since = well_since();
         let mut left: BTreeSet<RobotId> = self.waiting.keys().copied().collect();
         while let Some(first) = left.first().copied() {
-            let mut reached = self.waiting[&first].resources.clone();
+            let resources = self.waiting[&first].resources.iter();
+            let mut reached: BTreeSet<&str> = resources.map(|name| &**name).collect();
             let group = self.group(&mut reached);
+            let is_held = reached.iter().any(|resource| self.is_held(resource));
             left.retain(|robot| !group.contains(robot));
             left.remove(&first);
             self.look_for_overtaken(&group, well_since, found);
-            if reached.iter().any(|resource| self.is_held(resource)) {
+            if is_held {
                 continue;
             }
             let changes = group.iter().map(|robot| self.waiting[robot].changed);
@@ -171,13 +173,19 @@ impl Locks {
 
     /// All whose requests overlap with these resources, directly or through others; the resources become all
     /// that they ask for.
-    fn group(&self, resources: &mut BTreeSet<Arc<str>>) -> Vec<RobotId> {
+    fn group<'a>(&'a self, resources: &mut BTreeSet<&'a str>) -> Vec<RobotId> {
         let mut group = Vec::new();
         loop {
             let before = group.len();
             for (&robot, waiting) in &self.waiting {
-                if !group.contains(&robot) && !waiting.resources.is_disjoint(resources) {
-                    resources.extend(waiting.resources.iter().cloned());
+                let overlaps = || {
+                    waiting
+                        .resources
+                        .iter()
+                        .any(|name| resources.contains(&**name))
+                };
+                if !group.contains(&robot) && overlaps() {
+                    resources.extend(waiting.resources.iter().map(|name| &**name));
                     group.push(robot);
                 }
             }
