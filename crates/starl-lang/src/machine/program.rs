@@ -229,6 +229,8 @@ pub struct Program {
     pub(in crate::machine) bytecode: Bytecode,
     /// The first instruction of each function.
     pub(in crate::machine) entries: Vec<u32>,
+    /// The most object registers that a function has: all beyond them are empty.
+    pub(in crate::machine) object_registers: usize,
     /// The layouts of each function's arguments and results.
     pub(in crate::machine) layouts: Vec<(Layout, Layout)>,
     pub(in crate::machine) parts: Vec<Parts>,
@@ -254,7 +256,9 @@ impl Program {
             .iter()
             .map(resolve)
             .collect::<Result<_, _>>()?;
+        let object_registers = bytecode.functions.iter().map(|f| f.object_registers);
         Ok(Program {
+            object_registers: object_registers.max().unwrap_or(0).into(),
             entries: bytecode.functions.iter().map(|f| f.entry).collect(),
             texts: bytecode
                 .texts

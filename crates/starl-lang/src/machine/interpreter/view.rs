@@ -173,7 +173,9 @@ impl<'a> View<'a> {
     #[cold]
     fn count_afresh(&mut self) -> Result<u64, Fault> {
         let end = (self.object_base + OBJECT_WINDOW).min(self.objects.len());
-        let running = self.objects.get(..end).unwrap_or_default();
+        // The rest of the window is empty.
+        let used = (self.object_base + self.program.object_registers).min(end);
+        let running = self.objects.get(..used).unwrap_or_default();
         let all = running.iter().chain(self.state.iter());
         let bytes: usize = all.map(Object::bytes).sum();
         match self.meter.budget.checked_sub(bytes) {

@@ -8,15 +8,18 @@ use crate::machine::types::{Layout, Parts};
 use crate::machine::value::list::List;
 use alloc::boxed::Box;
 use alloc::string::String;
-use alloc::sync::Arc;
 use core::cmp::Ordering;
 use serde::{Deserialize, Serialize};
 use starl_core::{Area, Digest, Shape};
+use triomphe::Arc;
 
 /// Bytes of a scalar, or of a reference to an object.
 pub const WORD: usize = 8;
 
 /// A text, collection, area or obstacles; one word.
+///
+/// The counted reference has no weak ones, so that to see that nobody else holds the body, as every
+/// change of an element does, is to look at a number and takes no atomic exchange.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Object(Option<Arc<Body>>);
 
