@@ -1,8 +1,8 @@
 //! Primitives between the host and the program: what they report is not lost, and those that have nothing to
 //! do are left alone.
 //!
-//! Invariant: a primitive that has something to report has been called by the program or has taken an input
-//! since its reports were taken down.
+//! Invariant: a primitive that has something to report has taken an input, has been called by the program, or
+//! was corrupted since its reports were taken down.
 
 use super::{Bound, KINDS, Report};
 use crate::robot::code::Instance;
@@ -18,7 +18,7 @@ pub struct Seat {
     pub bound: Box<dyn Bound>,
     /// Where it listens; nowhere, if it has no state machine of its own.
     pub port: Option<Port>,
-    /// Whether the program may have called it since its reports were taken down.
+    /// Whether the program may have called it, or a fault changed it, since its reports were taken down.
     pub is_stirred: bool,
 }
 
