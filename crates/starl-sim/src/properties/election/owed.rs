@@ -2,7 +2,11 @@
 
 use super::{AGREEMENT, Election, Instance, Member, PROGRESS, Shown, violation};
 use crate::properties::{Violation, robot_list};
-use starl_core::{Port, RobotId, Time};
+use starl_core::{Duration, Port, RobotId, Time};
+
+/// Robots cannot tell whether one began to vote before another started, or so shortly after: their clocks drift,
+/// and messages take their time.
+const AT_ONCE: Duration = Duration::from_seconds(1);
 
 impl Election {
     /// Judges what is due before `now`.
@@ -129,6 +133,11 @@ impl Election {
             voting.iter().filter(remembers).count() + majority > count
         };
         let join = learning.iter().filter(learns).count();
-        learning.len() >= majority || voting.len() + join >= majority
+        let is_surely_later = |member: &&&Member| {
+            let votes_at_once = |at: Time| at <= since + AT_ONCE;
+            !member.votes_since.is_some_and(votes_at_once)
+        };
+        let recovering = learning.iter().filter(is_surely_later).count();
+        recovering >= majority || voting.len() + join >= majority
     }
 }
