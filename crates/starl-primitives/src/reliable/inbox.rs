@@ -121,11 +121,10 @@ impl Sequence {
             ..Taken::default()
         };
         let held = self.ahead.as_ref().map_or(0, |ahead| ahead.held.len());
-        if taken.again {
-        } else if number == self.next {
+        if number == self.next {
             taken.arrived.push((number, content));
             self.next = number.saturating_add(1);
-        } else if held < most_gaps as usize {
+        } else if !taken.again && held < most_gaps as usize {
             let ahead = self.ahead.get_or_insert_default();
             ahead.held.insert(number, content);
         }
