@@ -67,7 +67,7 @@ fn explore(target: &str, arguments: &ExploreArguments) -> Result<ExitCode, Failu
     search.set_doubting(arguments.doubt);
     let is_interrupted = || stop.load(Ordering::Relaxed);
     let is_late = || begun.elapsed().as_secs_f64() >= within.seconds();
-    while search.advance(STRIDE).is_none() && !is_interrupted() && !is_late() {
+    while !is_interrupted() && !is_late() && search.advance(STRIDE).is_none() {
         progress.advance(&search.report());
     }
     progress.clear();
