@@ -57,7 +57,7 @@ faults: $(STARL)
 	$(STARL) test race formation formation-space line intersection search flocking maze auction traffic-signs light-painting \
 		--seeds 3 --out target/faults
 
-# The same a million times; goes on where it was stopped. Not part of `make test`, since it takes hours.
+# The same a million times; goes on where it was stopped. Not part of `make test`, since it takes ten minutes and more.
 million: $(STARL)
 	tools/million.sh $(STARL) target/million
 
