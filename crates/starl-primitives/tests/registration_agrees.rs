@@ -148,3 +148,24 @@ fn who_waits_for_long_is_told() {
     assert!(list(&world, 1).is_some() || failed);
     checked(&world);
 }
+
+#[test]
+fn a_list_of_one_that_has_left_since_is_not_waited_for() {
+    let reorders = Wire {
+        delay_ms: (1, 300),
+        ..Wire::perfect()
+    };
+    for seed in 0..20 {
+        let make = Registrar::boxed(false, Options::default());
+        let mut world = World::new(2, seed, reorders.clone(), None, make);
+        (0..2).for_each(|robot| world.command(robot, register()));
+        while world.events("propose").is_empty() {
+            world.run_for(Duration::from_millis(1));
+        }
+        let coordinator = world.events("propose")[0].1.index();
+        world.command(coordinator, unregister());
+        world.run_for(Duration::from_seconds(3));
+        let other = 1 - coordinator;
+        assert_eq!(list(&world, other), Some(vec![other as u32]), "seed {seed}");
+    }
+}

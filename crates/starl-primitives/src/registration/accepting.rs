@@ -27,6 +27,13 @@ impl Registration {
         if Some(named) != ticket {
             return self.deny(robot, Destination::Robot(from), named);
         }
+        if let Some(&ticket) = self.ended.get(&from)
+            && view.roll.get(&from) == Some(&ticket)
+        {
+            // It has left since, and would not say that all have accepted.
+            let over = Packet::Over { ticket };
+            return robot.transmit(Destination::Robot(from), self.port, &over);
+        }
         self.hear_time(view.id.time);
         self.shunned.remove(&from);
         self.hear_of(robot, &view.roll);
