@@ -119,42 +119,41 @@ fn equal_random_streams_give_equal_faults() {
     assert_eq!(corrupted(), corrupted());
 }
 
-/// Programs with one primitive each that robots use.
-const PRIMITIVES: [&str; 8] = [
-    "mux = Mutex(\"x\")
-use()
+/// Takes and gives back.
+const TAKING_TURNS: &str = "use()
     pre not mux.waiting and not mux.held({\"a\"})
     eff mux.acquire({\"a\"})
 give_back()
     pre mux.held({\"a\"})
-    eff mux.release({\"a\"})",
-    "mux = Mutex(\"x\", algorithm = MutexAlgorithm.quorum)
-use()
-    pre not mux.waiting and not mux.held({\"a\"})
-    eff mux.acquire({\"a\"})
-give_back()
-    pre mux.held({\"a\"})
-    eff mux.release({\"a\"})",
-    "gate = Barrier(\"x\")
-use()
-    eff gate.arrive()",
-    "who = Registration(\"x\")
-use()
-    eff who.register()",
-    "chief = LeaderElection(\"x\")
-use()
-    eff chief.elect()",
-    "chief = LeaderElection(\"x\", algorithm = ElectionAlgorithm.ballots)
-use()
-    eff chief.elect()",
-    "message Hello(n: Int)
-radio = Broadcast(order = Order.causal)
-use()
-    eff radio.broadcast(Hello(1))",
-    "motion = ReachAvoid()
-use()
+    eff mux.release({\"a\"})";
+
+/// Primitives, and how robots use each in a program that has no other.
+const PRIMITIVES: [(&str, &str); 8] = [
+    ("mux = Mutex(\"x\")", TAKING_TURNS),
+    (
+        "mux = Mutex(\"x\", algorithm = MutexAlgorithm.quorum)",
+        TAKING_TURNS,
+    ),
+    ("gate = Barrier(\"x\")", "use()\n    eff gate.arrive()"),
+    ("who = Registration(\"x\")", "use()\n    eff who.register()"),
+    (
+        "chief = LeaderElection(\"x\")",
+        "use()\n    eff chief.elect()",
+    ),
+    (
+        "chief = LeaderElection(\"x\", algorithm = ElectionAlgorithm.ballots)",
+        "use()\n    eff chief.elect()",
+    ),
+    (
+        "message Hello(n: Int)\nradio = Broadcast(order = Order.causal)",
+        "use()\n    eff radio.broadcast(Hello(1))",
+    ),
+    (
+        "motion = ReachAvoid()",
+        "use()
     pre not motion.active
     eff motion.reach_avoid(Point(3.0, 4.0), obstacles())",
+    ),
 ];
 
 /// What a program without variables shows of its primitives.
@@ -168,8 +167,8 @@ fn primitives(world: &World) -> String {
 
 #[test]
 fn primitives_are_overwritten_and_the_program_runs_on() {
-    for primitive in PRIMITIVES {
-        let code = compile(&format!("program One\n{primitive}\n"));
+    for (primitive, actions) in PRIMITIVES {
+        let code = compile(&format!("program One\n{primitive}\n{actions}\n"));
         let mut world = World::of(&code, 3);
         let mut random = Random::keyed(4, &[]);
         for _ in 0..20 {

@@ -3,7 +3,7 @@
 
 mod harness;
 
-use harness::sharer::{Sharer, all, memory, read, read_of, write, write_own};
+use harness::sharer::{Sharer, all, busy_world, memory, read, read_of, write, write_own};
 use harness::{Wire, World};
 use starl_core::Duration;
 use starl_primitives::shared_memory::Options;
@@ -11,14 +11,7 @@ use starl_primitives::shared_memory::Options;
 const PERIOD: Duration = Duration::from_millis(100);
 
 fn corrupted(seed: u64, wire: Wire, whom: &[usize]) -> World {
-    let make = Sharer::boxed(Options::default());
-    let mut world = World::new(4, seed, wire, Some(PERIOD), make);
-    for robot in 0..4 {
-        for variable in 0..8 {
-            world.command(robot, write(variable, robot as u32));
-            world.command(robot, write_own(variable, robot as u32));
-        }
-    }
+    let mut world = busy_world(seed, wire, PERIOD);
     world.run_for(Duration::from_seconds(10));
     for _ in 0..3 {
         for &robot in whom {

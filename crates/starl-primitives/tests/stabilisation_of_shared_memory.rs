@@ -2,10 +2,9 @@
 
 mod harness;
 
-use harness::sharer::{Sharer, memory, write, write_own};
+use harness::sharer::{busy_world, memory};
 use harness::{Wire, World};
 use starl_core::Duration;
-use starl_primitives::shared_memory::Options;
 
 const PERIOD: Duration = Duration::from_millis(100);
 
@@ -22,14 +21,7 @@ fn agree(world: &World) -> bool {
 
 /// How long after the corruption of these robots all agree, and stay so for 10 s; seconds.
 fn time(seed: u64, wire: Wire, whom: &[usize]) -> f64 {
-    let make = Sharer::boxed(Options::default());
-    let mut world = World::new(4, seed, wire, Some(PERIOD), make);
-    for robot in 0..4 {
-        for variable in 0..8 {
-            world.command(robot, write(variable, robot as u32));
-            world.command(robot, write_own(variable, robot as u32));
-        }
-    }
+    let mut world = busy_world(seed, wire, PERIOD);
     world.run_for(Duration::from_seconds(20));
     whom.iter().for_each(|&robot| world.corrupt(robot));
     let at = world.now;

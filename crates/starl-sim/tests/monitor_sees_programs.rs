@@ -1,11 +1,14 @@
 //! A monitor judges what programs hold and where robots truly are, after every step; what it finds is
 //! told like any other violation.
 
+mod engine_support;
+
+use engine_support::scenario;
 use starl_core::event::Name;
-use starl_core::{Duration, Event, Point, Pose, Program, Robot, Time};
+use starl_core::{Duration, Event, Program, Robot, Time};
 use starl_sim::properties::{Monitor, Violation, Witness};
-use starl_sim::scenario::{Fault, FaultKind, Fleet, Goal, Group, SensorSuite};
-use starl_sim::{Outcome, Run, Scenario};
+use starl_sim::scenario::{Fault, FaultKind};
+use starl_sim::{Outcome, Run};
 use std::any::Any;
 
 /// Counts its activations; the robots' number 1 fails at its third.
@@ -67,31 +70,9 @@ impl Monitor for Limit {
     }
 }
 
-fn pose(x: f64) -> Pose {
-    Pose::level(Point::planar(x, 0.0), 0.0)
-}
-
 fn run(limit: u32) -> Run {
-    let group = Group {
-        name: "create".into(),
-        numbered: true,
-        first_number: 0,
-        model: starl_motion::models::by_name("create").unwrap(),
-        program: "counter".into(),
-        parameters: Default::default(),
-        starts: vec![pose(0.0), pose(2.0)],
-        control_period: Duration::from_millis(100),
-        sensors: SensorSuite::default(),
-        clock: Default::default(),
-    };
-    let mut scenario = Scenario {
-        fleet: Fleet {
-            groups: vec![group],
-        },
-        duration: Duration::from_seconds(1),
-        goal: Goal::Duration,
-        ..Scenario::default()
-    };
+    let mut scenario = scenario("create", &[(0.0, 0.0), (2.0, 0.0)]);
+    scenario.duration = Duration::from_seconds(1);
     scenario.faults.schedule = vec![Fault {
         at: Time(550_000_000),
         kind: FaultKind::Crash(vec![starl_core::RobotId(0)]),

@@ -1,11 +1,14 @@
 //! A witness tells for how long nothing has gone wrong: since the last fault began or was mended, and not while
 //! something lasts that robots cannot tell.
 
+mod engine_support;
+
+use engine_support::scenario;
 use starl_core::event::Name;
-use starl_core::{Duration, Point, Pose, Program, Robot, RobotId, Time};
+use starl_core::{Duration, Program, Robot, RobotId, Time};
+use starl_sim::Run;
 use starl_sim::properties::{Monitor, Violation, Witness};
-use starl_sim::scenario::{Fault, FaultKind, Fleet, Goal, Group, SensorSuite};
-use starl_sim::{Run, Scenario};
+use starl_sim::scenario::{Fault, FaultKind};
 use std::sync::{Arc, Mutex};
 
 #[derive(Clone)]
@@ -35,28 +38,8 @@ impl Monitor for Watch {
 }
 
 fn calm_times(faults: &[(u64, FaultKind)]) -> Vec<(u64, u64)> {
-    let group = Group {
-        name: "create".into(),
-        numbered: true,
-        first_number: 0,
-        model: starl_motion::models::by_name("create").unwrap(),
-        program: "idle".into(),
-        parameters: Default::default(),
-        starts: [0.0, 2.0]
-            .map(|x| Pose::level(Point::planar(x, 0.0), 0.0))
-            .to_vec(),
-        control_period: Duration::from_millis(100),
-        sensors: SensorSuite::default(),
-        clock: Default::default(),
-    };
-    let mut scenario = Scenario {
-        fleet: Fleet {
-            groups: vec![group],
-        },
-        duration: Duration::from_seconds(1),
-        goal: Goal::Duration,
-        ..Scenario::default()
-    };
+    let mut scenario = scenario("create", &[(0.0, 0.0), (2.0, 0.0)]);
+    scenario.duration = Duration::from_seconds(1);
     scenario.physics.step = Duration::from_millis(50);
     scenario.faults.schedule = faults
         .iter()

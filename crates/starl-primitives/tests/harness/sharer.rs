@@ -1,7 +1,7 @@
 //! A program that writes shared memory as a test tells it to.
 
-use super::{World, command};
-use starl_core::{Primitive, Program, Random, Robot, RobotId, TimerKey};
+use super::{Wire, World, command};
+use starl_core::{Duration, Primitive, Program, Random, Robot, RobotId, TimerKey};
 use starl_primitives::SharedMemory;
 use starl_primitives::shared_memory::Options;
 use std::any::Any;
@@ -38,6 +38,20 @@ pub fn write(variable: u16, value: u32) -> TimerKey {
 /// Tells a sharer to write a value to its element of the array `x0`, `x1`, ...
 pub fn write_own(array: u16, value: u32) -> TimerKey {
     write(array | OWN, value)
+}
+
+/// Four robots with activations at this period, each of which has written each of eight variables and its element
+/// of each of eight arrays.
+pub fn busy_world(seed: u64, wire: Wire, period: Duration) -> World {
+    let make = Sharer::boxed(Options::default());
+    let mut world = World::new(4, seed, wire, Some(period), make);
+    for robot in 0..4 {
+        for variable in 0..8 {
+            world.command(robot, write(variable, robot as u32));
+            world.command(robot, write_own(variable, robot as u32));
+        }
+    }
+    world
 }
 
 /// Tells a sharer to write this many variables, `x0`, `x1`, ..., each with its number as value.
