@@ -3,10 +3,10 @@
 
 mod harness;
 
-use harness::sharer::{Sharer, all, read, read_of, write, write_own};
+use harness::sharer::{Sharer, all, memory, read, read_of, write, write_own};
 use harness::{Wire, World};
 use starl_core::Duration;
-use starl_primitives::shared_memory::Options;
+use starl_primitives::shared_memory::{Options, Stamp};
 
 fn world(seed: u64, wire: Wire) -> World {
     World::new(3, seed, wire, None, Sharer::boxed(Options::default()))
@@ -127,5 +127,41 @@ fn writing_again_what_it_reads_after_a_restart_is_a_write() {
     world.run_for(Duration::from_seconds(10));
     for robot in 0..3 {
         assert_eq!(read_of(&world, robot, 0, 0), Some(1));
+    }
+}
+
+/// In both of its lives a robot whose clock is behind is told of the same reading of another clock, and goes on
+/// from there. The first life's write is known to one robot, which the second life does not hear.
+#[test]
+fn two_lives_that_go_on_from_one_reading_give_their_writes_two_stamps() {
+    let mut world = world(1, Wire::perfect());
+    world.clocks_ahead.insert(1, 3_600_000_000_000);
+    world.command(1, write(0, 1));
+    world.run_for(Duration::from_seconds(5));
+    world.crash(1);
+    let told = memory(&world, 2).stamp("x0");
+    let write_in_a_life = |world: &mut World, value| {
+        world.command(0, write(0, value));
+        memory(world, 0).stamp("x0").expect("it has just written")
+    };
+    world.join();
+    world.run_for(Duration::from_seconds(5));
+    world.wire.cut.extend([(0, 2), (2, 3), (3, 2)]);
+    let first = write_in_a_life(&mut world, 9);
+    world.run_for(Duration::from_seconds(1));
+    world.crash(0);
+    world.wire.cut.remove(&(0, 2));
+    world.wire.cut.extend([(0, 3), (3, 0)]);
+    world.start(0);
+    world.run_for(Duration::from_seconds(5));
+    assert_eq!(memory(&world, 0).stamp("x0"), told);
+    let second = write_in_a_life(&mut world, 2);
+    let clock = |stamp: Stamp| (stamp.time, stamp.count, stamp.writer);
+    assert_eq!(clock(first), clock(second));
+    assert_ne!(first, second);
+    world.wire.cut.clear();
+    world.run_for(Duration::from_seconds(20));
+    for robot in [0, 2, 3] {
+        assert_eq!(read(&world, robot, 0), Some(2));
     }
 }

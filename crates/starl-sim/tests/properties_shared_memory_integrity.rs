@@ -67,6 +67,19 @@ fn a_write_is_not_known_before_it_happens() {
 }
 
 #[test]
+fn two_values_with_one_stamp_are_reported() {
+    let mut story = one_write();
+    story.shows(1030, 1, "update", "x", (1000, 0, 5));
+    story.shows(1060, 0, "write", "x", (1000, 0, 6));
+    let verdict = story.verdict(10_000);
+    assert_only(&verdict, "shared_memory.integrity", 1060, &[0, 0]);
+    assert_eq!(
+        verdict[0].text,
+        "robot 0 gave two values in x one stamp: what robot 0 wrote at 1.000s by its clock (count 0)"
+    );
+}
+
+#[test]
 fn memories_that_were_corrupted_may_show_anything() {
     let mut story = one_write();
     story.fault(1010, Some(2), "corrupt state");

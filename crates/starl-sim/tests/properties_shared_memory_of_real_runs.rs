@@ -89,6 +89,7 @@ impl Naive {
             ("time", time.into()),
             ("count", 0u32.into()),
             ("writer", writer.into()),
+            ("incarnation", 0u32.into()),
             ("value", Value::Int(value.into())),
         ];
         robot.emit_primitive("shared_memory", NAIVE, name, fields);

@@ -20,6 +20,7 @@ impl SharedMemory {
             element.stamp.count = clock.count;
             if random.chance(0.5) {
                 element.stamp.writer = RobotId(random.bits());
+                element.stamp.incarnation = random.bits();
             }
             let length = random.below(LONGEST_VALUE);
             element.value = (0..length)

@@ -40,6 +40,7 @@ pub use error::WriteError;
 pub use options::Options;
 pub use stamp::Stamp;
 
+use crate::incarnation::Incarnation;
 use alloc::boxed::Box;
 use alloc::collections::{BTreeMap, BTreeSet};
 use causality::Held;
@@ -66,6 +67,7 @@ pub struct SharedMemory {
     port: Port,
     options: Options,
     clock: HybridClock,
+    incarnation: Incarnation,
     store: Store,
     /// What multi-writer variables hold before any write.
     initial: BTreeMap<Box<str>, Payload>,
@@ -93,6 +95,7 @@ impl SharedMemory {
             port: Port::named(name),
             options,
             clock: HybridClock::default(),
+            incarnation: Incarnation::default(),
             store: Store::default(),
             initial: BTreeMap::new(),
             initial_elements: BTreeMap::new(),

@@ -123,7 +123,7 @@ impl Range {
 // The most bytes that postcard takes for a datagram's parts, by the varints' greatest lengths: 10 for
 // 64 bits, 5 for 32 bits.
 
-const STAMP_BYTES: usize = 10 + 5 + 5;
+const STAMP_BYTES: usize = 10 + 5 + 5 + 5;
 
 /// Around lists: clock, variant, length.
 pub(super) const FRAME_BYTES: usize = 10 + 5 + 1 + 5;

@@ -26,6 +26,7 @@ pub(super) fn element(robot: &mut Robot<'_>, port: Port, name: &'static str, ele
         ("time", stamp.time.into()),
         ("count", stamp.count.into()),
         ("writer", stamp.writer.into()),
+        ("incarnation", stamp.incarnation.into()),
         ("value", value_hash(&element.value).into()),
     ];
     robot.emit_primitive(KIND, port, name, fields);

@@ -26,8 +26,11 @@ pub struct Stamp {
     pub time: Time,
     /// Counts the stamps of this time.
     pub count: u32,
-    /// Who wrote; decides between writes that are otherwise equal.
+    /// Who wrote; decides between writes at one reading of two clocks.
     pub writer: RobotId,
+    /// In which of its lives. A robot that starts again may be told of a reading that it had already, and go
+    /// on from there as it did before: no stamp is used twice for all that.
+    pub incarnation: u32,
 }
 
 impl Stamp {

@@ -61,6 +61,7 @@ impl Element {
         digest.word(self.key);
         digest.word(self.stamp.time.0);
         digest.word(u64::from(self.stamp.count) << 32 | u64::from(self.stamp.writer.0));
+        digest.word(self.stamp.incarnation.into());
         digest.bytes(&self.value);
         hash_key(digest.value(), &[])
     }

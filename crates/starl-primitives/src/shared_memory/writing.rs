@@ -59,6 +59,7 @@ impl SharedMemory {
             time,
             count,
             writer: robot.id(),
+            incarnation: self.incarnation.of(robot),
         };
         let is_causal = self.causal.contains(&*address.variable);
         let element = Element {

@@ -23,6 +23,7 @@ impl Writer {
             ("time", time.into()),
             ("count", 0u32.into()),
             ("writer", writer.into()),
+            ("incarnation", 0u32.into()),
             ("value", Value::Int(value.into())),
         ];
         robot.emit_primitive(KIND, PORT, event, fields);

@@ -236,6 +236,7 @@ impl Story {
             ("time", ms(written).into()),
             ("count", 0u32.into()),
             ("writer", RobotId(writer).into()),
+            ("incarnation", 0u32.into()),
             ("value", value.into()),
         ];
         self.report(millis, robot, ("shared_memory", name), fields)

@@ -3,12 +3,14 @@
 use starl_core::{RobotId, Time};
 use std::collections::BTreeMap;
 
-/// Orders the writes of an element, as the trace gives it: time, count, writer.
+/// Orders the writes of an element, as the trace gives it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Stamp {
     pub time: Time,
     pub count: i64,
     pub writer: RobotId,
+    /// In which of the writer's lives.
+    pub incarnation: i64,
 }
 
 /// What a robot shows.
@@ -56,6 +58,12 @@ impl Element {
         let known = self.written.get(&stamp);
         self.oldest.is_some_and(|oldest| stamp < oldest)
             || known.is_some_and(|&(known, _)| known == value)
+    }
+
+    /// Whether another value was written with this stamp.
+    pub fn has_other(&self, stamp: Stamp, value: i64) -> bool {
+        let known = self.written.get(&stamp);
+        known.is_some_and(|&(known, _)| known != value)
     }
 
     /// Takes note of what a robot shows from now on; gives the later write that it showed before.

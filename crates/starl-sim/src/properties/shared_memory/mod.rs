@@ -92,15 +92,25 @@ impl SharedMemory {
         };
         let is_write = matches!(report.name, "write" | "write_again");
         let is_new = is_write || !element.was_written(stamp, value);
-        if is_new && !is_write && !self.corrupted {
+        let wrong = if is_write && element.has_other(stamp, value) {
+            Some(format!(
+                "robot {robot} gave two values in {address} one stamp: {}",
+                words(stamp)
+            ))
+        } else if is_new && !is_write {
+            Some(format!(
+                "robot {robot} shows a value in {address} that robot {} did not write",
+                stamp.writer
+            ))
+        } else {
+            None
+        };
+        if let Some(text) = wrong.filter(|_| !self.corrupted) {
             found.push(Violation {
                 property: INTEGRITY.into(),
                 at,
                 robots: vec![robot, stamp.writer],
-                text: format!(
-                    "robot {robot} shows a value in {address} that robot {} did not write",
-                    stamp.writer
-                ),
+                text,
             });
         }
         if is_new {
@@ -232,19 +242,28 @@ fn content<'a>(report: &Report<'a>) -> Option<(&'a str, Option<RobotId>, Stamp, 
     let Some(Value::Text(variable)) = report.get("variable") else {
         return None;
     };
-    let fields = ["single_writer", "time", "count", "writer", "value"];
+    let fields = [
+        "single_writer",
+        "time",
+        "count",
+        "writer",
+        "incarnation",
+        "value",
+    ];
     match fields.map(|field| report.get(field)) {
         [
             Some(&Value::Bool(single_writer)),
             Some(&Value::Time(time)),
             Some(&Value::Int(count)),
             Some(&Value::Robot(writer)),
+            Some(&Value::Int(incarnation)),
             Some(&Value::Int(value)),
         ] => {
             let stamp = Stamp {
                 time,
                 count,
                 writer,
+                incarnation,
             };
             Some((variable, single_writer.then_some(writer), stamp, value))
         }
@@ -257,6 +276,7 @@ fn words(stamp: Stamp) -> String {
         time,
         count,
         writer,
+        ..
     } = stamp;
     format!("what robot {writer} wrote at {time} by its clock (count {count})")
 }
