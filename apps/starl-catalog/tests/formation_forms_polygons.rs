@@ -2,52 +2,31 @@
 //! floor and in a tilted plane, around one that has failed too, if their number is odd; if it is even they do
 //! not, and the program's own properties say so.
 
+mod support;
+
 use rayon::prelude::*;
-use starl_catalog::examples;
-use starl_sim::read::{Override, Request, Source};
 use starl_sim::{Outcome, Run};
+use support::Case;
 
 const SEEDS: u64 = 10;
 
-/// What is run: an example, another fleet than its own, settings, and faults.
-#[derive(Clone, Copy)]
-struct Case<'a> {
-    example: &'a str,
-    robots: Option<&'a str>,
-    sets: &'a [&'a str],
-    faults: &'a str,
-}
+const PLANE: Case<'_> = Case::new("formation", &[], 1);
 
-const PLANE: Case<'_> = Case {
-    example: "formation",
-    robots: None,
-    sets: &[],
-    faults: "",
-};
-
-fn run(case: Case<'_>, seed: u64) -> Run {
-    let example = examples::find(case.example).expect("it is an example");
-    let seed = format!("seed={seed}");
-    let sets = ["duration=150s", &seed]
-        .into_iter()
-        .chain(case.sets.iter().copied());
-    let request = Request {
-        overrides: sets.map(|set| Override::set(set).unwrap()).collect(),
-        robots: case.robots.map(String::from),
-        faults: (!case.faults.is_empty()).then(|| Source::new("faults.toml", case.faults)),
-        ..Request::new(example.source())
-    };
-    let application = starl_catalog::read(&request, example).unwrap();
-    let mut run = application.run().unwrap();
-    while !run.is_over() {
-        run.step();
+fn run(case: Case<'_>) -> Run {
+    let sets: Vec<&str> = case.sets.iter().copied().chain(["duration=150s"]).collect();
+    Case {
+        sets: &sets,
+        ..case
     }
-    run
+    .run()
 }
 
 fn all_form(case: Case<'_>) {
     let form = |seed| {
-        let run = run(case, seed);
+        let run = run(Case {
+            seed: Some(seed),
+            ..case
+        });
         let first = run.violations().first();
         let (robots, sets) = (case.robots, case.sets);
         assert_eq!(
@@ -120,7 +99,7 @@ fn four_around_one_that_crashed_on_its_way() {
 fn an_even_number_forms_none() {
     for robots in ["create=4", "create=6"] {
         let robots = Some(robots);
-        let run = run(Case { robots, ..PLANE }, 1);
+        let run = run(Case { robots, ..PLANE });
         let violated = |name: &str| run.violations().iter().any(|v| v.property == name);
         assert!(violated("Formation.polygon"), "{robots:?}");
     }

@@ -1,25 +1,19 @@
 //! Every robot of the example `mutex` has its turns, whichever algorithm it uses, in calm, over a bad network
 //! and after crashes and partitions; and no property is violated.
 
+mod support;
+
 use rayon::prelude::*;
-use starl_catalog::examples;
 use starl_core::{Duration, Event, Time};
-use starl_sim::read::{Override, Request};
 use starl_sim::{Outcome, Run};
+use support::Case;
 
 const ALGORITHMS: [&str; 3] = ["permission", "quorum", "lease"];
 
 fn start(sets: &[&str], algorithm: &str, seed: u64) -> Run {
-    let example = examples::find("mutex").expect("it is an example");
-    let chosen = format!("parameters.algorithm={algorithm}");
-    let seed = format!("seed={seed}");
-    let sets = sets.iter().copied().chain([&*chosen, &*seed]);
-    let request = Request {
-        overrides: sets.map(|set| Override::set(set).unwrap()).collect(),
-        ..Request::new(example.source())
-    };
-    let application = starl_catalog::read(&request, example).unwrap();
-    application.run().unwrap()
+    let algorithm = format!("parameters.algorithm={algorithm}");
+    let sets: Vec<&str> = sets.iter().copied().chain([&*algorithm]).collect();
+    Case::new("mutex", &sets, seed).start()
 }
 
 fn run(sets: &[&str], algorithm: &str, seed: u64) -> Run {

@@ -1,24 +1,19 @@
 //! Race in the StarL language and Race in Rust are the same program: in every run the same actions fire,
 //! the same events are told, the same robots finish and all drive the same ways, at the same times.
 
+mod support;
+
 use rayon::prelude::*;
-use starl_catalog::examples;
 use starl_core::{Event, Record};
-use starl_sim::read::{Override, Request};
+use support::Case;
 
 const SEEDS: u64 = 100;
 
 /// What the program and the robots did, in the order of time.
 fn history(program: &str, seed: u64, sets: &[&str]) -> Vec<Record> {
-    let example = examples::find("race").expect("it is an example");
-    let (program, seed) = (format!("program={program}"), format!("seed={seed}"));
-    let sets = sets.iter().copied().chain([&*program, &*seed]);
-    let request = Request {
-        overrides: sets.map(|set| Override::set(set).unwrap()).collect(),
-        ..Request::new(example.source())
-    };
-    let application = starl_catalog::read(&request, example).unwrap();
-    let mut run = application.run().unwrap();
+    let program = format!("program={program}");
+    let sets: Vec<&str> = sets.iter().copied().chain([&*program]).collect();
+    let mut run = Case::new("race", &sets, seed).start();
     let mut history = Vec::new();
     while !run.is_over() {
         let records = run.step().iter().filter(|record| {

@@ -1,10 +1,11 @@
 //! Race reaches its goal and violates no property, whatever the seed: calm and over a bad network, with
 //! its own fleet and with one of twelve, in the StarL language and in Rust.
 
+mod support;
+
 use rayon::prelude::*;
-use starl_catalog::examples;
 use starl_sim::Outcome;
-use starl_sim::read::{Override, Request};
+use support::Case;
 
 const SEEDS: u64 = 1_000;
 const BAD_NETWORK: [&str; 2] = ["network.loss=0.2", "network.delay=100ms"];
@@ -13,30 +14,20 @@ const TWELVE: Option<&str> = Some("create=6,drone=6");
 
 /// What went wrong with a race, ready to be repeated; none if nothing did.
 fn race(program: &str, seed: u64, fleet: Option<&str>, sets: &[&str]) -> Option<String> {
-    let example = examples::find("race").expect("it is an example");
-    let seed_set = format!("seed={seed}");
-    let sets = sets.iter().copied().chain([program, seed_set.as_str()]);
-    let request = Request {
-        overrides: sets
-            .clone()
-            .map(|set| Override::set(set).unwrap())
-            .collect(),
-        robots: fleet.map(String::from),
-        ..Request::new(example.source())
-    };
-    let mut run = starl_catalog::read(&request, example)
-        .unwrap()
-        .run()
-        .unwrap();
-    while !run.is_over() {
-        run.step();
+    let sets: Vec<&str> = sets.iter().copied().chain([program]).collect();
+    let run = Case {
+        robots: fleet,
+        ..Case::new("race", &sets, seed)
     }
+    .run();
     (run.outcome() != Outcome::Reached).then(|| {
         let mut command = String::from("starl run race");
         fleet
             .iter()
             .for_each(|fleet| command += &format!(" --robots {fleet}"));
-        sets.for_each(|set| command += &format!(" --set {set}"));
+        sets.iter()
+            .for_each(|set| command += &format!(" --set {set}"));
+        command += &format!(" --seed {seed}");
         format!(
             "{command}: {:?} {:?}",
             run.outcome(),

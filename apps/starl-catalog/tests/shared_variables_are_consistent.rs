@@ -1,31 +1,16 @@
 //! In the examples `register` and `memory` all robots come to their end, in calm and over a bad network, and no
 //! property is violated: no ticket is drawn twice, nobody sees that a round is done without its result.
 
-use rayon::prelude::*;
-use starl_catalog::examples;
-use starl_sim::read::{Override, Request};
-use starl_sim::{Outcome, Run};
+mod support;
 
-fn run(example: &str, sets: &[&str], seed: u64) -> Run {
-    let example = examples::find(example).expect("it is an example");
-    let seed = format!("seed={seed}");
-    let sets = sets.iter().copied().chain([&*seed]);
-    let request = Request {
-        overrides: sets.map(|set| Override::set(set).unwrap()).collect(),
-        ..Request::new(example.source())
-    };
-    let application = starl_catalog::read(&request, example).unwrap();
-    let mut run = application.run().unwrap();
-    while !run.is_over() {
-        run.step();
-    }
-    run
-}
+use rayon::prelude::*;
+use starl_sim::Outcome;
+use support::Case;
 
 fn all_finish(sets: &[&str], seeds: u64) {
     (0..seeds).into_par_iter().for_each(|seed| {
         for example in ["register", "memory"] {
-            let run = run(example, sets, seed);
+            let run = Case::new(example, sets, seed).run();
             assert_eq!(run.violations(), [], "{example} {sets:?} seed {seed}");
             let outcome = run.outcome();
             assert_eq!(outcome, Outcome::Reached, "{example} {sets:?} seed {seed}");
@@ -69,7 +54,7 @@ fn in_spite_of_crashes() {
         "duration=600s",
     ];
     let no_violation = |example, seed| {
-        let run = run(example, &crashing, seed);
+        let run = Case::new(example, &crashing, seed).run();
         assert_eq!(run.violations(), [], "{example} seed {seed}");
     };
     (0..50_u64).into_par_iter().for_each(|seed| {

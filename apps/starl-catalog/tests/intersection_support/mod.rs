@@ -2,11 +2,13 @@
 
 #![allow(dead_code, reason = "each test uses a part of it")]
 
-use starl_catalog::examples;
+#[path = "../support/mod.rs"]
+mod support;
+
 use starl_core::{Event, RobotId, Time, Value};
-use starl_sim::read::{Override, Request, Source};
 use starl_sim::{Outcome, Run};
 use std::collections::{BTreeMap, BTreeSet};
+use support::Case;
 
 /// What came of a run.
 #[derive(Debug, Default)]
@@ -33,14 +35,14 @@ pub enum Lock {
 
 /// Runs an example of this name with settings and faults (the text of a file).
 pub fn drive(example: &str, sets: &[&str], faults: &str) -> Traffic {
-    let example = examples::find(example).expect("it is an example");
-    let request = Request {
-        overrides: sets.iter().map(|set| Override::set(set).unwrap()).collect(),
-        faults: (!faults.is_empty()).then(|| Source::new("faults.toml", faults)),
-        ..Request::new(example.source())
+    let case = Case {
+        example,
+        robots: None,
+        sets,
+        seed: None,
+        faults,
     };
-    let application = starl_catalog::read(&request, example).unwrap();
-    let mut run = application.run().unwrap();
+    let mut run = case.start();
     let mut traffic = Traffic::default();
     while !run.is_over() {
         for record in run.step() {
