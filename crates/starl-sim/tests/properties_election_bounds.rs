@@ -138,3 +138,22 @@ fn with_leases_robots_that_wait_for_one_that_remembers_have_no_leader() {
             .all(|found| found.property == "election.progress")
     );
 }
+
+/// Robot 2 is down, robot 1 recovers. If robot 0 did so with it, they begin anew together; if it voted already, it
+/// takes robot 2 to go on. Which it was cannot be told within a second.
+#[test]
+fn with_leases_who_voted_within_a_second_may_have_voted_before() {
+    let verdict = |millis| {
+        let mut story = three("leases");
+        story.fault(100, Some(2), "crash");
+        story.report(millis, 0, ("election", "vote"), []);
+        story.verdict(30_000)
+    };
+    assert_none(&verdict(900));
+    let violated = verdict(1100);
+    assert_eq!(violated.len(), 2, "{violated:?}");
+    for found in violated {
+        assert_eq!(found.property, "election.progress");
+        assert_eq!(found.at, starl_core::Time(5_000_000_000));
+    }
+}
