@@ -52,8 +52,7 @@ examples: $(STARL)
 
 # The primitives and the applications under every profile of faults, for a minute; what goes wrong is kept in target/.
 faults: $(STARL)
-	mkdir -p target/faults
-	$(STARL) test examples/primitives/*.toml --seeds 25 --out target/faults
+	tools/workloads.sh $(STARL) --seeds 25 --out target/faults
 	$(STARL) test race formation formation-space line intersection search flocking maze auction traffic-signs light-painting \
 		--seeds 3 --out target/faults
 

@@ -104,6 +104,13 @@ pub const EXAMPLES: &[Example] = &[
         ["election.starl"]
     ),
     example!(
+        "messages",
+        "robots send letters to areas and get receipts",
+        "primitives",
+        "messages.toml",
+        ["messages.starl"]
+    ),
+    example!(
         "broadcast",
         "robots tell each other numbers in one order for all",
         "primitives",

@@ -1,10 +1,10 @@
 //! Ctrl-C, or a request to end, ends a run as if its time were up: with a summary, and with a trace
-//! that is whole.
+//! that is whole; and a search with what was found.
 
 #![cfg(unix)]
 
 mod support;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use support::*;
 
 #[test]
@@ -45,10 +45,7 @@ fn interrupt(test: &str, signal: &str) {
         );
         std::thread::yield_now();
     }
-    let interrupted = Command::new("kill")
-        .args([signal, &run.id().to_string()])
-        .status();
-    assert!(interrupted.is_ok_and(|status| status.success()));
+    send(signal, &run);
     let output = run.wait_with_output().expect("it ends");
     assert_eq!(status(&output), 1, "{}", stderr(&output));
     assert_eq!(json(&output)["outcome"], "interrupted");
@@ -61,4 +58,53 @@ fn interrupt(test: &str, signal: &str) {
         stdout(&replayed),
         stderr(&replayed)
     );
+}
+
+/// Every run of the search goes wrong: the goal is not reached.
+#[test]
+fn an_interrupted_search_tells_what_it_found() {
+    let folder = folder("interrupted_search");
+    file(&folder, "short.toml", &SMALL.replacen("30s", "1s", 1));
+    let mut search = command(
+        &folder,
+        &[
+            "test",
+            "short.toml",
+            "--profile",
+            "calm",
+            "--seeds",
+            "1000000000",
+            "--out",
+            "found",
+            "--json",
+        ],
+    )
+    .stdout(Stdio::piped())
+    .stderr(Stdio::piped())
+    .spawn()
+    .expect("the command was built");
+    // It is about to begin when it has made its folder.
+    while !folder.join("found").is_dir() {
+        assert!(
+            search.try_wait().expect("it can be asked").is_none(),
+            "the search ended by itself"
+        );
+        std::thread::yield_now();
+    }
+    send("-INT", &search);
+    let output = search.wait_with_output().expect("it ends");
+    assert_eq!(status(&output), 1, "{}", stderr(&output));
+    let report = json(&output);
+    assert_eq!(report["interrupted"], true);
+    let findings = report["findings"].as_array().expect("a list");
+    let times: u64 = findings.iter().filter_map(|f| f["times"].as_u64()).sum();
+    assert_eq!(report["targets"][0]["profiles"][0]["wrong"], times);
+    assert_eq!(report["runs"], times);
+}
+
+fn send(signal: &str, process: &Child) {
+    let sent = Command::new("kill")
+        .args([signal, &process.id().to_string()])
+        .status();
+    assert!(sent.is_ok_and(|status| status.success()));
 }

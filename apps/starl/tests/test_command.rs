@@ -215,8 +215,8 @@ fn bad_input_is_told() {
             "did you mean `calm`?",
         ),
         (
-            &["test", "small.toml", "--out", "nowhere"],
-            "there is no such folder",
+            &["test", "small.toml", "--out", "small.toml"],
+            "small.toml: ",
         ),
         (
             &["test", "small.toml", "--seeds", "0"],

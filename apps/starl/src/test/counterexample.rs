@@ -17,6 +17,7 @@ use starl_sim::read::{Request, Source};
 use starl_sim::shrink::{Limits, shrink};
 use starl_sim::{Finding, Scenario, Trial, write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A scenario that fails, in a file.
 #[derive(Clone, Debug)]
@@ -29,7 +30,7 @@ pub struct Counterexample {
     pub sizes: [Size; 2],
     /// What is seen in the smallest.
     pub text: String,
-    /// How many scenarios were tried.
+    /// How many scenarios were tried; none if someone stopped it before.
     pub trials: u64,
     /// Whether nothing more can be left out.
     pub is_minimal: bool,
@@ -56,13 +57,15 @@ impl Size {
 }
 
 impl Counterexample {
-    /// Shrinks a run and saves it.
+    /// Shrinks a run and saves it; as far as it has come when someone stops it.
     pub fn of(
         subject: &Subject,
         case: &Case,
         arguments: &TestArguments,
+        stop: &AtomicBool,
         progress: &Count,
     ) -> Result<Counterexample, Failure> {
+        let is_stopped = || stop.load(Ordering::Relaxed);
         let path = free_path(&arguments.out, &name(subject, case));
         let judge = Judge {
             path: &path,
@@ -80,6 +83,9 @@ impl Counterexample {
         };
         let shorter = case.finding != Finding::Unreached;
         let mut tried = |scenario: &Scenario| -> Option<Time> {
+            if is_stopped() {
+                return None;
+            }
             progress.add(1);
             progress.say(describe(scenario));
             judge.trial(scenario).map(|trial| trial.end)
@@ -95,6 +101,7 @@ impl Counterexample {
             again: again(subject, case, arguments),
         };
         let Some(shrunk) = shrunk else {
+            counterexample.trials = u64::from(!is_stopped());
             return Ok(counterexample);
         };
         if let Some(trial) = judge.trial(&shrunk.scenario) {
@@ -109,7 +116,7 @@ impl Counterexample {
         }
         counterexample.sizes[1] = Size::of(&shrunk.scenario);
         counterexample.trials = shrunk.trials;
-        counterexample.is_minimal = shrunk.is_minimal;
+        counterexample.is_minimal = shrunk.is_minimal && !is_stopped();
         counterexample.scenario = Some(path);
         Ok(counterexample)
     }

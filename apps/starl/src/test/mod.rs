@@ -22,6 +22,7 @@ use subject::Subject;
 
 /// Tests what the arguments say; whether nothing went wrong.
 pub fn test(arguments: &TestArguments) -> Result<bool, Failure> {
+    let stop = stop_on_interrupt();
     let profiles = profiles(&arguments.profile)?;
     let targets: Vec<String> = match arguments.all {
         true => EXAMPLES
@@ -44,26 +45,18 @@ pub fn test(arguments: &TestArguments) -> Result<bool, Failure> {
         Some(threads) => threads as usize,
         None => std::thread::available_parallelism().map_or(1, |cores| cores.get()),
     };
-    if !arguments.out.is_dir() {
-        return Err(Failure::file(
-            &arguments.out,
-            "there is no such folder to save scenarios in; make it, or name another with --out",
-        ));
-    }
-    let stop = stop_on_interrupt();
+    std::fs::create_dir_all(&arguments.out)
+        .map_err(|error| Failure::file(&arguments.out, error))?;
     let shown = !arguments.quiet && !arguments.json;
     let progress = Count::new(shown, search.runs());
     let found = search.run(threads, &stop, &progress);
     progress.clear();
     let mut counterexamples = Vec::new();
     for (case, times) in found.findings() {
-        if stop.load(Ordering::Relaxed) {
-            break;
-        }
         let limit = u64::from(arguments.shrink);
         let progress = Count::new(shown, limit);
         let subject = &search.subjects[case.subject];
-        let counterexample = Counterexample::of(subject, &case, arguments, &progress)?;
+        let counterexample = Counterexample::of(subject, &case, arguments, &stop, &progress)?;
         progress.clear();
         counterexamples.push((case, times, counterexample));
     }

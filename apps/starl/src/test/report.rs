@@ -186,8 +186,8 @@ impl Report {
         };
         writeln!(
             text,
-            "{interrupted}{} runs in {} s on {}: {} runs per second, {} per second of a core",
-            grouped(self.runs),
+            "{interrupted}{} in {} s on {}: {} runs per second, {} per second of a core",
+            counted(self.runs as usize, "run"),
             rounded(self.wall_seconds),
             counted(self.threads, "thread"),
             rounded(self.runs_per_second),
@@ -228,11 +228,13 @@ impl Finding {
                 )?;
                 writeln!(text, "  to see it: starl run {}", crate::run::quoted(path))?;
             }
-            None => writeln!(
-                text,
-                "  it did not go wrong again when run from a scenario of its own; to find it again: {}",
-                self.again
-            )?,
+            None => {
+                let why = match self.trials {
+                    0 => "",
+                    _ => "it did not go wrong again when run from a scenario of its own; ",
+                };
+                writeln!(text, "  {why}to find it again: {}", self.again)?;
+            }
         }
         if let Some(diagram) = &self.diagram {
             writeln!(text, "  drawn:     {diagram}")?;

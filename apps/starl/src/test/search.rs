@@ -54,9 +54,6 @@ pub struct Found {
     pub processors: Duration,
 }
 
-/// Runs that a thread takes at a time.
-const CHUNK: u64 = 8;
-
 impl Search {
     /// How many runs there are.
     pub fn runs(&self) -> u64 {
@@ -92,17 +89,14 @@ impl Search {
         let mut found = Found::default();
         let runs = self.runs();
         loop {
-            let first = next.fetch_add(CHUNK, Ordering::Relaxed);
-            if first >= runs || stop.load(Ordering::Relaxed) {
+            let place = next.fetch_add(1, Ordering::Relaxed);
+            if place >= runs || stop.load(Ordering::Relaxed) {
                 return found;
             }
-            let last = (first + CHUNK).min(runs);
-            for place in first..last {
-                let (subject, profile, seed) = self.at(place);
-                let trial = self.subjects[subject].trial(profile, seed);
-                found.note(place, (subject, profile, seed), trial);
-            }
-            progress.add(last - first);
+            let (subject, profile, seed) = self.at(place);
+            let trial = self.subjects[subject].trial(profile, seed);
+            found.note(place, (subject, profile, seed), trial);
+            progress.add(1);
         }
     }
 
