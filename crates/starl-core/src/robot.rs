@@ -252,6 +252,16 @@ impl<'a> Robot<'a> {
         });
     }
 
+    /// Runs something whose effects do not take place. What it draws at random is drawn.
+    pub fn rehearse<T>(&mut self, run: impl FnOnce(&mut Robot<'_>) -> T) -> T {
+        let mut effects = Effects::default();
+        run(&mut Robot {
+            view: self.view,
+            effects: &mut effects,
+            random: self.random,
+        })
+    }
+
     /// Working memory of this type: what was left by [`Robot::return_scratch`], perhaps for another
     /// robot, or new. It spares making it anew for each input; nothing in it may make a difference to
     /// what the program does.

@@ -83,9 +83,11 @@ fn no_increment_is_lost() {
             world.step();
             steps += 1;
             let (added, seen) = (sum(&world, 4, "added"), most_seen(&world, 4));
-            assert_eq!(added, seen, "seed {seed}");
+            // What others have seen may be stored and not be known to be.
+            assert!(added <= seen && seen <= added + 3, "seed {seed}");
             assert!(steps < 10_000, "seed {seed}: {added} were added");
         }
+        assert_eq!(most_seen(&world, 4), 80, "seed {seed}");
     }
 }
 
@@ -112,7 +114,8 @@ fn partitions_delay_it_are_told_and_lose_nothing() {
             world.cut = cut.collect();
             for _ in 0..80 {
                 world.step();
-                assert_eq!(sum(&world, 5, "added"), most_seen(&world, 5), "seed {seed}");
+                let (added, seen) = (sum(&world, 5, "added"), most_seen(&world, 5));
+                assert!(added <= seen && seen <= added + 4, "seed {seed}");
                 was_blocked |= (0..5).any(|r| world.get(r, "blocked") == Value::Bool(true));
             }
             world.cut.clear();
@@ -131,7 +134,7 @@ fn partitions_delay_it_are_told_and_lose_nothing() {
     }
 }
 
-/// Whether a robot is storing something: what it says of registers ends with a write.
+/// Whether a robot is storing something: what it says of registers ends with an update.
 fn is_storing(world: &World, robot: usize) -> bool {
     let names = world
         .events_of(robot as u32)
@@ -143,7 +146,7 @@ fn is_storing(world: &World, robot: usize) -> bool {
         });
     names
         .last()
-        .is_some_and(|name| name == "write" || name == "no_quorum")
+        .is_some_and(|name| name == "update" || name == "no_quorum")
 }
 
 #[test]
@@ -174,7 +177,7 @@ fn what_a_robot_adds_before_it_crashes_counts_once_or_not_at_all() {
             assert!(steps < 10_000, "seed {seed}");
         }
         let (added, seen) = (before + 60, most_seen(&world, 3));
-        let fits = seen <= added && seen >= added - uncertain;
+        let fits = seen >= added && seen <= added + uncertain;
         assert!(
             fits,
             "seed {seed}: {seen} of {added}, {uncertain} uncertain"
@@ -302,7 +305,7 @@ fn an_action_costs_what_is_documented() {
             if before.0 > 0 {
                 // The action is done within one step. Copies may be compared besides.
                 assert_eq!(world.int(0, "added"), before.0 + 1);
-                let count = 4 * robots as usize;
+                let count = 3 * robots as usize + 1;
                 assert!(
                     (count..=count + 4).contains(&sent),
                     "{robots} robots: {sent}"

@@ -1,6 +1,6 @@
 //! A program that robots can run: bytecode that was verified and joined to what robots offer.
 
-use super::atomic::join_groups;
+use super::atomic::{self, Conflicts, join_groups};
 use super::joint::{Joiner, Joint};
 use super::messages::Inbox;
 use super::parameter;
@@ -21,6 +21,8 @@ struct Inner {
     program: Program,
     joints: Vec<Joint>,
     instances: Vec<Instance>,
+    /// What each action with `atomic` keeps waiting.
+    conflicts: Vec<Option<Conflicts>>,
     /// What its primitives need in common.
     needs: Needs,
     /// The same, made once for all robots: it takes longer to make than to copy.
@@ -63,6 +65,7 @@ impl Code {
             joints: joiner.finish(),
             services: Services::of(&program.bytecode().name, needs(&instances)),
             needs: needs(&instances),
+            conflicts: Conflicts::of(program.bytecode()),
             program,
             instances,
             inbox,
@@ -100,6 +103,11 @@ impl Code {
     pub(super) fn groups(&self) -> impl Iterator<Item = &str> {
         let count = self.program().bytecode().actions.len() as u32;
         (0..count).filter_map(|action| self.group(action))
+    }
+
+    /// What an action with `atomic` keeps waiting while what it writes is stored.
+    pub(super) fn conflicts(&self, action: u32) -> Option<&Conflicts> {
+        self.0.conflicts.get(action as usize)?.as_ref()
     }
 
     /// What the program's primitives have in common, not started.
@@ -174,7 +182,7 @@ fn group(bytecode: &Bytecode, instances: &mut [Instance]) -> Result<(), LoadErro
     let actions: Vec<Vec<u32>> = actions.map(|action| action.atomic.clone()).collect();
     for instance in actions.iter().flatten() {
         let kind = bytecode.primitives.get(*instance as usize);
-        if kind.is_none_or(|binding| binding.kind != "Linearizable") {
+        if kind.is_none_or(|binding| binding.kind != atomic::KIND) {
             return Err(LoadError::Invalid {
                 position: None,
                 reason: "an action waits for something else than a linearizable variable",

@@ -1,6 +1,7 @@
 //! The machine's host on a robot: what a running program asks for, the robot and its primitives give.
 
 use super::arguments::{Arguments, Called};
+use super::atomic::{self, Script};
 use super::code::{Code, Instance};
 use super::joint::OnRobot;
 use super::messages::Outgoing;
@@ -38,6 +39,8 @@ pub struct RobotHost<'a, 'r> {
     pub failure: Option<String>,
     /// Whether an action has fired.
     pub has_fired: bool,
+    /// What calls do.
+    pub script: Script,
 }
 
 impl<'a, 'r> Context<'a, 'r> {
@@ -123,8 +126,9 @@ impl RobotHost<'_, '_> {
     }
 }
 
-impl Host for RobotHost<'_, '_> {
-    fn call(&mut self, function: u32, call: &mut HostCall<'_>) -> Called {
+impl RobotHost<'_, '_> {
+    /// Does what a function is for.
+    fn run(&mut self, function: u32, call: &mut HostCall<'_>) -> Called {
         let code = self.context.code;
         let Some(joint) = code.joint(function) else {
             return Err("there is no such function".into());
@@ -136,6 +140,30 @@ impl Host for RobotHost<'_, '_> {
             Some(OnRobot::Member { kind, member }) => self.member(kind, member, call),
             None => Err("only properties ask this of robots".into()),
         }
+    }
+
+    /// Whether a function writes a linearizable variable. When an action takes place that is done.
+    fn is_stored(&self, function: u32) -> bool {
+        let joint = self.context.code.joint(function);
+        let kind = match joint.and_then(|joint| joint.on_robot) {
+            Some(OnRobot::Member { kind, .. }) => KINDS.get(usize::from(kind)),
+            _ => None,
+        };
+        kind.is_some_and(|kind| kind.name == atomic::KIND)
+    }
+}
+
+impl Host for RobotHost<'_, '_> {
+    fn call(&mut self, function: u32, call: &mut HostCall<'_>) -> Called {
+        if let Some(given) = self.script.next(function) {
+            if !call.import.query && !self.is_stored(function) {
+                self.run(function, call)?;
+            }
+            return given.give(call);
+        }
+        let called = self.run(function, call);
+        self.script.note(function, call, &called);
+        called
     }
 
     fn fires(&mut self, action: u32) {

@@ -1,6 +1,6 @@
 //! The program of one robot: its variables and its primitives, run by the machine.
 
-use super::atomic::Turn;
+use super::atomic::{Conflicts, Script, Step, Turn, Values};
 use super::code::{Code, Instance};
 use super::corruption;
 use super::host::{Context, RobotHost};
@@ -10,7 +10,9 @@ use super::services::Services;
 use super::workbench::Workbench;
 use crate::machine::{Limits, Machine, RuntimeError, State, Value};
 use alloc::boxed::Box;
+use alloc::collections::VecDeque;
 use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 use core::any::Any;
 use core::{fmt, mem};
@@ -30,6 +32,8 @@ pub struct RobotProgram {
     services: Services,
     /// Events of primitives that wait for their handlers: the instance's number and what happened.
     reports: Vec<(u32, Report)>,
+    /// Messages that wait for an action with `atomic`.
+    waiting: VecDeque<Message>,
     /// See [`RobotProgram::version`].
     version: u64,
     phase: Phase,
@@ -56,6 +60,7 @@ impl RobotProgram {
             code: code.clone(),
             services: Services::default(),
             reports: Vec::new(),
+            waiting: VecDeque::new(),
             version: 0,
             phase: Phase::New,
         })
@@ -83,12 +88,14 @@ impl RobotProgram {
     }
 
     /// Runs a part of the program, after the handlers of what primitives have reported.
-    fn run(&mut self, robot: &mut Robot<'_>, part: Part<'_>) {
+    fn run(&mut self, robot: &mut Robot<'_>, mut part: Part<'_>) {
         if self.phase == Phase::Failed {
             return;
         }
         let code = &self.code;
-        let reports = mem::take(&mut self.reports);
+        let held = self.services.held(code);
+        let mut reports = mem::take(&mut self.reports);
+        self.reports = hold_back(code.instances(), &mut reports, held);
         let mut bench = robot.take_scratch::<Workbench>();
         let Workbench { workspace, memo } = &mut *bench;
         let mut host = RobotHost {
@@ -96,55 +103,168 @@ impl RobotProgram {
             bound: &mut self.bound,
             failure: None,
             has_fired: false,
+            script: part.take_script(),
         };
         let is_told = !reports.is_empty() || !matches!(part, Part::Actions(_));
         let (program, limits) = (code.program(), Limits::default());
         let mut machine = Machine::new(program, &mut self.state, workspace, &mut host, limits);
         let result = handle_reports(code.instances(), &reports, &mut machine)
-            .and_then(|()| part.run(code, &mut machine));
+            .and_then(|()| part.run(code, held, &mut machine));
         let (failure, has_fired) = (host.failure, host.has_fired);
         if has_fired || is_told {
             self.version += 1;
         }
-        if let Err(error) = result {
-            robot.halt();
-            robot.fail(failure.unwrap_or_else(|| code.describe(&error)));
-            self.phase = Phase::Failed;
-            // Others need not wait for it.
-            if let Some(atomic) = &mut self.services.atomic {
-                atomic.release(robot, code);
-            }
-        }
         bench.workspace.trim();
         robot.return_scratch(bench);
+        if let Err(error) = result {
+            let reason = failure.unwrap_or_else(|| self.code.describe(&error));
+            self.fail(robot, reason);
+        }
+    }
+
+    /// Ends the program.
+    fn fail(&mut self, robot: &mut Robot<'_>, reason: String) {
+        robot.halt();
+        robot.fail(reason);
+        self.phase = Phase::Failed;
+        // Others need not wait for it.
+        if let Some(atomic) = &mut self.services.atomic {
+            atomic.release(robot, &self.code);
+        }
     }
 }
 
 impl RobotProgram {
-    /// Runs the actions that have what they waited for.
+    /// Goes on with the action with `atomic` that waits, as far as can be now.
     fn go_on(&mut self, robot: &mut Robot<'_>) {
+        let code = self.code.clone();
         while self.phase == Phase::Running
             && let Some(atomic) = &mut self.services.atomic
+            && let Some(step) = atomic.go_on(robot, &code)
         {
-            let code = self.code.clone();
-            let Some(action) = atomic.go_on(robot, &code) else {
-                return;
-            };
-            self.run(robot, Part::Atomic(action));
-            let Some(atomic) = &mut self.services.atomic else {
-                return;
-            };
-            if let Err(error) = atomic.close(robot, &code) {
-                atomic.release(robot, &code);
-                robot.halt();
-                robot.fail(format!(
-                    "what an atomic action wrote is not stored: {error}"
-                ));
-                self.phase = Phase::Failed;
+            match step {
+                Step::Try(action, values) => {
+                    self.catch_up(robot);
+                    let tried = self.rehearse(robot, action, values);
+                    if let Err(reason) = self.store(robot, tried) {
+                        self.fail(robot, reason);
+                    }
+                }
+                Step::Perform(action, script) => {
+                    self.run(robot, Part::Perform(action, script));
+                    if let Some(atomic) = &mut self.services.atomic {
+                        atomic.release(robot, &code);
+                    }
+                }
             }
+        }
+        self.catch_up(robot);
+    }
+
+    /// Finds out what an action writes, without any effect; none if its guard does not hold.
+    fn rehearse(
+        &mut self,
+        robot: &mut Robot<'_>,
+        action: u32,
+        values: Values,
+    ) -> Result<Option<(Values, Script)>, String> {
+        let code = &self.code;
+        let (mut state, mut bound) = (self.state.clone(), self.bound.clone());
+        let mut services = self.services.clone();
+        if let (Some(atomic), Some(group)) = (&mut services.atomic, code.group(action)) {
+            atomic.open(group, values);
+        }
+        robot.rehearse(|robot| {
+            let Workbench { workspace, memo } = &mut Workbench::default();
+            let mut host = RobotHost {
+                context: Context::new(code, robot, memo, &mut services),
+                bound: &mut bound,
+                failure: None,
+                has_fired: false,
+                script: Script::Noted(Vec::new()),
+            };
+            let (program, limits) = (code.program(), Limits::default());
+            let result =
+                Machine::new(program, &mut state, workspace, &mut host, limits).action(action);
+            let (failure, script) = (host.failure, host.script);
+            match result {
+                Ok(true) => Ok(services
+                    .atomic
+                    .map(|mut atomic| (atomic.take_values(), script.follow()))),
+                Ok(false) => Ok(None),
+                Err(error) => Err(failure.unwrap_or_else(|| code.describe(&error))),
+            }
+        })
+    }
+
+    /// Has stored what an action writes that was tried.
+    fn store(
+        &mut self,
+        robot: &mut Robot<'_>,
+        tried: Result<Option<(Values, Script)>, String>,
+    ) -> Result<(), String> {
+        let tried = tried?;
+        match &mut self.services.atomic {
+            Some(atomic) if self.phase == Phase::Running => atomic
+                .store(robot, &self.code, tried)
+                .map_err(|error| format!("what an atomic action wrote is not stored: {error}")),
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether a message must wait until an action with `atomic` has taken place.
+    fn must_wait(&self, message: &Message) -> bool {
+        let Some(held) = self.services.held(&self.code) else {
+            return false;
+        };
+        let program = self.code.program();
+        let arrival = self.code.inbox().decode(program, &message.payload);
+        arrival.is_some_and(|arrival| {
+            let mut handlers = arrival.handlers.iter();
+            !self.waiting.is_empty() || handlers.any(|&handler| held.keeps_handler(handler))
+        })
+    }
+
+    /// Handles what had to wait, if it need not any longer.
+    fn catch_up(&mut self, robot: &mut Robot<'_>) {
+        if self.services.held(&self.code).is_some() {
+            return;
+        }
+        if !self.reports.is_empty() {
+            self.run(robot, Part::Nothing);
+        }
+        while let Some(message) = self.waiting.pop_front() {
+            self.run(robot, Part::Message(&message));
         }
     }
 }
+
+/// Of what primitives have reported, keeps what can be handled now, and gives what must wait until an action
+/// with `atomic` has taken place.
+fn hold_back(
+    instances: &[Instance],
+    reports: &mut Vec<(u32, Report)>,
+    held: Option<&Conflicts>,
+) -> Vec<(u32, Report)> {
+    let Some(held) = held else {
+        return Vec::new();
+    };
+    let waits = |(instance, report): &(u32, Report)| {
+        let instance = instances.get(*instance as usize);
+        let handlers = instance.map_or(&[][..], |instance| &instance.handlers);
+        let mut handlers = handlers.iter();
+        handlers.any(|&(event, handler)| event == report.event && held.keeps_handler(handler))
+    };
+    let first = reports.iter().position(waits).unwrap_or(reports.len());
+    let mut later = reports.split_off(first);
+    let excess = later.len().saturating_sub(MOST_WAITING);
+    later.drain(..excess);
+    later
+}
+
+/// At most so many messages, and so many events of primitives, wait for an action with `atomic`; beyond that
+/// the oldest are dropped.
+const MOST_WAITING: usize = 1000;
 
 /// What is run at once.
 enum Part<'a> {
@@ -152,14 +272,29 @@ enum Part<'a> {
     Start,
     /// All actions, one after the other; of those that wait for variables it is found out which is next.
     Actions(&'a mut Turn),
-    /// An action that has what it waited for.
-    Atomic(u32),
+    /// An action with `atomic` whose writes are stored.
+    Perform(u32, Script),
     /// All handlers of a message; nothing, if it is no message of the program.
     Message(&'a Message),
+    /// Nothing more than the handlers of what primitives have reported.
+    Nothing,
 }
 
 impl Part<'_> {
-    fn run(self, code: &Code, machine: &mut Machine<'_>) -> Result<(), RuntimeError> {
+    /// What calls to the host are to do.
+    fn take_script(&mut self) -> Script {
+        match self {
+            Part::Perform(_, script) => mem::take(script),
+            _ => Script::None,
+        }
+    }
+
+    fn run(
+        self,
+        code: &Code,
+        held: Option<&Conflicts>,
+        machine: &mut Machine<'_>,
+    ) -> Result<(), RuntimeError> {
         let program = code.program();
         match self {
             Part::Start => machine.start(),
@@ -167,14 +302,17 @@ impl Part<'_> {
                 let count = program.bytecode().actions.len() as u32;
                 (0..count).try_for_each(|action| {
                     if code.group(action).is_none() {
-                        machine.action(action)?;
+                        if held.is_none_or(|held| !held.keeps_action(action)) {
+                            machine.action(action)?;
+                        }
                     } else if turn.asks(action) {
                         turn.note(action, machine.guard(action)?);
                     }
                     Ok(())
                 })
             }
-            Part::Atomic(action) => machine.action(action).map(|_| ()),
+            Part::Nothing => Ok(()),
+            Part::Perform(action, _) => machine.action(action).map(|_| ()),
             Part::Message(message) => {
                 let Some(arrival) = code.inbox().decode(program, &message.payload) else {
                     return Ok(());
@@ -213,6 +351,7 @@ impl Program for RobotProgram {
         self.version = 1 + (hash_key(robot.now().0, &[self.version]) >> 1);
         self.bound.fill_with(|| None);
         self.reports.clear();
+        self.waiting.clear();
         self.services = Services::start(&self.code, robot);
         self.run(robot, Part::Start);
     }
@@ -237,7 +376,15 @@ impl Program for RobotProgram {
             return self.go_on(robot);
         }
         // Programs talk through primitives; nothing else is heard.
-        if message.port != Port::PROGRAM {
+        if message.port == Port::PROGRAM {
+            return;
+        }
+        if self.must_wait(message) {
+            self.waiting.push_back(message.clone());
+            if self.waiting.len() > MOST_WAITING {
+                self.waiting.pop_front();
+            }
+        } else {
             self.run(robot, Part::Message(message));
         }
     }
@@ -276,10 +423,15 @@ impl Program for RobotProgram {
             bound,
             services,
             reports,
+            waiting,
             version: _,
             phase,
         } = self;
-        write!(text, "{state:?}{bound:?}{services:?}{reports:?}{phase:?}").is_ok()
+        write!(
+            text,
+            "{state:?}{bound:?}{services:?}{reports:?}{waiting:?}{phase:?}"
+        )
+        .is_ok()
     }
 
     fn inspect(&self) -> Option<&dyn Any> {

@@ -1,7 +1,7 @@
 //! What the primitives of a program have in common, once for all of them: what its shared variables lie in,
 //! and the detector of failed robots. A program has what its primitives need.
 
-use super::atomic::Atomic;
+use super::atomic::{Atomic, Conflicts};
 use super::code::Code;
 use super::primitives::Needs;
 use alloc::boxed::Box;
@@ -59,6 +59,11 @@ impl Services {
         let mut found = false;
         self.primitives(code, &mut |primitive| found |= primitive.port() == port);
         found
+    }
+
+    /// What must wait now, since the writes of an action with `atomic` are being stored.
+    pub fn held<'c>(&self, code: &'c Code) -> Option<&'c Conflicts> {
+        code.conflicts(self.atomic.as_ref()?.stores()?)
     }
 
     /// Shows each to `visit`, always in the same order.

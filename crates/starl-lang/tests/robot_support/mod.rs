@@ -56,6 +56,8 @@ pub struct World {
     /// How long datagrams take, milliseconds; unequal ones reorder.
     pub delay_ms: (f64, f64),
     pub random: Random,
+    /// How much faster than true time robots' own clocks run, as a share of it; 0 where nothing is said.
+    pub clocks_drift: BTreeMap<usize, f64>,
     /// Everything that was handed to the network.
     pub sent: Vec<(RobotId, Destination, Port, Payload)>,
     fleet: Vec<RobotId>,
@@ -107,6 +109,7 @@ impl World {
             duplication: 0.0,
             delay_ms: (1.0, 1.0),
             random: Random::keyed(1, &[]),
+            clocks_drift: BTreeMap::new(),
             sent: Vec::new(),
             fleet,
             wire: BTreeMap::new(),
@@ -194,17 +197,26 @@ impl World {
         self.now = until;
     }
 
+    /// What a robot's own clock shows.
+    fn own_time(&self, robot: usize) -> Time {
+        match self.clocks_drift.get(&robot) {
+            Some(drift) => Time((self.now.0 as f64 * (1.0 + drift)) as u64),
+            None => self.now,
+        }
+    }
+
     /// Hands an input to a robot, if it is up, and does what it asks for.
     pub fn feed(&mut self, robot: usize, input: &Input) {
         let mut inputs = vec![input.clone()];
         while let Some(input) = inputs.pop() {
+            let now = self.own_time(robot);
             let node = &mut self.nodes[robot];
             if node.down || node.failed.is_some() {
                 return;
             }
             let view = View {
                 id: self.fleet[robot],
-                now: self.now,
+                now,
                 estimate: Estimate {
                     pose: Pose {
                         position: node.position,
@@ -242,6 +254,8 @@ impl World {
                 payload,
             } => self.transmit(robot, destination, port, payload),
             Effect::SetTimer { key, after } => {
+                let pace = 1.0 + self.clocks_drift.get(&robot).unwrap_or(&0.0);
+                let after = Duration((after.0 as f64 / pace) as u64);
                 node.timers.insert(key, self.now + after);
             }
             Effect::CancelTimer(key) => {

@@ -1,6 +1,6 @@
 //! What operations ask of others, when they ask again, and when they say that nobody answers.
 
-use super::operation::Phase;
+use super::operation::{Kind, Phase};
 use super::packet::{Content, Entry, QuestionId};
 use super::{OPERATION_TIMER, OperationId, Register, report};
 use alloc::vec::Vec;
@@ -16,18 +16,22 @@ impl Register {
         };
         let register = (*operation.register).into();
         Some(match (operation.phase, &operation.latest) {
-            (Phase::Store, Some((tag, value))) => Content::Store {
+            (Phase::Store, Some(version)) => Content::Store {
                 id,
                 entry: Entry {
                     register,
-                    tag: *tag,
-                    value: value.clone(),
+                    version: version.clone(),
                 },
+            },
+            (Phase::Claim(ballot), _) => Content::Claim {
+                id,
+                register,
+                ballot,
             },
             _ => Content::Query {
                 id,
                 register,
-                is_read: operation.written.is_none(),
+                is_read: operation.kind == Kind::Read,
             },
         })
     }
@@ -41,7 +45,10 @@ impl Register {
         let Some(operation) = self.operations.get_mut(&number) else {
             return;
         };
-        missing.retain(|peer| *peer != me && !operation.answers.contains_key(peer));
+        missing.retain(|peer| {
+            let has_answered = operation.answers.contains_key(peer);
+            *peer != me && !has_answered && !operation.refused.contains(peer)
+        });
         let after = self.options.timeout(operation.repetitions);
         operation.repetitions = operation.repetitions.saturating_add(1);
         self.send_each(robot, &missing, &question);
@@ -50,6 +57,9 @@ impl Register {
 
     /// The time for answers is over.
     pub(super) fn ask_again(&mut self, robot: &mut Robot<'_>, number: u32) {
+        if self.is_refused(robot, number) {
+            return self.claim_anew(robot, number);
+        }
         // A corruption may have taken away answers, or brought such as nobody gave.
         self.answer_own(robot, number);
         self.advance(robot, number);

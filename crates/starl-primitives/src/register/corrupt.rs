@@ -4,6 +4,7 @@ use super::Register;
 use super::entering::Standing;
 use super::operation::Phase;
 use super::tag::Tag;
+use super::version::Version;
 use starl_core::{Duration, Payload, Random, Robot, RobotId, Time};
 
 /// Corrupted values are up to this long, bytes.
@@ -13,10 +14,12 @@ impl Register {
     /// Overwrites the state at random, within its types: for a program's
     /// [`starl_core::Program::corrupt`]. The names of registers stay, as they are part of the program.
     pub fn corrupt(&mut self, random: &mut Random) {
-        for (tag_of, content) in self.replica.all_mut() {
+        for copy in self.replica.all_mut() {
             if random.chance(0.5) {
-                *tag_of = tag(random);
-                *content = value(random);
+                copy.version = Some(version(random));
+            }
+            if random.chance(0.2) {
+                copy.promised = Some(tag(random));
             }
         }
         for life in self.lives.all_mut() {
@@ -28,13 +31,14 @@ impl Register {
         for operation in self.operations.values_mut() {
             operation.answers.retain(|_, _| random.chance(0.5));
             if random.chance(0.5) {
-                operation.latest = Some((tag(random), value(random)));
+                operation.latest = Some(version(random));
                 operation.phase = Phase::Store;
             }
             operation.begun = Time(word(random));
             operation.repetitions = random.bits();
         }
         self.last_number = random.bits();
+        self.claimed.retain(|_, _| random.chance(0.5));
         self.gossip.interval = Duration(word(random));
         self.gossip.equal = random.bits();
         self.gossip.compared = random.chance(0.5);
@@ -44,9 +48,8 @@ impl Register {
     /// Begins an operation anew after a corruption.
     pub(super) fn begin_again(&mut self, robot: &mut Robot<'_>, number: u32) {
         if let Some(operation) = self.operations.get_mut(&number) {
-            operation.phase = Phase::Query;
             operation.latest = None;
-            operation.answers.clear();
+            operation.enter(Phase::Query);
         }
         self.ask_again(robot, number);
     }
@@ -58,6 +61,10 @@ fn tag(random: &mut Random) -> Tag {
         writer: RobotId(random.bits()),
         incarnation: random.bits(),
     }
+}
+
+fn version(random: &mut Random) -> Version {
+    Version::written(tag(random), value(random))
 }
 
 fn value(random: &mut Random) -> Payload {

@@ -5,7 +5,7 @@
 //! Operations do not need this. It lets [`Register::known`] come to show what was written, on robots that are
 //! no participants too.
 
-use super::packet::{Content, Entry, TAG_BYTES};
+use super::packet::{Content, Entry};
 use super::tag::Tag;
 use super::{GOSSIP_TIMER, Register};
 use alloc::collections::BTreeMap;
@@ -120,15 +120,15 @@ impl Register {
         let mut room = self.room();
         let mut wanted = Vec::new();
         for (name, tag) in &theirs {
-            let own = self.replica.get(name).map(|(tag, _)| *tag);
-            let bytes = name.len() + TAG_BYTES;
+            let own = self.replica.get(name).map(|version| version.tag);
+            let bytes = name.len() + Tag::BYTES;
             if own < Some(*tag) && tag.is_valid() && bytes <= room {
                 room -= bytes;
                 wanted.push(name.clone());
             }
         }
         let is_newer = |name: &&str| {
-            let own = self.replica.get(name).map(|(tag, _)| *tag);
+            let own = self.replica.get(name).map(|version| version.tag);
             own > theirs.get(*name).copied()
         };
         let newer = self.replica.names_between(after, last).filter(is_newer);
@@ -170,7 +170,7 @@ impl Register {
         let numbers: Vec<u32> = self.operations.keys().copied().collect();
         for number in numbers {
             let latest = self.operations.get(&number).and_then(|o| o.latest.as_ref());
-            if latest.is_some_and(|(tag, _)| !tag.is_valid()) {
+            if latest.is_some_and(|version| !version.is_valid()) {
                 self.begin_again(robot, number);
             }
         }

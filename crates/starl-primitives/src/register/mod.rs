@@ -7,6 +7,9 @@
 //! second part is left out where the majority agrees. A write asks a majority for their tags, and has its
 //! value stored by a majority under a greater one.
 //!
+//! A register can also be claimed, to read and write it as one step ([`Register::claim`],
+//! [`Register::write_claimed`]; the module `claiming`).
+//!
 //! Robots have no stable storage: one that starts again has lost its copies, and what it acknowledged before
 //! must not count any more. It answers nothing until it has the copies of a majority of all from the others
 //! (the module `recovery`), and answers of its earlier lives are told apart by crash vectors (Michael, Ports, Sharma,
@@ -18,20 +21,25 @@
 //!   network does, as long as at no time a majority of the participants is down or recovering. If that
 //!   happens the robots that are left block rather than forget, unless nobody that is heard has anything
 //!   left;
+//! - no lost update: what is written to a claimed register takes the place of what the claim has read, or is
+//!   told as lost, under the same condition; no clock, lock or suspicion matters;
 //! - progress: an operation ends if a majority is up and can be reached;
 //! - nobody waits unaware: otherwise [`Status::NoQuorum`] says so, and the operation goes on trying until it
 //!   is done or withdrawn.
 //!
-//! An operation that was withdrawn, or whose robot has crashed, may still take effect later.
+//! An operation that was withdrawn, or whose robot has crashed, may still take effect later; of an update that
+//! is so before the next one of its register is done.
 //!
-//! Messages among n participants: 2(n - 1) for a read where all agree, else 4(n - 1), as for a write; the
+//! Messages among n participants: 2(n - 1) for a read where all agree, for a claim and for what writes it; else 4(n - 1); the
 //! n - 1 questions being one datagram to all. Copies that missed a write are repaired in the background
 //! (the module `gossip`), so that [`Register::known`] comes to show it.
 //!
 //! Self-stabilising: whatever copies, tags and lives a corruption leaves behind, once a write is done all
 //! later reads of its register give it or a later one.
 
+mod answering;
 mod asking;
+mod claiming;
 mod corrupt;
 mod entering;
 mod gossip;
@@ -45,13 +53,17 @@ mod replica;
 mod report;
 mod serving;
 mod tag;
+mod version;
 
 pub use options::Options;
 pub use tag::Tag;
 
 use crate::incarnation::Incarnation;
+use alloc::boxed::Box;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
+use answering::Said;
+use claiming::Claimed;
 use core::fmt;
 use entering::Standing;
 use gossip::Gossip;
@@ -88,7 +100,11 @@ pub struct Register {
     /// Counts operations.
     last_number: u32,
     operations: BTreeMap<u32, Operation>,
-    results: BTreeMap<u32, Option<Payload>>,
+    results: BTreeMap<u32, Status>,
+    /// What has been claimed and not been written since.
+    claimed: BTreeMap<Box<str>, Claimed>,
+    /// The greatest ballot that this robot has used since it started.
+    last_ballot: Option<Tag>,
     gossip: Gossip,
     suspects: BTreeSet<RobotId>,
 }
@@ -107,6 +123,12 @@ pub enum Status {
     NoQuorum,
     /// It has taken effect. What was read, none where nothing was ever written; or what was written.
     Done(Option<Payload>),
+    /// It has not taken effect and never will: another robot's claim came before it. Of
+    /// [`Register::write_claimed`].
+    Lost,
+    /// It has ended because the register was claimed. It may take effect or not. Of [`Register::write`]: a
+    /// register that is claimed should be written no other way.
+    Refused,
     /// It was withdrawn, or was never begun, or ended so long ago that its result is forgotten.
     Unknown,
 }
@@ -120,6 +142,10 @@ pub enum OperationError {
     ValueTooLong,
     /// [`Options::most_operations`] are under way already.
     TooMany,
+    /// This robot claims the register already, or writes what it has claimed.
+    UnderWay,
+    /// What is to be written was not claimed, or has been written since.
+    NotClaimed,
 }
 
 impl fmt::Display for OperationError {
@@ -128,6 +154,8 @@ impl fmt::Display for OperationError {
             OperationError::NameTooLong => "the register's name is too long",
             OperationError::ValueTooLong => "the value is too long for a datagram",
             OperationError::TooMany => "as many operations as there may be are under way",
+            OperationError::UnderWay => "the register is being claimed or written already",
+            OperationError::NotClaimed => "the register was not claimed before",
         })
     }
 }
@@ -150,6 +178,8 @@ impl Register {
             last_number: 0,
             operations: BTreeMap::new(),
             results: BTreeMap::new(),
+            claimed: BTreeMap::new(),
+            last_ballot: None,
             gossip: Gossip::default(),
             suspects: BTreeSet::new(),
         }
@@ -159,7 +189,7 @@ impl Register {
     /// many others are done too.
     pub fn status(&self, operation: OperationId) -> Status {
         if let Some(result) = self.results.get(&operation.0) {
-            return Status::Done(result.clone());
+            return result.clone();
         }
         match self.operations.get(&operation.0) {
             Some(operation) if operation.is_stuck => Status::NoQuorum,
@@ -171,7 +201,7 @@ impl Register {
     /// What this robot's own copy shows, without asking anyone: a value that was written, but maybe not the
     /// latest; none where this robot knows of no write.
     pub fn known(&self, register: &str) -> Option<&[u8]> {
-        Some(&self.replica.get(register)?.1)
+        self.replica.get(register)?.value.as_deref()
     }
 
     /// Whether this robot answers others: it is a participant, and has recovered if it had to.
@@ -262,14 +292,28 @@ impl Register {
             Content::State { id, page } if !is_past && self.asks(id) => {
                 self.take_page(robot, from, datagram.life, page);
             }
-            Content::Query { .. } | Content::Store { .. } => {
+            Content::Query { .. } | Content::Claim { .. } | Content::Store { .. } => {
                 self.serve(robot, from, datagram.content);
             }
-            Content::Value { id, tag, value } if !is_past => {
-                self.answered(robot, from, datagram.life, id, Some((tag, value)));
+            Content::Value {
+                id,
+                claimed,
+                promised,
+                version,
+            } if !is_past => {
+                let shown = Said::Shown {
+                    claimed,
+                    promised,
+                    version,
+                };
+                self.answered(robot, from, datagram.life, id, shown);
             }
-            Content::Stored { id } if !is_past => {
-                self.answered(robot, from, datagram.life, id, None);
+            Content::Stored { id, tag } if !is_past => {
+                self.answered(robot, from, datagram.life, id, Said::Stored(tag));
+            }
+            Content::Refused { id, tag, promised } if !is_past => {
+                let refused = Said::Refused { tag, promised };
+                self.answered(robot, from, datagram.life, id, refused);
             }
             Content::Announcement(_)
             | Content::Comparison { .. }
@@ -279,7 +323,8 @@ impl Register {
             Content::Told { .. }
             | Content::State { .. }
             | Content::Value { .. }
-            | Content::Stored { .. } => {}
+            | Content::Stored { .. }
+            | Content::Refused { .. } => {}
         }
     }
 }

@@ -1,54 +1,107 @@
-//! A read or a write that is under way.
+//! An operation that is under way.
 
 use super::tag::Tag;
+use super::version::Version;
 use alloc::boxed::Box;
-use alloc::collections::BTreeMap;
+use alloc::collections::{BTreeMap, BTreeSet};
 use starl_core::{Payload, RobotId, Time};
 
 /// What is being done.
 #[derive(Clone, Debug)]
 pub(super) struct Operation {
     pub register: Box<str>,
-    /// What is to be written; none for a read.
-    pub written: Option<Payload>,
+    pub kind: Kind,
     pub phase: Phase,
-    /// Who has answered in this phase: in which life, and the tag that it showed.
-    pub answers: BTreeMap<RobotId, (u64, Option<Tag>)>,
-    /// The latest copy that was found; in the second phase what is to be stored.
-    pub latest: Option<(Tag, Payload)>,
+    /// Who has answered in this phase.
+    pub answers: BTreeMap<RobotId, Answer>,
+    /// Who has refused in this phase, having promised another ballot.
+    pub refused: BTreeSet<RobotId>,
+    /// The greatest ballot or tag that was heard of.
+    pub greatest: Option<Tag>,
+    /// The latest copy that was found; in the last phase what is to be stored.
+    pub latest: Option<Version>,
     /// When it began, by the robot's own clock.
     pub begun: Time,
     /// How often this phase's question was asked.
     pub repetitions: u32,
+    /// How often it was refused.
+    pub rounds: u32,
+    /// Whether it is refused and waits before it asks under a greater ballot.
+    pub is_backing_off: bool,
     /// Whether no majority seems to answer.
     pub is_stuck: bool,
 }
 
-/// The two halves of every operation.
+/// What is wanted.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Read,
+    Write(Payload),
+    /// To read a register and have it promised.
+    Claim,
+    /// To write what was claimed.
+    Update {
+        /// Under which ballot it is written.
+        ballot: Tag,
+        /// Whether it has taken effect, as was found after it was refused; none while it is not.
+        found: Option<bool>,
+    },
+}
+
+/// What a participant has said.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Answer {
+    /// In which of its lives.
+    pub life: u64,
+    /// The tag that it showed.
+    pub tag: Option<Tag>,
+    /// Whether nothing greater is promised.
+    pub is_firm: bool,
+}
+
+/// The parts of operations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Phase {
     /// A majority is asked for its copies.
     Query,
+    /// A majority is asked for its copies, and to promise a ballot.
+    Claim(Tag),
     /// A majority is to store one.
     Store,
 }
 
 impl Operation {
     /// Takes note of what a participant has.
-    pub fn found(&mut self, tag: Option<Tag>, value: Payload) {
-        let Some(tag) = tag else { return };
-        let is_later = match &self.latest {
-            Some((latest, known)) => (tag, &value) > (*latest, known),
-            None => true,
-        };
-        if is_later {
-            self.latest = Some((tag, value));
+    pub fn found(&mut self, version: Option<Version>) {
+        if version > self.latest {
+            self.latest = version;
         }
     }
 
-    /// Whether all that have answered have the latest copy.
+    /// Takes note of a ballot or tag, so that the next ballot is greater.
+    pub fn heard(&mut self, tag: Option<Tag>) {
+        self.greatest = self.greatest.max(tag);
+    }
+
+    /// Whether all that have answered have the latest copy, and have promised nothing since.
     pub fn is_unanimous(&self) -> bool {
-        let latest = self.latest.as_ref().map(|(tag, _)| *tag);
-        self.answers.values().all(|&(_, tag)| tag == latest)
+        let latest = self.latest.as_ref().map(|version| version.tag);
+        let mut answers = self.answers.values();
+        answers.all(|answer| answer.is_firm && answer.tag == latest)
+    }
+
+    /// Goes on to another phase.
+    pub fn enter(&mut self, phase: Phase) {
+        self.phase = phase;
+        self.answers.clear();
+        self.refused.clear();
+        self.is_backing_off = false;
+        self.repetitions = 0;
+    }
+
+    /// Begins to find out anew what there is, under a ballot.
+    pub fn claim(&mut self, ballot: Tag) {
+        self.latest = None;
+        self.enter(Phase::Claim(ballot));
     }
 }

@@ -1,10 +1,11 @@
 //! What robots say to each other about registers.
 
 use super::tag::Tag;
+use super::version::Version;
 use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
-use starl_core::{Payload, RobotId};
+use starl_core::RobotId;
 
 /// One datagram.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -43,16 +44,30 @@ pub(super) enum Content {
         register: String,
         is_read: bool,
     },
-    /// Here it is.
+    /// Show me your copy, and from now on refuse to store anything under a lower ballot.
+    Claim {
+        id: QuestionId,
+        register: String,
+        ballot: Tag,
+    },
+    /// Here it is, and the greatest ballot that was promised before. `claimed` is what is promised now, if
+    /// that was asked for.
     Value {
         id: QuestionId,
-        tag: Option<Tag>,
-        value: Payload,
+        claimed: Option<Tag>,
+        promised: Option<Tag>,
+        version: Option<Version>,
     },
-    /// Store this, unless you have a later one.
+    /// Store this, unless you have a later one or have promised not to.
     Store { id: QuestionId, entry: Entry },
-    /// Done.
-    Stored { id: QuestionId },
+    /// What has this tag is stored.
+    Stored { id: QuestionId, tag: Tag },
+    /// What has this tag is not stored, or this ballot not promised, since a greater one is.
+    Refused {
+        id: QuestionId,
+        tag: Tag,
+        promised: Tag,
+    },
     /// To all: what the sender's copies amount to.
     Announcement(u64),
     /// To one: the tags of the sender's copies of the registers after one up to another.
@@ -81,7 +96,7 @@ pub(super) struct QuestionId {
 pub(super) struct Page {
     /// Those after this register.
     pub after: Option<String>,
-    pub entries: Vec<Entry>,
+    pub entries: Vec<PageEntry>,
     /// Whether there are no more.
     pub is_last: bool,
 }
@@ -90,16 +105,28 @@ pub(super) struct Page {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Entry {
     pub register: String,
-    pub tag: Tag,
-    pub value: Payload,
+    pub version: Version,
+}
+
+/// A copy and a promise, for one that has just started.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct PageEntry {
+    pub register: String,
+    pub promised: Option<Tag>,
+    pub version: Option<Version>,
 }
 
 impl Entry {
     /// So many bytes it takes at most, by the varints' greatest lengths.
     pub fn bytes(&self) -> usize {
-        5 + self.register.len() + TAG_BYTES + 5 + self.value.len()
+        5 + self.register.len() + self.version.bytes()
     }
 }
 
-/// A tag's, at most.
-pub(super) const TAG_BYTES: usize = 10 + 5 + 5;
+impl PageEntry {
+    /// As [`Entry::bytes`].
+    pub fn bytes(&self) -> usize {
+        let version = self.version.as_ref().map_or(0, Version::bytes);
+        5 + self.register.len() + 2 + Tag::BYTES + version
+    }
+}

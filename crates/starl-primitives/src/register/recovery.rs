@@ -124,8 +124,8 @@ impl Register {
             is_done: page.is_last,
         };
         entering.heard.insert(from, heard);
-        for entry in &page.entries {
-            self.merge(robot, entry);
+        for entry in page.entries {
+            self.take_over(robot, entry);
         }
         if page.is_last {
             self.go_on_entering(robot);

@@ -1,62 +1,90 @@
-//! One robot's copies of the registers.
+//! One robot's copies of the registers, and what it has promised about them.
 //!
-//! Invariant: the tag of a copy only rises. Copies of equal tags hold equal values, unless a corruption
-//! changed one; then the greater value is kept, by all alike.
+//! Invariant: the tag of a copy and what is promised only rise. Copies of equal tags hold equal values, unless
+//! a corruption changed one; then the greater value is kept, by all alike.
 
-use super::packet::{Entry, Page, TAG_BYTES};
+use super::packet::{Entry, Page, PageEntry};
 use super::tag::Tag;
+use super::version::Version;
 use alloc::borrow::ToOwned;
 use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::ops::Bound;
+use starl_core::Digest;
 use starl_core::random::hash_key;
-use starl_core::{Digest, Payload};
 
 /// The copies, by name.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Replica(BTreeMap<Box<str>, (Tag, Payload)>);
+pub(super) struct Replica(BTreeMap<Box<str>, Copy>);
+
+/// One register's.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Copy {
+    /// Nothing is stored under a lower ballot.
+    pub promised: Option<Tag>,
+    pub version: Option<Version>,
+}
 
 impl Replica {
-    pub fn get(&self, register: &str) -> Option<&(Tag, Payload)> {
-        self.0.get(register)
+    pub fn get(&self, register: &str) -> Option<&Version> {
+        self.0.get(register)?.version.as_ref()
+    }
+
+    /// What is promised about a register.
+    pub fn promised(&self, register: &str) -> Option<Tag> {
+        self.0.get(register)?.promised
     }
 
     /// Takes in a copy unless the present one is later or there is no room; whether it changed anything.
     pub fn merge(&mut self, entry: &Entry, most: usize) -> bool {
-        if let Some(present) = self.0.get_mut(&*entry.register) {
-            let is_later = (entry.tag, &entry.value) > (present.0, &present.1);
-            if is_later {
-                *present = (entry.tag, entry.value.clone());
-            }
-            return is_later;
+        let Some(copy) = self.copy_mut(&entry.register, most) else {
+            return false;
+        };
+        let is_later = copy.version.as_ref() < Some(&entry.version);
+        if is_later {
+            copy.version = Some(entry.version.clone());
         }
-        let has_room = self.0.len() < most;
-        if has_room {
-            let content = (entry.tag, entry.value.clone());
-            self.0.insert((*entry.register).into(), content);
+        is_later
+    }
+
+    /// Promises a ballot, if no greater one is promised; whether this is promised now.
+    pub fn promise(&mut self, register: &str, ballot: Tag, most: usize) -> bool {
+        let Some(copy) = self.copy_mut(register, most) else {
+            return false;
+        };
+        copy.promised = copy.promised.max(Some(ballot));
+        copy.promised == Some(ballot)
+    }
+
+    /// None if it is a new one and there is no room.
+    fn copy_mut(&mut self, register: &str, most: usize) -> Option<&mut Copy> {
+        if !self.0.contains_key(register) && self.0.len() < most {
+            self.0.insert(register.into(), Copy::default());
         }
-        has_room
+        self.0.get_mut(register)
     }
 
     /// A copy, to be sent.
     pub fn entry(&self, register: &str) -> Option<Entry> {
-        let (tag, value) = self.get(register)?;
         Some(Entry {
             register: register.to_owned(),
-            tag: *tag,
-            value: value.clone(),
+            version: self.get(register)?.clone(),
         })
     }
 
-    /// As many copies after a register as fit so many bytes, but at least one.
+    /// As many copies after a register, with what is promised, as fit so many bytes, but at least one.
     pub fn page(&self, after: Option<String>, room: usize) -> Page {
         let mut entries = Vec::new();
         let mut room = room;
         let mut is_last = true;
-        let later = self.names_after(after.as_deref());
-        for entry in later.filter_map(|name| self.entry(name)) {
+        for (name, copy) in self.after(after.as_deref()) {
+            let entry = PageEntry {
+                register: name.to_owned(),
+                promised: copy.promised,
+                version: copy.version.clone(),
+            };
             let bytes = entry.bytes();
             if bytes > room && !entries.is_empty() {
                 is_last = false;
@@ -82,10 +110,10 @@ impl Replica {
         let mut tags: Vec<(String, Tag)> = Vec::new();
         let mut room = room;
         for name in self.names_after(after) {
-            let Some((tag, _)) = self.get(name) else {
+            let Some(version) = self.get(name) else {
                 break;
             };
-            let bytes = 5 + name.len() + TAG_BYTES;
+            let bytes = 5 + name.len() + Tag::BYTES;
             if bytes > room
                 && let Some((last, _)) = tags.last()
             {
@@ -93,7 +121,7 @@ impl Replica {
                 return (tags, Some(last));
             }
             room = room.saturating_sub(bytes);
-            tags.push((name.to_owned(), *tag));
+            tags.push((name.to_owned(), version.tag));
         }
         (tags, None)
     }
@@ -108,31 +136,51 @@ impl Replica {
             .take_while(move |&name| last.is_none_or(|last| name <= last))
     }
 
+    /// Of the registers of which there is a copy.
     fn names_after(&self, after: Option<&str>) -> impl Iterator<Item = &str> {
+        let later = self.after(after);
+        later.filter_map(|(name, copy)| copy.version.is_some().then_some(name))
+    }
+
+    fn after(&self, after: Option<&str>) -> impl Iterator<Item = (&str, &Copy)> {
         let from = after.map_or(Bound::Unbounded, Bound::Excluded);
         let later = self.0.range::<str, _>((from, Bound::Unbounded));
-        later.map(|(name, _)| &**name)
+        later.map(|(name, copy)| (&**name, copy))
     }
 
     /// Stands for all copies.
     pub fn fingerprint(&self) -> u64 {
-        self.0.iter().fold(0, |sum, (name, (tag, value))| {
+        let copies = self.0.iter();
+        let copies = copies.filter_map(|(name, copy)| Some((name, copy.version.as_ref()?)));
+        copies.fold(0, |sum, (name, version)| {
             let mut digest = Digest::default();
             digest.bytes(name.as_bytes());
-            digest.word(tag.count);
-            digest.word(u64::from(tag.writer.0) << 32 | u64::from(tag.incarnation));
-            digest.bytes(value);
+            add_tag(&mut digest, version.tag);
+            digest.bytes(version.value.as_deref().unwrap_or_default());
+            for (writer, tag) in &version.writers {
+                digest.word(writer.0.into());
+                add_tag(&mut digest, *tag);
+            }
             sum.wrapping_add(hash_key(digest.value(), &[]))
         })
     }
 
-    /// Forgets copies that no writes can have led to.
+    /// Forgets what no writes can have led to.
     pub fn refresh(&mut self) {
-        self.0.retain(|_, (tag, _)| tag.is_valid());
+        self.0.retain(|_, copy| {
+            copy.promised = copy.promised.filter(|ballot| ballot.is_valid());
+            copy.version = copy.version.take().filter(Version::is_valid);
+            copy.promised.is_some() || copy.version.is_some()
+        });
     }
 
     /// To be overwritten.
-    pub fn all_mut(&mut self) -> impl Iterator<Item = &mut (Tag, Payload)> {
+    pub fn all_mut(&mut self) -> impl Iterator<Item = &mut Copy> {
         self.0.values_mut()
     }
+}
+
+fn add_tag(digest: &mut Digest, tag: Tag) {
+    digest.word(tag.count);
+    digest.word(u64::from(tag.writer.0) << 32 | u64::from(tag.incarnation));
 }

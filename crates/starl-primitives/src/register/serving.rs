@@ -3,7 +3,9 @@
 //! Invariant: only a participant that is up answers, and what it has acknowledged it has.
 
 use super::entering::Standing;
-use super::packet::{Content, Datagram, Entry};
+use super::packet::{Content, Datagram, Entry, PageEntry};
+use super::tag::Tag;
+use super::version::Version;
 use super::{LONGEST_NAME, Register};
 use alloc::vec::Vec;
 use starl_core::{Destination, Robot, RobotId};
@@ -20,30 +22,111 @@ impl Register {
                 register,
                 is_read,
             } => {
-                let copy = self.replica.get(&register);
-                let tag = copy.map(|(tag, _)| *tag);
-                let value = copy.filter(|_| is_read).map(|(_, value)| value.clone());
-                let value = value.unwrap_or_default();
-                Content::Value { id, tag, value }
-            }
-            Content::Store { id, entry } => {
-                self.merge(robot, &entry);
-                let copy = self.replica.get(&entry.register);
-                if copy.is_none_or(|(tag, _)| *tag < entry.tag) {
-                    return; // There is no room for it, or no write can have led to it.
+                let version = self.replica.get(&register).map(|version| match is_read {
+                    true => version.clone(),
+                    false => Version {
+                        tag: version.tag,
+                        ..Version::default()
+                    },
+                });
+                Content::Value {
+                    id,
+                    claimed: None,
+                    promised: self.replica.promised(&register),
+                    version,
                 }
-                Content::Stored { id }
+            }
+            Content::Claim {
+                id,
+                register,
+                ballot,
+            } => match self.promise(&register, ballot) {
+                Ok(promised) => Content::Value {
+                    id,
+                    claimed: Some(ballot),
+                    promised,
+                    version: self.replica.get(&register).cloned(),
+                },
+                Err(promised) => match promised {
+                    Some(promised) => Content::Refused {
+                        id,
+                        tag: ballot,
+                        promised,
+                    },
+                    None => return, // There is no room for it, or nobody can have claimed it.
+                },
+            },
+            Content::Store { id, entry } => {
+                let tag = entry.version.tag;
+                match self.store(robot, &entry) {
+                    Ok(()) => Content::Stored { id, tag },
+                    Err(Some(promised)) => Content::Refused { id, tag, promised },
+                    Err(None) => return, // There is no room for it, or no write can have led to it.
+                }
             }
             _ => return,
         };
         self.send(robot, Destination::Robot(from), answer);
     }
 
+    /// Promises a ballot; gives what was promised before. If it does not, gives the greater ballot that is
+    /// promised, if that is why.
+    pub(super) fn promise(
+        &mut self,
+        register: &str,
+        ballot: Tag,
+    ) -> Result<Option<Tag>, Option<Tag>> {
+        let before = self.replica.promised(register);
+        let is_ours = ballot.is_valid() && register.len() <= LONGEST_NAME;
+        let most = self.options.most_registers;
+        match is_ours && self.replica.promise(register, ballot, most) {
+            true => Ok(before),
+            false => Err(before.filter(|before| *before > ballot)),
+        }
+    }
+
+    /// Stores a copy, so that it can be acknowledged. If it does not, gives what is promised, if that is why.
+    pub(super) fn store(
+        &mut self,
+        robot: &mut Robot<'_>,
+        entry: &Entry,
+    ) -> Result<(), Option<Tag>> {
+        let (register, tag) = (&entry.register, entry.version.tag);
+        if let Some(promised) = self.replica.promised(register)
+            && promised > tag
+        {
+            return Err(Some(promised));
+        }
+        self.merge(robot, entry);
+        let stored = self.replica.get(register);
+        match stored.is_some_and(|version| version.tag >= tag) {
+            true => Ok(()),
+            false => Err(None),
+        }
+    }
+
+    /// Takes over what another participant has and has promised.
+    pub(super) fn take_over(&mut self, robot: &mut Robot<'_>, entry: PageEntry) {
+        let PageEntry {
+            register,
+            promised,
+            version,
+        } = entry;
+        if let Some(promised) = promised {
+            // A greater one may have come from another participant.
+            let _ = self.promise(&register, promised);
+        }
+        if let Some(version) = version {
+            self.merge(robot, &Entry { register, version });
+        }
+    }
+
     /// Takes in a copy.
     pub(super) fn merge(&mut self, robot: &mut Robot<'_>, entry: &Entry) {
-        let is_ours = entry.tag.is_valid()
+        let length = entry.version.value.as_ref().map_or(0, |value| value.len());
+        let is_ours = entry.version.is_valid()
             && entry.register.len() <= LONGEST_NAME
-            && entry.value.len() <= self.options.longest_value;
+            && length <= self.options.longest_value;
         if is_ours && self.replica.merge(entry, self.options.most_registers) {
             self.note_change(robot);
         }

@@ -17,7 +17,21 @@ pub struct Tag {
     pub incarnation: u32,
 }
 
+impl Default for Tag {
+    /// Less than that of any write.
+    fn default() -> Tag {
+        Tag {
+            count: 0,
+            writer: RobotId(0),
+            incarnation: 0,
+        }
+    }
+}
+
 impl Tag {
+    /// It takes at most so many, by the varints' greatest lengths.
+    pub(super) const BYTES: usize = 10 + 5 + 5;
+
     /// Whether writes can have led to it.
     pub(super) fn is_valid(self) -> bool {
         self.count <= GREATEST

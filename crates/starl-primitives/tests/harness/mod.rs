@@ -3,6 +3,7 @@
 
 #![allow(dead_code)] // each test uses a part of it
 
+pub mod counter;
 pub mod crosser;
 pub mod elector;
 pub mod keeper;

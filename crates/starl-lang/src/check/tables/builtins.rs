@@ -55,7 +55,7 @@ builtins! {
     Ranges = "ranges: List[Float]" Query "What the proximity sensors measure, metres, from right to left."
     Detected = "detected: List[Detection]" Query "The things and robots in sight, nearest first."
 
-    AtomicBlocked = "atomic_blocked: Bool" Query "Whether the action with `atomic` that this robot waits for, or has run, cannot go on: a robot whose permission is missing seems to have failed, or no majority of the robots answers."
+    AtomicBlocked = "atomic_blocked: Bool" Query "Whether the action with `atomic` that this robot waits for, or has run, cannot go on: no majority of the robots answers."
 
     // The run.
     Undisturbed = "undisturbed: Duration" Property "How long it is since the start and since the last fault began or was mended; zero while the network is parted, a motor is stuck or sensors are frozen."

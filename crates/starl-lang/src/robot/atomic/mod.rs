@@ -1,20 +1,29 @@
-//! Actions with `atomic`: how a robot comes to have linearizable variables for itself.
+//! Actions with `atomic`: how a robot reads and writes linearizable variables as one step.
 //!
 //! When the guard of such an action holds by what the robot knows, the robot asks for the lock of the
-//! action's variables, reads their latest values from a majority, has them stored anew so that nothing that a
-//! robot wrote when it crashed can take effect any more, and runs the action if its guard still holds by those.
-//! What it wrote is stored by a majority before the lock is given back, so that whoever gets the lock next
-//! reads it.
+//! action's variables and claims them: it reads their latest values from a majority, which promises to store
+//! nothing under a lower number any more. It finds out what the action writes, has that stored by a majority,
+//! and only then the action takes place, as it was found out. If others have claimed the variables meanwhile it
+//! is not stored, nothing has happened, and the action is tried anew.
+//!
+//! Safety rests on the claims alone (`starl_primitives::register`, the module `claiming`): the lock, which has
+//! leases so that who holds it may fail, only keeps robots from disturbing each other. So neither clocks nor
+//! leases nor suspicions can lose what an action wrote.
 //!
 //! Invariants: a robot waits for one action at a time, and holds the lock of no others, so robots do not wait
 //! for each other in circles. Variables that some action uses together are one group: one lock, and one
 //! register that holds the values of all of them, so that of what an action writes others see all or
-//! nothing, even if the robot crashes meanwhile.
+//! nothing, even if the robot crashes meanwhile. While what an action writes is being stored, nothing that the
+//! action depends on changes ([`Conflicts`]).
 
+mod footprint;
 mod groups;
+mod script;
 mod turn;
 
+pub use footprint::Conflicts;
 pub use groups::join_groups;
+pub use script::Script;
 pub use turn::Turn;
 
 use super::code::Code;
@@ -23,9 +32,12 @@ use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::String;
 use starl_core::{Input, Payload, Port, Primitive, Random, Robot, message};
-use starl_primitives::mutex::{self, Resources};
+use starl_primitives::mutex::{self, Algorithm, Resources};
 use starl_primitives::register::{self, OperationError, OperationId, Status};
 use starl_primitives::{Mutex, Register};
+
+/// The kind of primitive that linearizable variables are.
+pub const KIND: &str = "Linearizable";
 
 /// The locks and the values, and how far this robot is with an action.
 #[derive(Clone, Debug)]
@@ -35,7 +47,9 @@ pub struct Atomic {
     stage: Stage,
     /// The action that had its turn last.
     last: Option<u32>,
-    /// The values at hand while an action runs.
+    /// How the action goes whose writes are being stored.
+    script: Script,
+    /// The values at hand while it is found out what an action writes.
     open: Option<Open>,
 }
 
@@ -46,41 +60,50 @@ enum Stage {
     Idle,
     /// It waits for the lock of this action.
     Locking(u32),
-    /// It has the lock and waits for the values.
-    Reading(u32, OperationId),
-    /// It has the values, and they are being stored anew.
-    Fencing(u32, OperationId),
-    /// The action runs.
-    Running(u32),
-    /// It has run, and what it wrote is being stored.
-    Writing(u32, OperationId),
+    /// It has, or had, the lock and waits for the values.
+    Claiming(u32, OperationId),
+    /// It is known what it writes, and that is being stored.
+    Storing(u32, OperationId),
 }
 
-/// The variables of a group while an action runs.
+/// What is to be done with an action now.
+#[derive(Debug)]
+pub enum Step {
+    /// Find out what it writes, given the values ([`Atomic::open`]), and store that ([`Atomic::store`]).
+    Try(u32, Values),
+    /// It takes place, by this script. [`Atomic::release`] ends it.
+    Perform(u32, Script),
+}
+
+/// The variables of a group while it is found out what an action writes.
 #[derive(Clone, Debug)]
 struct Open {
     group: Box<str>,
     values: Values,
-    has_changed: bool,
 }
 
 /// Values of variables that were written, by name.
-type Values = BTreeMap<String, Payload>;
+pub type Values = BTreeMap<String, Payload>;
 
 impl Atomic {
     /// For the program of this name.
     pub fn new(program: &str) -> Atomic {
-        let (locks, values) = (mutex::Options::default(), register::Options::default());
+        let locks = mutex::Options {
+            algorithm: Algorithm::Lease,
+            ..mutex::Options::default()
+        };
+        let values = register::Options::default();
         Atomic {
             mutex: Mutex::new(&format!("{program}/atomic"), None, locks),
             register: Register::new(&format!("{program}/linearizable"), None, values),
             stage: Stage::Idle,
             last: None,
+            script: Script::None,
             open: None,
         }
     }
 
-    /// A variable's value: while an action runs the latest, else what is known here.
+    /// A variable's value: while an action is tried the latest, else what is known here.
     pub fn value(&self, group: &str, variable: &str) -> Option<Payload> {
         match &self.open {
             Some(open) if *open.group == *group => open.values.get(variable).cloned(),
@@ -88,19 +111,39 @@ impl Atomic {
         }
     }
 
-    /// Writes a variable of the action that runs; whether there is one that may.
+    /// Writes a variable of the action that is tried; whether there is one that may.
     pub fn set(&mut self, group: &str, variable: &str, value: Payload) -> bool {
         let Some(open) = self.open.as_mut().filter(|open| *open.group == *group) else {
             return false;
         };
         open.values.insert(variable.into(), value);
-        open.has_changed = true;
         true
+    }
+
+    /// Puts values at hand: for a copy on which an action is tried.
+    pub fn open(&mut self, group: &str, values: Values) {
+        self.open = Some(Open {
+            group: group.into(),
+            values,
+        });
+    }
+
+    /// What the values are after an action was tried.
+    pub fn take_values(&mut self) -> Values {
+        self.open.take().map(|open| open.values).unwrap_or_default()
     }
 
     /// Whether what the robot waits for cannot come, as far as it knows.
     pub fn is_blocked(&self) -> bool {
         self.mutex.failed() || self.register.failed()
+    }
+
+    /// The action whose writes are being stored: what it depends on must not change.
+    pub fn stores(&self) -> Option<u32> {
+        match self.stage {
+            Stage::Storing(action, _) => Some(action),
+            _ => None,
+        }
     }
 
     /// Begins a pass over all actions.
@@ -110,10 +153,8 @@ impl Atomic {
             is_idle: self.stage == Stage::Idle,
             last: self.last,
             waiting: match self.stage {
-                Stage::Locking(action) | Stage::Reading(action, _) | Stage::Fencing(action, _) => {
-                    Some(action)
-                }
-                _ => None,
+                Stage::Locking(action) | Stage::Claiming(action, _) => Some(action),
+                Stage::Idle | Stage::Storing(..) => None,
             },
             next: None,
         }
@@ -128,9 +169,7 @@ impl Atomic {
                     self.lock(robot, code, action);
                 }
             }
-            Stage::Locking(action) | Stage::Reading(action, _) | Stage::Fencing(action, _)
-                if turn.waiting != Some(action) =>
-            {
+            Stage::Locking(action) | Stage::Claiming(action, _) if turn.waiting != Some(action) => {
                 self.last = Some(action);
                 self.release(robot, code);
             }
@@ -141,84 +180,78 @@ impl Atomic {
     /// Whether the robot need not wait any longer.
     fn is_ready(&self, code: &Code) -> bool {
         match self.stage {
+            Stage::Idle => false,
             Stage::Locking(action) => self.mutex.holds(&lock(code, action)),
-            Stage::Reading(_, operation)
-            | Stage::Fencing(_, operation)
-            | Stage::Writing(_, operation) => {
-                matches!(self.register.status(operation), Status::Done(_))
+            Stage::Claiming(_, operation) | Stage::Storing(_, operation) => {
+                let status = self.register.status(operation);
+                !matches!(status, Status::Pending | Status::NoQuorum)
             }
-            Stage::Idle | Stage::Running(_) => false,
         }
     }
 
-    /// Goes on as far as can be without waiting; gives the action that is to run, which
-    /// [`Atomic::close`] ends.
-    pub fn go_on(&mut self, robot: &mut Robot<'_>, code: &Code) -> Option<u32> {
+    /// Goes on as far as can be without waiting, or without the program.
+    pub fn go_on(&mut self, robot: &mut Robot<'_>, code: &Code) -> Option<Step> {
         while self.is_ready(code) {
             match self.stage {
+                Stage::Idle => return None,
                 Stage::Locking(action) => {
-                    let read = self.register.read(robot, code.group(action)?).ok()?;
-                    self.stage = Stage::Reading(action, read);
+                    let claim = self.register.claim(robot, code.group(action)?).ok()?;
+                    self.stage = Stage::Claiming(action, claim);
                 }
-                Stage::Reading(action, read) => {
-                    let Status::Done(value) = self.register.status(read) else {
-                        return None;
+                Stage::Claiming(action, claim) => {
+                    let Status::Done(value) = self.register.status(claim) else {
+                        self.release(robot, code);
+                        continue;
                     };
-                    self.register.withdraw(robot, read);
-                    let value = message::encode(&values(value.as_deref()));
-                    let group = code.group(action)?;
-                    let fence = self.register.write_locked(robot, group, value).ok()?;
-                    self.stage = Stage::Fencing(action, fence);
+                    self.register.withdraw(robot, claim);
+                    return Some(Step::Try(action, values(value.as_deref())));
                 }
-                Stage::Fencing(action, fence) => {
-                    let Status::Done(value) = self.register.status(fence) else {
-                        return None;
-                    };
-                    self.register.withdraw(robot, fence);
-                    self.open = Some(Open {
-                        group: code.group(action)?.into(),
-                        values: values(value.as_deref()),
-                        has_changed: false,
-                    });
-                    self.stage = Stage::Running(action);
-                    return Some(action);
-                }
-                Stage::Writing(_, write) => {
+                Stage::Storing(action, write) => {
+                    let status = self.register.status(write);
                     self.register.withdraw(robot, write);
-                    self.release(robot, code);
+                    match status {
+                        Status::Done(_) => {
+                            let script = core::mem::take(&mut self.script);
+                            return Some(Step::Perform(action, script));
+                        }
+                        Status::Lost => self.stage = Stage::Locking(action),
+                        // Only a corruption leads here.
+                        _ => self.release(robot, code),
+                    }
                 }
-                Stage::Idle | Stage::Running(_) => return None,
             }
         }
         None
     }
 
-    /// The action has run, or its guard did not hold. What it wrote is to be stored before others go on.
-    pub fn close(&mut self, robot: &mut Robot<'_>, code: &Code) -> Result<(), OperationError> {
-        let Stage::Running(action) = self.stage else {
+    /// An action was tried: has stored what it writes. Without a script its guard did not hold.
+    pub fn store(
+        &mut self,
+        robot: &mut Robot<'_>,
+        code: &Code,
+        tried: Option<(Values, Script)>,
+    ) -> Result<(), OperationError> {
+        let Stage::Claiming(action, _) = self.stage else {
             return Ok(());
         };
         self.last = Some(action);
-        match self.open.take().filter(|open| open.has_changed) {
-            Some(open) => {
-                let value = message::encode(&open.values);
-                let write = self.register.write_locked(robot, &open.group, value)?;
-                self.stage = Stage::Writing(action, write);
-            }
-            None => self.release(robot, code),
-        }
+        let (Some((values, script)), Some(group)) = (tried, code.group(action)) else {
+            self.release(robot, code);
+            return Ok(());
+        };
+        let value = message::encode(&values);
+        let write = self.register.write_claimed(robot, group, value)?;
+        self.stage = Stage::Storing(action, write);
+        self.script = script;
         Ok(())
     }
 
     /// Gives up whatever the robot waits for, and gives back what it holds.
     pub fn release(&mut self, robot: &mut Robot<'_>, code: &Code) {
-        if let Stage::Reading(_, operation)
-        | Stage::Fencing(_, operation)
-        | Stage::Writing(_, operation) = self.stage
-        {
+        if let Stage::Claiming(_, operation) | Stage::Storing(_, operation) = self.stage {
             self.register.withdraw(robot, operation);
         }
-        self.open = None;
+        self.script = Script::None;
         self.stage = Stage::Idle;
         if self.mutex.crit() || self.mutex.is_waiting() {
             self.mutex.release(robot, &all_locks(code));
@@ -232,7 +265,7 @@ impl Atomic {
         }
     }
 
-    /// Sets right what only a corruption leaves behind.
+    /// Asks anew for a lock that has ended meanwhile, and sets right what only a corruption leaves behind.
     fn set_right(&mut self, robot: &mut Robot<'_>, code: &Code) {
         match self.stage {
             Stage::Idle if self.mutex.crit() || self.mutex.is_waiting() => {
@@ -240,18 +273,11 @@ impl Atomic {
             }
             Stage::Idle => {}
             Stage::Locking(action) => self.lock(robot, code, action),
-            Stage::Reading(action, operation) | Stage::Fencing(action, operation) => {
-                let has_lock = self.mutex.holds(&lock(code, action));
-                if !has_lock || self.register.status(operation) == Status::Unknown {
-                    self.release(robot, code);
-                }
-            }
-            Stage::Writing(_, operation) => {
+            Stage::Claiming(_, operation) | Stage::Storing(_, operation) => {
                 if self.register.status(operation) == Status::Unknown {
                     self.release(robot, code);
                 }
             }
-            Stage::Running(_) => self.release(robot, code),
         }
     }
 
@@ -279,8 +305,7 @@ impl Atomic {
         let action = random.below(actions);
         match random.below(4) {
             0 => self.stage = Stage::Idle,
-            1 if code.group(action).is_some() => self.stage = Stage::Locking(action),
-            2 if code.group(action).is_some() => self.stage = Stage::Running(action),
+            1 | 2 if code.group(action).is_some() => self.stage = Stage::Locking(action),
             _ => {}
         }
     }

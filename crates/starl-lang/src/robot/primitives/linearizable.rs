@@ -6,7 +6,7 @@
 
 use super::shared::{CONSISTENCY, give, value};
 use super::{Arguments, Context, Instance, Kind, Member, Needs, method, query};
-use crate::robot::atomic::Atomic;
+use crate::robot::atomic::{self, Atomic};
 use crate::robot::shape::Shape;
 use alloc::borrow::Cow;
 use starl_core::{Payload, Primitive, Random};
@@ -29,7 +29,7 @@ fn place<'c>(
 }
 
 impl Kind for Linearizable {
-    const NAME: &'static str = "Linearizable";
+    const NAME: &'static str = atomic::KIND;
     const CONSTRUCTOR: &'static [Shape] = CONSISTENCY;
     const MEMBERS: &'static [Member<Linearizable>] = &[
         method("initialize", &[Shape::Any], None, |own, context, call| {

@@ -41,7 +41,16 @@ struct Instance {
 struct Operation {
     id: Id,
     register: String,
-    is_write: bool,
+    kind: Kind,
+}
+
+/// What an operation does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Read,
+    Write,
+    /// It writes in the place of what was found.
+    Update,
 }
 
 impl Instance {
@@ -100,33 +109,47 @@ impl Register {
             _ => None,
         };
         match (report.name, value) {
-            ("read", _) | ("write", Some(_)) => {
+            ("read", _) | ("write" | "update", Some(_)) => {
                 self.last += 1;
                 let id = self.last;
                 let search = instance.search(register);
-                match value {
-                    Some(value) if report.name == "write" => search.write_begins(id, value),
-                    _ => search.read_begins(id),
-                }
-                let operation = Operation {
-                    id,
-                    register: register.to_string(),
-                    is_write: report.name == "write",
+                let kind = match (report.name, value) {
+                    ("write", Some(value)) => {
+                        search.write_begins(id, value);
+                        Kind::Write
+                    }
+                    ("update", Some(value)) => {
+                        let found = match report.get("found") {
+                            Some(&Value::Int(found)) => Content::Value(found),
+                            _ => Content::Nothing,
+                        };
+                        search.update_begins(id, found, value);
+                        Kind::Update
+                    }
+                    _ => {
+                        search.read_begins(id);
+                        Kind::Read
+                    }
                 };
+                let register = register.to_string();
+                let operation = Operation { id, register, kind };
                 instance.operations.insert(key, operation);
             }
-            ("withdraw", _) => {
+            ("withdraw" | "refused", _) => {
                 if let Some(operation) = instance.operations.remove(&key) {
                     instance.abandon(&operation);
                 }
             }
-            ("done", _) => {
+            ("done" | "lost", _) => {
                 if let Some(operation) = instance.operations.remove(&key) {
                     let search = instance.search(&operation.register);
                     let before = search.verdict();
-                    match operation.is_write {
-                        true => search.write_ends(operation.id),
-                        false => {
+                    match operation.kind {
+                        Kind::Update if report.name == "lost" => {
+                            search.update_is_lost(operation.id);
+                        }
+                        Kind::Write | Kind::Update => search.write_ends(operation.id),
+                        Kind::Read => {
                             let content = value.map_or(Content::Nothing, Content::Value);
                             search.read_ends(operation.id, content);
                         }
@@ -148,12 +171,14 @@ fn violation(
     at: Time,
     robot: RobotId,
 ) -> Option<Violation> {
-    let Operation {
-        register, is_write, ..
-    } = operation;
+    let Operation { register, kind, .. } = operation;
     let text = match verdict {
         Verdict::Possible => return None,
-        Verdict::Impossible if *is_write => format!(
+        Verdict::Impossible if *kind == Kind::Update => format!(
+            "robot {robot} updated the register {register}, and what was found and written fits no order \
+             of its updates: one is lost"
+        ),
+        Verdict::Impossible if *kind == Kind::Write => format!(
             "what was read of the register {register} fits no order in which the write of robot \
              {robot} took effect"
         ),

@@ -9,6 +9,10 @@
 //! Where ours differs, since this is a register: reads change nothing, so that they are not ordered. Each
 //! configuration holds, for every read under way, the values that there were since it began. And a write that
 //! takes effect before another one that is under way, unseen but by such reads, can do so in any order.
+//!
+//! An update writes one value in the place of another, and can take effect only while the register holds that
+//! one. As the order matters then, once a register was updated all orders of what is under way are tried;
+//! these are few, since what does not find its value does not fit.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -54,6 +58,10 @@ pub(super) struct Search {
     configurations: BTreeSet<Configuration>,
     /// The writes under way, and whether their end is not to come.
     writes: BTreeMap<Id, (i64, bool)>,
+    /// Which of these are updates, and of what; those that will not end stay here as long as there.
+    updated: BTreeMap<Id, Content>,
+    /// Whether there has ever been an update.
+    has_updates: bool,
     /// The reads under way.
     reads: BTreeSet<Id>,
     verdict: Verdict,
@@ -79,6 +87,8 @@ impl Default for Search {
         Search {
             configurations: BTreeSet::from([first]),
             writes: BTreeMap::new(),
+            updated: BTreeMap::new(),
+            has_updates: false,
             reads: BTreeSet::new(),
             verdict: Verdict::Possible,
         }
@@ -93,6 +103,22 @@ impl Search {
 
     pub fn write_begins(&mut self, id: Id, value: i64) {
         self.writes.insert(id, (value, false));
+    }
+
+    /// Something is to take the place of what was found.
+    pub fn update_begins(&mut self, id: Id, found: Content, value: i64) {
+        self.has_updates = true;
+        self.updated.insert(id, found);
+        self.write_begins(id, value);
+    }
+
+    /// An update has not taken effect and will not.
+    pub fn update_is_lost(&mut self, id: Id) {
+        self.writes.remove(&id);
+        self.updated.remove(&id);
+        let configurations = core::mem::take(&mut self.configurations);
+        let is_without = |configuration: &Configuration| !configuration.effective.contains(&id);
+        self.keep(configurations.into_iter().filter(is_without).collect());
     }
 
     pub fn read_begins(&mut self, id: Id) {
@@ -123,6 +149,12 @@ impl Search {
     }
 
     pub fn write_ends(&mut self, id: Id) {
+        if self.has_updates {
+            let next = self.after_any(|configuration| configuration.effective.remove(&id));
+            self.writes.remove(&id);
+            self.updated.remove(&id);
+            return self.keep_if_known(next);
+        }
         let Some((value, _)) = self.writes.remove(&id) else {
             return;
         };
@@ -140,6 +172,13 @@ impl Search {
     pub fn read_ends(&mut self, id: Id, result: Content) {
         if !self.reads.remove(&id) {
             return;
+        }
+        if self.has_updates {
+            let next = self.after_any(|configuration| {
+                let possible = configuration.possible.remove(&id);
+                possible.is_some_and(|possible| possible.contains(&result))
+            });
+            return self.keep_if_known(next);
         }
         let mut next = BTreeSet::new();
         for mut configuration in core::mem::take(&mut self.configurations) {
@@ -163,6 +202,45 @@ impl Search {
             }
         }
         self.keep(next);
+    }
+
+    /// What is possible after any operations under way have taken effect, in any order, so that it `fits`; none
+    /// if that is too much.
+    fn after_any(
+        &mut self,
+        fits: impl Fn(&mut Configuration) -> bool,
+    ) -> Option<BTreeSet<Configuration>> {
+        let mut found = core::mem::take(&mut self.configurations);
+        let mut left: Vec<Configuration> = found.iter().cloned().collect();
+        while let Some(configuration) = left.pop() {
+            for (id, &(value, _)) in &self.writes {
+                let finds = self.updated.get(id);
+                let can = finds.is_none_or(|finds| *finds == configuration.content);
+                if can && !configuration.effective.contains(id) {
+                    let mut then = configuration.clone();
+                    then.effective.insert(*id);
+                    then.become_(value);
+                    if found.insert(then.clone()) {
+                        left.push(then);
+                    }
+                }
+            }
+            if found.len() > MOST_CONFIGURATIONS {
+                return None;
+            }
+        }
+        let fitting = found.into_iter().filter_map(|mut configuration| {
+            let does = fits(&mut configuration);
+            does.then_some(configuration)
+        });
+        Some(fitting.collect())
+    }
+
+    fn keep_if_known(&mut self, next: Option<BTreeSet<Configuration>>) {
+        match next {
+            Some(next) => self.keep(next),
+            None => self.give_up(),
+        }
     }
 
     /// A write takes effect, after any others of those that are under way. Whether it is not too much.
@@ -214,6 +292,7 @@ impl Search {
             .filter(|(id, (_, abandoned))| *abandoned && is_effective(id));
         let done: BTreeSet<Id> = done.map(|(&id, _)| id).collect();
         self.writes.retain(|id, _| !done.contains(id));
+        self.updated.retain(|id, _| !done.contains(id));
         let lean = next.into_iter().map(|mut configuration| {
             configuration.effective.retain(|id| !done.contains(id));
             configuration
@@ -233,6 +312,8 @@ mod tests {
         begin: u32,
         end: Option<u32>,
         is_write: bool,
+        /// What an update finds.
+        found: Option<i64>,
         value: i64,
     }
 
@@ -248,12 +329,16 @@ mod tests {
         events.sort_unstable();
         for (_, id, is_begin) in events {
             let operation = history[id];
-            let result = match operation.value {
+            let content = |value: i64| match value {
                 0 => Content::Nothing,
                 value => Content::Value(value),
             };
+            let result = content(operation.value);
             let id = id as Id;
             match (operation.is_write, is_begin) {
+                (true, true) if let Some(found) = operation.found => {
+                    search.update_begins(id, content(found), operation.value);
+                }
                 (true, true) => search.write_begins(id, operation.value),
                 (true, false) => search.write_ends(id),
                 (false, true) => search.read_begins(id),
@@ -275,7 +360,10 @@ mod tests {
             let mut others = (0..history.len()).filter(left);
             let is_next =
                 others.all(|other| history[other].end.is_none_or(|end| end > first.begin));
-            let fits = first.is_write || first.value == value || first.end.is_none();
+            let fits = match first.is_write {
+                true => first.found.is_none_or(|found| found == value),
+                false => first.value == value || first.end.is_none(),
+            };
             let then = if first.is_write { first.value } else { value };
             is_next && fits && is_linearizable(history, done | 1 << id, then)
         })
@@ -284,7 +372,8 @@ mod tests {
     #[test]
     fn it_agrees_with_trying_all_orders() {
         let (mut good, mut bad) = (0, 0);
-        for seed in 0..20_000 {
+        for seed in 0..40_000 {
+            let has_updates = seed % 2 == 1;
             let mut random = Random::keyed(seed, &[]);
             let count = 2 + random.below(5);
             // All times differ.
@@ -296,7 +385,9 @@ mod tests {
                 .chunks(2)
                 .map(|pair| {
                     let is_write = random.chance(0.5);
+                    let is_update = has_updates && is_write && random.chance(0.7);
                     Operation {
+                        found: is_update.then(|| i64::from(random.below(3))),
                         begin: pair[0].min(pair[1]),
                         end: random.chance(0.85).then(|| pair[0].max(pair[1])),
                         is_write,
@@ -316,7 +407,7 @@ mod tests {
                 &mut bad
             }) += 1;
         }
-        assert!(good > 3000 && bad > 3000, "{good} good, {bad} bad");
+        assert!(good > 6000 && bad > 6000, "{good} good, {bad} bad");
     }
 
     #[test]

@@ -1,0 +1,39 @@
+//! What a register holds at one time.
+
+use super::tag::Tag;
+use alloc::collections::BTreeMap;
+use serde::{Deserialize, Serialize};
+use starl_core::{Payload, RobotId};
+
+/// What a register holds at one time.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub(super) struct Version {
+    /// Which write it comes from; or, of a claimed register, which ballot.
+    pub tag: Tag,
+    /// None where nothing was written.
+    pub value: Option<Payload>,
+    /// The ballot of each robot's latest claimed write among those that have led to this.
+    pub writers: BTreeMap<RobotId, Tag>,
+}
+
+impl Version {
+    /// What a plain write leaves.
+    pub fn written(tag: Tag, value: Payload) -> Version {
+        Version {
+            tag,
+            value: Some(value),
+            writers: BTreeMap::new(),
+        }
+    }
+
+    /// So many bytes it takes at most, by the varints' greatest lengths.
+    pub fn bytes(&self) -> usize {
+        let value = self.value.as_ref().map_or(0, |value| value.len());
+        Tag::BYTES + 6 + value + 5 + self.writers.len() * (5 + Tag::BYTES)
+    }
+
+    /// Whether writes can have led to it.
+    pub fn is_valid(&self) -> bool {
+        self.tag.is_valid() && self.writers.values().all(|tag| tag.is_valid())
+    }
+}
