@@ -44,6 +44,8 @@ impl Keeper {
 const READ: u16 = 0;
 const WRITE: u16 = 1;
 const WITHDRAW: u16 = 2;
+const CLAIM: u16 = 3;
+const UPDATE: u16 = 4;
 
 /// Tells a robot to read `x`.
 pub fn read() -> TimerKey {
@@ -53,6 +55,16 @@ pub fn read() -> TimerKey {
 /// Tells a robot to write a number to `x`.
 pub fn write(value: u32) -> TimerKey {
     command(WRITE, value)
+}
+
+/// Tells a robot to claim `x`.
+pub fn claim() -> TimerKey {
+    command(CLAIM, 0)
+}
+
+/// Tells a robot to write a number to `x`, which it has claimed.
+pub fn update(value: u32) -> TimerKey {
+    command(UPDATE, value)
 }
 
 /// Tells a robot to withdraw what it began last.
@@ -84,6 +96,8 @@ impl Program for Keeper {
         let begun = match key.kind {
             READ => self.register.read(robot, "x"),
             WRITE => self.register.write(robot, "x", value),
+            CLAIM => self.register.claim(robot, "x"),
+            UPDATE => self.register.write_claimed(robot, "x", value),
             _ => {
                 if let Some(last) = self.last.take() {
                     self.register.withdraw(robot, last);

@@ -224,7 +224,10 @@ impl Atomic {
         None
     }
 
-    /// An action was tried: has stored what it writes. Without a script its guard did not hold.
+    /// An action was tried: has stored what it writes, if its guard did hold.
+    ///
+    /// # Errors
+    /// Where that is too long.
     pub fn store(
         &mut self,
         robot: &mut Robot<'_>,
@@ -240,9 +243,17 @@ impl Atomic {
             return Ok(());
         };
         let value = message::encode(&values);
-        let write = self.register.write_claimed(robot, group, value)?;
-        self.stage = Stage::Storing(action, write);
-        self.script = script;
+        match self.register.write_claimed(robot, group, value) {
+            Ok(write) => {
+                self.stage = Stage::Storing(action, write);
+                self.script = script;
+            }
+            Err(error @ (OperationError::NameTooLong | OperationError::ValueTooLong)) => {
+                return Err(error);
+            }
+            // Only a corruption can have taken away the claim.
+            Err(_) => self.release(robot, code),
+        }
         Ok(())
     }
 
