@@ -25,6 +25,9 @@ const PLAY: f64 = 0.003;
 /// overshooting is worse there, as nobody on the other side makes room. Measured with the AR.Drone.
 const OBSTACLE_COAST: f64 = 1.25;
 
+/// More than what rounding adds to a gap, metres.
+const ROUNDING: f64 = 1e-6;
+
 /// A robot among others.
 pub(super) struct Surroundings<'a> {
     pub body: &'a Body,
@@ -99,8 +102,11 @@ impl Surroundings<'_> {
         let beside = obstacle
             .height()
             .is_none_or(|span| span.low < position.z + height && position.z < span.high);
+        if !beside || self.is_far(obstacle, own_way) {
+            return None;
+        }
         // A body that is half inside an obstacle is not the business of avoidance.
-        if !beside || obstacle.contains(position) {
+        if obstacle.contains(position) {
             return None;
         }
         let (least_gap, at) = least_on_segment(position, own_way, |point| {
@@ -121,5 +127,14 @@ impl Surroundings<'_> {
             speed,
             from_target: f64::INFINITY,
         })
+    }
+
+    /// Whether an obstacle is too far away to matter anywhere on the robot's own way: the gap cannot shrink by
+    /// more than the way is long. Most obstacles of a large world are.
+    fn is_far(&self, obstacle: &Obstacle, own_way: Point) -> bool {
+        let Body { radius, height, .. } = *self.body;
+        let gap = obstacle.body_gap(self.estimate.pose.position, radius, height);
+        let least = gap - own_way.length() - OBSTACLE_MARGIN - ROUNDING;
+        least >= self.pace.cruise_speed * self.pace.horizon
     }
 }
