@@ -1,11 +1,12 @@
 //! The robots of Line come to stand evenly on a line and stay there, from any start and over a bad network;
-//! where one dies the others close the gap.
+//! where one dies the others close the gap, or stand as near to their places as it leaves them room.
 
 mod support;
 
 use rayon::prelude::*;
-use starl_core::{Event, Point};
+use starl_core::{Duration, Event, Point, RobotId, Time};
 use starl_sim::Outcome;
+use std::collections::BTreeMap;
 use support::Case;
 
 const SEEDS: u64 = 10;
@@ -60,4 +61,34 @@ fn those_that_are_left_close_the_gap_of_one_that_died() {
         let middle = neighbours[0].lerp(neighbours[2], 0.5);
         assert!(neighbours[1].distance(middle) < 0.15, "{left:?}");
     }
+}
+
+/// The wreck lies 30 cm from where the robot before it is to stand then. One that kept trying to get there would go to
+/// and fro beside it, and its neighbours with it: 24 m in these runs.
+#[test]
+fn who_finds_a_wreck_in_its_place_hardly_moves_any_more() {
+    let crash = "[[fault]]\nat = \"60s\"\nkind = \"crash\"\nrobots = [\"quadcopter0\"]\n";
+    let ways = (1..=4).into_par_iter().map(|seed| {
+        let mut run = Case {
+            faults: crash,
+            ..Case::new("line", &["duration=4min"], seed)
+        }
+        .start();
+        let settled = Time::ZERO + Duration::from_seconds(120);
+        let mut at: BTreeMap<RobotId, Point> = BTreeMap::new();
+        let mut way = 0.0;
+        while !run.is_over() {
+            for record in run.step() {
+                if let (Some(robot), Event::Moved(pose)) = (record.robot, &record.event) {
+                    let before = at.insert(robot, pose.position);
+                    let step = before.map_or(0.0, |before| before.distance(pose.position));
+                    way += if record.at > settled { step } else { 0.0 };
+                }
+            }
+        }
+        assert_eq!(run.outcome(), Outcome::Reached, "{:?}", run.violations());
+        way
+    });
+    let ways: Vec<f64> = ways.collect();
+    assert!(ways.iter().sum::<f64>() < 6.0, "{ways:?}");
 }
