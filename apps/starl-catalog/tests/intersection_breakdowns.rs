@@ -1,5 +1,5 @@
 //! A car that breaks down on the intersection is not run into. Those whose ways are free go on, and those whose
-//! ways are not know that they are stuck.
+//! ways are not know that they are stuck. Nor is one that merely seems to have broken down.
 
 mod intersection_support;
 
@@ -51,4 +51,22 @@ fn where_it_crashes_beyond_them_its_zones_are_used_again() {
     let traffic = break_down("crash", "8s");
     assert_eq!(traffic.passed(), [0, 2, 3]);
     assert!(traffic.stuck_at_the_end().is_empty());
+}
+
+/// None hears another. Robot1's wheels stop when it has left the others out and may drive: Robot2 waits until its own
+/// turn comes, and Robot1 has given way by then, whenever its wheels are mended.
+#[test]
+fn cars_that_do_not_hear_each_other_take_turns() {
+    for mended in 56..=72 {
+        let faults = format!(
+            "[[fault]]\nat = \"0s\"\nkind = \"partition\"\n\
+             groups = [[\"Robot0\"], [\"Robot1\"], [\"Robot2\"], [\"Robot3\"]]\n\
+             [[fault]]\nat = \"5.5s\"\nkind = \"stuck_motor\"\nrobots = [\"Robot1\"]\n\
+             [[fault]]\nat = \"{mended}s\"\nkind = \"repair\"\nrobots = [\"Robot1\"]\n"
+        );
+        let traffic = drive("intersection", &["duration=140s"], &faults);
+        let violations = &traffic.violations;
+        assert!(violations.is_empty(), "{mended} {violations:?}");
+        assert_eq!(traffic.passed(), [0, 1, 2, 3], "{mended}");
+    }
 }

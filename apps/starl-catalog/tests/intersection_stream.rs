@@ -26,7 +26,6 @@ fn all_get_through_in_calm() {
 }
 
 #[test]
-#[ignore = "at this rate cars wait longer than the program promises where messages are lost or cars restart"]
 fn all_get_through_with_faults_that_are_mended() {
     let profiles: [&[&str]; 3] = [
         &[
