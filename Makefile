@@ -55,6 +55,7 @@ faults: $(STARL)
 	tools/workloads.sh $(STARL) --seeds 25 --out target/faults
 	$(STARL) test race formation formation-space line intersection search flocking maze auction traffic-signs light-painting \
 		--seeds 3 --out target/faults
+	$(STARL) test search-building intersection-stream --seeds 1 --profile partitions,chaos --out target/faults
 
 # The same a million times; goes on where it was stopped. Not part of `make test`, since it takes ten minutes and more.
 million: $(STARL)
