@@ -41,13 +41,17 @@ fn time(seed: u64, wire: Wire, whom: &[usize]) -> f64 {
 
 #[test]
 fn memories_agree_again_soon() {
-    for (name, wire) in [("perfect", Wire::perfect()), ("bad", Wire::bad())] {
-        for whom in [&[1][..], &[0, 1, 2, 3]] {
+    let all: &[usize] = &[0, 1, 2, 3];
+    for (name, wire, longest) in [
+        ("perfect", Wire::perfect(), 6.6),
+        ("bad", Wire::bad(), 14.7),
+    ] {
+        for whom in [&[1], all] {
             let mut times: Vec<f64> = (0..50).map(|seed| time(seed, wire.clone(), whom)).collect();
             times.sort_by(f64::total_cmp);
             let (median, worst) = (times[times.len() / 2], times[times.len() - 1]);
             println!("{name}, {} robots: {median:.2} s, {worst:.2} s", whom.len());
-            assert!(worst < 20.0, "{name}, {whom:?}: {worst}");
+            assert!(worst <= longest, "{name}, {whom:?}: {worst}");
         }
     }
 }
