@@ -9,6 +9,7 @@
 //! others. Nothing that comes from the network makes a program stop: what is no message of the program
 //! is ignored. A run-time error stops the program of this one robot and names the place in its source.
 
+mod acting;
 mod arguments;
 mod atomic;
 mod builtins;

@@ -1,6 +1,7 @@
 //! The program of one robot: its variables and its primitives, run by the machine.
 
-use super::atomic::{Conflicts, Script, Step, Turn, Values};
+use super::acting::hold_back;
+use super::atomic::{Conflicts, Script, Turn};
 use super::code::{Code, Instance};
 use super::corruption;
 use super::host::{Context, RobotHost};
@@ -11,7 +12,6 @@ use super::workbench::Workbench;
 use crate::machine::{Limits, Machine, RuntimeError, State, Value};
 use alloc::boxed::Box;
 use alloc::collections::VecDeque;
-use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::any::Any;
@@ -26,22 +26,22 @@ use starl_core::{Message, Port, Primitive, Program, Random, Robot};
 /// the place in the source.
 #[derive(Clone)]
 pub struct RobotProgram {
-    code: Code,
-    state: State,
-    bound: Box<[Slot]>,
-    services: Services,
+    pub(super) code: Code,
+    pub(super) state: State,
+    pub(super) bound: Box<[Slot]>,
+    pub(super) services: Services,
     /// Events of primitives that wait for their handlers: the instance's number and what happened.
-    reports: Vec<(u32, Report)>,
+    pub(super) reports: Vec<(u32, Report)>,
     /// Messages that wait for an action with `atomic`.
-    waiting: VecDeque<Message>,
+    pub(super) waiting: VecDeque<Message>,
     /// See [`RobotProgram::version`].
     version: u64,
-    phase: Phase,
+    pub(super) phase: Phase,
 }
 
 /// How far the program is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Phase {
+pub(super) enum Phase {
     /// It has not started.
     New,
     /// It runs.
@@ -88,7 +88,7 @@ impl RobotProgram {
     }
 
     /// Runs a part of the program, after the handlers of what primitives have reported.
-    fn run(&mut self, robot: &mut Robot<'_>, mut part: Part<'_>) {
+    pub(super) fn run(&mut self, robot: &mut Robot<'_>, mut part: Part<'_>) {
         if self.phase == Phase::Failed {
             return;
         }
@@ -123,7 +123,7 @@ impl RobotProgram {
     }
 
     /// Ends the program.
-    fn fail(&mut self, robot: &mut Robot<'_>, reason: String) {
+    pub(super) fn fail(&mut self, robot: &mut Robot<'_>, reason: String) {
         robot.halt();
         robot.fail(reason);
         self.phase = Phase::Failed;
@@ -134,140 +134,8 @@ impl RobotProgram {
     }
 }
 
-impl RobotProgram {
-    /// Goes on with the action with `atomic` that waits, as far as can be now.
-    fn go_on(&mut self, robot: &mut Robot<'_>) {
-        let code = self.code.clone();
-        while self.phase == Phase::Running
-            && let Some(atomic) = &mut self.services.atomic
-            && let Some(step) = atomic.go_on(robot, &code)
-        {
-            match step {
-                Step::Try(action, values) => {
-                    self.catch_up(robot);
-                    let tried = self.rehearse(robot, action, values);
-                    if let Err(reason) = self.store(robot, tried) {
-                        self.fail(robot, reason);
-                    }
-                }
-                Step::Perform(action, script) => {
-                    self.run(robot, Part::Perform(action, script));
-                    if let Some(atomic) = &mut self.services.atomic {
-                        atomic.release(robot, &code);
-                    }
-                }
-            }
-        }
-        self.catch_up(robot);
-    }
-
-    /// Finds out what an action writes, without any effect; none if its guard does not hold.
-    fn rehearse(
-        &mut self,
-        robot: &mut Robot<'_>,
-        action: u32,
-        values: Values,
-    ) -> Result<Option<(Values, Script)>, String> {
-        let code = &self.code;
-        let (mut state, mut bound) = (self.state.clone(), self.bound.clone());
-        let mut services = self.services.clone();
-        if let (Some(atomic), Some(group)) = (&mut services.atomic, code.group(action)) {
-            atomic.open(group, values);
-        }
-        robot.rehearse(|robot| {
-            let Workbench { workspace, memo } = &mut Workbench::default();
-            let mut host = RobotHost {
-                context: Context::new(code, robot, memo, &mut services),
-                bound: &mut bound,
-                failure: None,
-                has_fired: false,
-                script: Script::Noted(Vec::new()),
-            };
-            let (program, limits) = (code.program(), Limits::default());
-            let result =
-                Machine::new(program, &mut state, workspace, &mut host, limits).action(action);
-            let (failure, script) = (host.failure, host.script);
-            match result {
-                Ok(true) => Ok(services
-                    .atomic
-                    .map(|mut atomic| (atomic.take_values(), script.follow()))),
-                Ok(false) => Ok(None),
-                Err(error) => Err(failure.unwrap_or_else(|| code.describe(&error))),
-            }
-        })
-    }
-
-    /// Has stored what an action writes that was tried.
-    fn store(
-        &mut self,
-        robot: &mut Robot<'_>,
-        tried: Result<Option<(Values, Script)>, String>,
-    ) -> Result<(), String> {
-        let tried = tried?;
-        match &mut self.services.atomic {
-            Some(atomic) if self.phase == Phase::Running => atomic
-                .store(robot, &self.code, tried)
-                .map_err(|error| format!("what an atomic action wrote is not stored: {error}")),
-            _ => Ok(()),
-        }
-    }
-
-    /// Whether a message must wait until an action with `atomic` has taken place.
-    fn must_wait(&self, message: &Message) -> bool {
-        let Some(held) = self.services.held(&self.code) else {
-            return false;
-        };
-        let program = self.code.program();
-        let arrival = self.code.inbox().decode(program, &message.payload);
-        arrival.is_some_and(|arrival| {
-            let mut handlers = arrival.handlers.iter();
-            !self.waiting.is_empty() || handlers.any(|&handler| held.keeps_handler(handler))
-        })
-    }
-
-    /// Handles what had to wait, if it need not any longer.
-    fn catch_up(&mut self, robot: &mut Robot<'_>) {
-        if self.services.held(&self.code).is_some() {
-            return;
-        }
-        if !self.reports.is_empty() {
-            self.run(robot, Part::Nothing);
-        }
-        while let Some(message) = self.waiting.pop_front() {
-            self.run(robot, Part::Message(&message));
-        }
-    }
-}
-
-/// Of what primitives have reported, keeps what can be handled now, and gives what must wait until an action
-/// with `atomic` has taken place.
-fn hold_back(
-    instances: &[Instance],
-    reports: &mut Vec<(u32, Report)>,
-    held: Option<&Conflicts>,
-) -> Vec<(u32, Report)> {
-    let Some(held) = held else {
-        return Vec::new();
-    };
-    let waits = |(instance, report): &(u32, Report)| {
-        let instance = instances.get(*instance as usize);
-        let handlers = instance.map_or(&[][..], |instance| &instance.handlers);
-        let mut handlers = handlers.iter();
-        handlers.any(|&(event, handler)| event == report.event && held.keeps_handler(handler))
-    };
-    let first = reports.iter().position(waits).unwrap_or(reports.len());
-    let mut later = reports.split_off(first);
-    let excess = later.len().saturating_sub(MOST_WAITING);
-    later.drain(..excess);
-    later
-}
-
-/// At most so many messages, and so many events of primitives, wait for an action with `atomic`; beyond that
-/// the oldest are dropped.
-const MOST_WAITING: usize = 1000;
-
 /// What is run at once.
-enum Part<'a> {
+pub(super) enum Part<'a> {
     /// The first values of variables, bindings of primitives, and `init`.
     Start,
     /// All actions, one after the other; of those that wait for variables it is found out which is next.
@@ -380,10 +248,7 @@ impl Program for RobotProgram {
             return;
         }
         if self.must_wait(message) {
-            self.waiting.push_back(message.clone());
-            if self.waiting.len() > MOST_WAITING {
-                self.waiting.pop_front();
-            }
+            self.keep_waiting(message);
         } else {
             self.run(robot, Part::Message(message));
         }

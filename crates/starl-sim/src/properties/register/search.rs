@@ -411,6 +411,35 @@ mod tests {
     }
 
     #[test]
+    fn an_update_that_is_told_as_lost_must_not_be_seen() {
+        for is_read in [false, true] {
+            let mut search = Search::default();
+            search.update_begins(0, Content::Nothing, 1);
+            if is_read {
+                search.read_begins(1);
+                search.read_ends(1, Content::Value(1));
+            }
+            search.update_is_lost(0);
+            let expected = match is_read {
+                true => Verdict::Impossible,
+                false => Verdict::Possible,
+            };
+            assert_eq!(search.verdict(), expected);
+        }
+    }
+
+    #[test]
+    fn one_of_two_updates_of_the_same_is_lost() {
+        let mut search = Search::default();
+        search.update_begins(0, Content::Nothing, 1);
+        search.update_begins(1, Content::Nothing, 2);
+        search.write_ends(1);
+        assert_eq!(search.verdict(), Verdict::Possible);
+        search.write_ends(0);
+        assert_eq!(search.verdict(), Verdict::Impossible);
+    }
+
+    #[test]
     fn it_says_so_when_it_would_take_too_long() {
         let mut search = Search::default();
         (0..40).for_each(|id| search.write_begins(id, id as i64));
