@@ -37,6 +37,7 @@ mod error;
 mod host;
 mod instruction;
 mod interpreter;
+mod known;
 pub mod operand;
 mod program;
 mod text;

@@ -5,6 +5,7 @@ use super::verify;
 use crate::machine::error::LoadError;
 use crate::machine::host::{Import, Resolve, Signature};
 use crate::machine::instruction::Instruction;
+use crate::machine::known::{self, Known};
 use crate::machine::types::{Layout, ObjectType, Parts, Type};
 use crate::machine::value::state::State;
 use alloc::string::String;
@@ -236,6 +237,8 @@ pub struct Program {
     pub(in crate::machine) parts: Vec<Parts>,
     pub(in crate::machine) texts: Vec<crate::machine::value::object::Object>,
     pub(in crate::machine) signatures: Vec<Signature>,
+    /// What functions give that always give the same.
+    pub(in crate::machine) known: Vec<Option<Known>>,
     state: Layout,
 }
 
@@ -257,7 +260,8 @@ impl Program {
             .map(resolve)
             .collect::<Result<_, _>>()?;
         let object_registers = bytecode.functions.iter().map(|f| f.object_registers);
-        Ok(Program {
+        let mut program = Program {
+            known: Vec::new(),
             object_registers: object_registers.max().unwrap_or(0).into(),
             entries: bytecode.functions.iter().map(|f| f.entry).collect(),
             texts: bytecode
@@ -270,7 +274,9 @@ impl Program {
             state: tables.state,
             signatures,
             bytecode,
-        })
+        };
+        program.known = known::of(&program);
+        Ok(program)
     }
 
     /// The bytecode that was verified.

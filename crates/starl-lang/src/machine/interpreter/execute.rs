@@ -8,8 +8,9 @@ use super::scalar;
 use crate::machine::error::{Fault, RuntimeError};
 use crate::machine::host::Host;
 use crate::machine::instruction::Instruction;
-use crate::machine::interpreter::view::{Meter, View, object_at, object_at_mut};
+use crate::machine::interpreter::view::{Meter, View, object_at, object_at_mut, shift};
 use crate::machine::interpreter::workspace::{Frame, OBJECT_WINDOW, WINDOW, Workspace};
+use crate::machine::known::Known;
 use crate::machine::operand::{PointIn, PointOut};
 use crate::machine::program::Program;
 use crate::machine::value::object::{Body, Object};
@@ -480,6 +481,15 @@ impl Execution<'_> {
                         objects,
                         function,
                     } => {
+                        let known = program.known.get(function.0 as usize);
+                        if let Some(known) = known.and_then(Option::as_ref) {
+                            let places = (base + scalars.place(), object_base + objects.place());
+                            match self.give(known, places, base, object_base) {
+                                Ok(cost) => spend!(cost),
+                                Err(fault) => break 'run fault,
+                            }
+                            continue 'run;
+                        }
                         let Some(&entry) = entries.get(function.0 as usize) else {
                             break 'run Fault::Malformed;
                         };
@@ -586,11 +596,40 @@ impl Execution<'_> {
         base: usize,
         object_base: usize,
     ) -> Result<u64, Fault> {
+        self.view(base, object_base)?.execute(instruction)
+    }
+
+    /// Puts what a function is known to give where its results belong; gives what it costs beyond one.
+    #[inline(never)]
+    fn give(
+        &mut self,
+        known: &Known,
+        (place, object_place): (usize, usize),
+        base: usize,
+        object_base: usize,
+    ) -> Result<u64, Fault> {
+        let Workspace {
+            scalars, objects, ..
+        } = &mut *self.workspace;
+        let scalars = scalars.get_mut(place..place + known.scalars.len());
+        let objects = objects.get_mut(object_place..object_place + known.objects.len());
+        let (Some(scalars), Some(objects)) = (scalars, objects) else {
+            return Err(Fault::Malformed);
+        };
+        scalars.copy_from_slice(&known.scalars);
+        objects.clone_from_slice(&known.objects);
+        let counting = self.view(base, object_base)?.allocate(known.bytes)?;
+        Ok(shift(known.bytes) + counting)
+    }
+
+    /// The parts of the machine that instructions on objects work on.
+    #[inline(always)]
+    fn view(&mut self, base: usize, object_base: usize) -> Result<View<'_>, Fault> {
         let scalars = self.workspace.scalars.get_mut(base..);
         let Some(registers) = scalars.and_then(|s| s.first_chunk_mut::<WINDOW>()) else {
             return Err(Fault::Malformed);
         };
-        let mut view = View {
+        Ok(View {
             program: self.program,
             registers,
             objects: &mut self.workspace.objects,
@@ -598,8 +637,7 @@ impl Execution<'_> {
             state: &mut self.state.objects,
             host: self.host,
             meter: &mut self.meter,
-        };
-        view.execute(instruction)
+        })
     }
 }
 

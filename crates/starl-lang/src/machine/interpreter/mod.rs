@@ -12,6 +12,7 @@ pub(in crate::machine) mod workspace;
 
 use crate::machine::error::{Fault, RuntimeError};
 use crate::machine::host::Host;
+use crate::machine::instruction::Instruction;
 use crate::machine::interpreter::execute::Execution;
 use crate::machine::interpreter::view::Meter;
 use crate::machine::interpreter::workspace::Workspace;
@@ -121,10 +122,43 @@ impl<'a> Machine<'a> {
         match action {
             Some(action) => {
                 let guard = action.guard;
-                let (scalars, _) = self.call(guard, &[], &[])?;
-                Ok(scalars.first().is_some_and(|&holds| holds != 0))
+                if self.is_ruled_out(guard) {
+                    return Ok(false);
+                }
+                self.execution.workspace.clear();
+                self.run(guard, 0)?;
+                let holds = self.execution.workspace.scalars.first();
+                Ok(holds.is_some_and(|&holds| holds != 0))
             }
             None => Ok(false),
+        }
+    }
+
+    /// Whether the first instruction of a guard shows that it does not hold. Most guards ask first in which
+    /// state the program is, and most are not of that state: these are not worth a run.
+    fn is_ruled_out(&mut self, guard: u32) -> bool {
+        let Execution { program, state, .. } = &self.execution;
+        let instruction = |place: u32| program.bytecode.code.get(place as usize);
+        let entry = program.entries.get(guard as usize);
+        let Some(&Instruction::JumpIfStateNot {
+            right,
+            target,
+            variable,
+        }) = entry.and_then(|&entry| instruction(entry))
+        else {
+            return false;
+        };
+        let leaves = matches!(instruction(target.0), Some(Instruction::ReturnFalse { .. }));
+        let value = state.scalars.get(usize::from(variable.0));
+        let differs = value.is_some_and(|&value| value as i64 != i64::from(right.0));
+        // Both instructions are paid for; without the fuel it is run, and stops there.
+        let rest = self.execution.meter.fuel.checked_sub(2);
+        match rest.filter(|_| leaves && differs) {
+            Some(rest) => {
+                self.execution.meter.fuel = rest;
+                true
+            }
+            None => false,
         }
     }
 
