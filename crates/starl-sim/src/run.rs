@@ -2,7 +2,7 @@
 //! of it.
 
 use crate::engine::{Programs, Simulation, StartError};
-use crate::properties::{self, Checker, Monitor, Setting, Violation, Witness};
+use crate::properties::{self, Checker, Kinds, Monitor, Setting, Violation, Witness};
 use crate::scenario::{Bounds, Goal, Group, Scenario};
 use starl_core::event::{Event, Name};
 use starl_core::{Record, RobotId, Time};
@@ -16,6 +16,8 @@ pub struct Run {
     violations: Vec<Violation>,
     failures: Vec<Failure>,
     records: Vec<Record>,
+    /// Those of the records of the last step.
+    kinds: Vec<Kinds>,
 }
 
 /// What a run has come to.
@@ -82,6 +84,7 @@ impl Run {
             violations: Vec::new(),
             failures: Vec::new(),
             records: Vec::new(),
+            kinds: Vec::new(),
         })
     }
 
@@ -126,9 +129,17 @@ impl Run {
     /// Advances by one physics step for those who do not want to know what happened in it.
     pub fn advance(&mut self) {
         self.simulation.step();
+        let records = self.simulation.records();
+        self.kinds.clear();
+        self.kinds
+            .extend(records.iter().map(|record| Kinds::of(&record.event)));
         for checker in &mut self.checkers {
-            for record in self.simulation.records() {
-                checker.observe(record, &mut self.violations);
+            let mut heeds = checker.heeds();
+            for (record, &kind) in records.iter().zip(&self.kinds) {
+                if heeds.meets(kind) {
+                    checker.observe(record, &mut self.violations);
+                    heeds = checker.heeds();
+                }
             }
             checker.advance(self.simulation.now(), &mut self.violations);
         }

@@ -8,7 +8,7 @@ use super::disturbance::Disturbance;
 use super::health::{Health, Needs};
 use super::pending::Pending;
 use super::report::Report;
-use super::{Checker, Setting, Violation, robot_list};
+use super::{Checker, Kinds, Setting, Violation, robot_list};
 use crate::scenario::Scenario;
 use starl_core::event::{Event, Value};
 use starl_core::{Duration, Port, Record, RobotId, Time};
@@ -238,6 +238,10 @@ impl Instance {
 impl Checker for Barrier {
     fn properties(&self) -> &'static [&'static str] {
         &[SAFETY, PROGRESS]
+    }
+
+    fn heeds(&self) -> Kinds {
+        Kinds::REPORTS
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

@@ -8,7 +8,7 @@
 use super::health::{Health, Needs};
 use super::outstanding::Outstanding;
 use super::report::{MessageKey, Report};
-use super::{Checker, Setting, Violation, robot_list};
+use super::{Checker, Kinds, Setting, Violation, robot_list};
 use crate::scenario::Scenario;
 use starl_core::event::{Event, Value};
 use starl_core::{Duration, Record, RobotId, Time};
@@ -150,6 +150,14 @@ impl Broadcast {
 impl Checker for Broadcast {
     fn properties(&self) -> &'static [&'static str] {
         &[DELIVERY]
+    }
+
+    fn heeds(&self) -> Kinds {
+        // What is overdue is found at the next record of any kind.
+        match self.outstanding.oldest() {
+            None => Kinds::REPORTS | Kinds::DROPPED,
+            Some(_) => Kinds::ALL,
+        }
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

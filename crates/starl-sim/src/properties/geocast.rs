@@ -13,7 +13,7 @@ use super::health::{Health, Needs};
 use super::outstanding::Outstanding;
 use super::report::{MessageKey, Report};
 use super::track::{Sample, Tolerance, Track};
-use super::{Checker, Setting, Violation, robot_list};
+use super::{Checker, Kinds, Setting, Violation, robot_list};
 use crate::scenario::Scenario;
 use starl_core::event::{Event, Value};
 use starl_core::{Area, Duration, Point, Record, RobotId, Time};
@@ -183,6 +183,14 @@ impl Geocast {
 impl Checker for Geocast {
     fn properties(&self) -> &'static [&'static str] {
         &[EXCLUSION, INCLUSION]
+    }
+
+    fn heeds(&self) -> Kinds {
+        // What is overdue is found at the next record of any kind.
+        match self.outstanding.oldest().or(self.late.oldest()) {
+            None => Kinds::REPORTS | Kinds::MOVED | Kinds::DROPPED,
+            Some(_) => Kinds::ALL,
+        }
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

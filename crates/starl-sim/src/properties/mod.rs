@@ -11,6 +11,7 @@ mod disturbance;
 mod election;
 mod geocast;
 mod health;
+mod heed;
 mod monitor;
 mod mutex;
 mod no_collision;
@@ -24,6 +25,7 @@ mod report;
 mod shared_memory;
 mod track;
 
+pub use heed::Kinds;
 pub use monitor::{Monitor, Witness};
 
 use crate::scenario::Scenario;
@@ -61,6 +63,12 @@ pub struct Violation {
 pub trait Checker: dyn_clone::DynClone + fmt::Debug + Send + Sync {
     /// The properties it checks.
     fn properties(&self) -> &'static [&'static str];
+
+    /// The kinds of events that it does anything at for the time being, until it has observed one of them or
+    /// time has passed: to be shown others makes no difference.
+    fn heeds(&self) -> Kinds {
+        Kinds::ALL
+    }
 
     /// Takes the next record; records come in the order of their times.
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>);

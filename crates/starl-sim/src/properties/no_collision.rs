@@ -6,7 +6,7 @@
 //! has crashed in the air and falls is none.
 
 use super::bodies::{Sweep, gap};
-use super::{Checker, Setting, Violation};
+use super::{Checker, Kinds, Setting, Violation};
 use starl_core::event::{Event, Hit};
 use starl_core::geometry::{Bounds, ObstacleIndex};
 use starl_core::motion::Body;
@@ -283,6 +283,10 @@ impl NoCollision {
 impl Checker for NoCollision {
     fn properties(&self) -> &'static [&'static str] {
         &[NO_COLLISION]
+    }
+
+    fn heeds(&self) -> Kinds {
+        Kinds::MOVED | Kinds::COLLIDED | Kinds::FAULT
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

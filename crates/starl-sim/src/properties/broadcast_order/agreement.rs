@@ -79,6 +79,11 @@ impl Agreement {
         self.joined.insert((port, robot), at);
     }
 
+    /// Whether anything will be due.
+    pub fn is_owed(&self) -> bool {
+        !self.due.is_empty()
+    }
+
     /// Judges what was due before `now`.
     pub fn check(&mut self, now: Time, found: &mut Vec<Violation>) {
         while let Some(&(due, key)) = self.due.front()

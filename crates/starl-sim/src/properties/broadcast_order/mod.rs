@@ -9,7 +9,7 @@ mod causal;
 mod sequence;
 
 use super::report::{MessageKey, Report};
-use super::{Checker, Setting, Violation};
+use super::{Checker, Kinds, Setting, Violation};
 use crate::scenario::Scenario;
 use agreement::Agreement;
 use causal::Causality;
@@ -198,6 +198,14 @@ impl Instance {
 impl Checker for BroadcastOrder {
     fn properties(&self) -> &'static [&'static str] {
         &[INTEGRITY, FIFO, CAUSAL, TOTAL, AGREEMENT]
+    }
+
+    fn heeds(&self) -> Kinds {
+        // What is overdue is found at the next record of any kind.
+        match self.agreement.is_owed() {
+            false => Kinds::REPORTS | Kinds::SENT | Kinds::DELIVERED,
+            true => Kinds::ALL,
+        }
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

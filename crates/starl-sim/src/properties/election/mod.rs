@@ -12,7 +12,7 @@ use super::health::{Health, Needs};
 use super::parts::Parts;
 use super::pending::Pending;
 use super::report::Report;
-use super::{Checker, Setting, Violation};
+use super::{Checker, Kinds, Setting, Violation};
 use crate::scenario::Scenario;
 use instance::{Instance, Member, Shown};
 use starl_core::event::{Event, Value};
@@ -134,6 +134,10 @@ impl Election {
 impl Checker for Election {
     fn properties(&self) -> &'static [&'static str] {
         &[UNIQUENESS, ORDER, EXCLUSION, SOUNDNESS, AGREEMENT, PROGRESS]
+    }
+
+    fn heeds(&self) -> Kinds {
+        Kinds::REPORTS | Kinds::SENT | Kinds::DELIVERED
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

@@ -14,7 +14,7 @@ use super::health::{Health, Needs};
 use super::parts::Parts;
 use super::pending::Pending;
 use super::report::Report;
-use super::{Checker, Setting, Violation};
+use super::{Checker, Kinds, Setting, Violation};
 use crate::scenario::Scenario;
 use locks::{Entry, Locks};
 use starl_core::event::{Event, Value};
@@ -145,6 +145,10 @@ impl Mutex {
 impl Checker for Mutex {
     fn properties(&self) -> &'static [&'static str] {
         &[SAFETY, FENCING, NON_INTERFERENCE, PROGRESS]
+    }
+
+    fn heeds(&self) -> Kinds {
+        Kinds::REPORTS | Kinds::SENT | Kinds::DELIVERED
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

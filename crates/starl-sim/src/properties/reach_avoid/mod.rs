@@ -10,7 +10,7 @@ mod command;
 use super::health::{Health, Needs};
 use super::report::Report;
 use super::track::{Tolerance, Track};
-use super::{Checker, Setting, Violation};
+use super::{Checker, Kinds, Setting, Violation};
 use crate::scenario::Scenario;
 use command::{Command, Phase};
 use starl_core::event::Event;
@@ -185,6 +185,14 @@ impl ReachAvoid {
 impl Checker for ReachAvoid {
     fn properties(&self) -> &'static [&'static str] {
         &[SAFETY, GOAL, PROGRESS]
+    }
+
+    fn heeds(&self) -> Kinds {
+        // What is overdue is found at the next record of any kind.
+        match self.deadlines.is_empty() {
+            true => Kinds::REPORTS | Kinds::MOVED,
+            false => Kinds::ALL,
+        }
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

@@ -6,7 +6,7 @@
 mod search;
 
 use super::report::Report;
-use super::{Checker, Violation};
+use super::{Checker, Kinds, Violation};
 use search::{Content, Id, Search, Verdict};
 use starl_core::event::{Event, Value};
 use starl_core::{Port, Record, RobotId, Time};
@@ -202,6 +202,10 @@ fn violation(
 impl Checker for Register {
     fn properties(&self) -> &'static [&'static str] {
         &[LINEARIZABILITY]
+    }
+
+    fn heeds(&self) -> Kinds {
+        Kinds::REPORTS
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

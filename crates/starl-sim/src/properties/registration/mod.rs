@@ -11,7 +11,7 @@ use super::disturbance::Disturbance;
 use super::health::{Health, Needs};
 use super::pending::Pending;
 use super::report::Report;
-use super::{Checker, Setting, Violation, robot_list};
+use super::{Checker, Kinds, Setting, Violation, robot_list};
 use crate::scenario::Scenario;
 use instance::{Id, Instance};
 use starl_core::event::{Event, Value};
@@ -158,6 +158,10 @@ impl Registration {
 impl Checker for Registration {
     fn properties(&self) -> &'static [&'static str] {
         &[AGREEMENT, EXCLUSION, SOUNDNESS, PROGRESS, CONVERGENCE]
+    }
+
+    fn heeds(&self) -> Kinds {
+        Kinds::REPORTS
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

@@ -5,7 +5,7 @@ use super::element::Stamp;
 use super::{Address, content};
 use crate::properties::pending::Pending;
 use crate::properties::report::Report;
-use crate::properties::{Checker, Violation};
+use crate::properties::{Checker, Kinds, Violation};
 use crate::scenario::Scenario;
 use starl_core::event::{Event, Value};
 use starl_core::{Port, Record, RobotId, Time};
@@ -162,6 +162,10 @@ impl Causality {
 impl Checker for Causality {
     fn properties(&self) -> &'static [&'static str] {
         &[CAUSALITY]
+    }
+
+    fn heeds(&self) -> Kinds {
+        Kinds::REPORTS
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

@@ -16,7 +16,7 @@ use super::health::{Health, Needs};
 use super::parts::Parts;
 use super::pending::Pending;
 use super::report::Report;
-use super::{Checker, Setting, Violation};
+use super::{Checker, Kinds, Setting, Violation};
 use crate::scenario::Scenario;
 use debt::{Address, Debt};
 use element::{Element, Shown, Stamp};
@@ -203,6 +203,10 @@ impl SharedMemory {
 impl Checker for SharedMemory {
     fn properties(&self) -> &'static [&'static str] {
         &[INTEGRITY, ORDER, CONVERGENCE]
+    }
+
+    fn heeds(&self) -> Kinds {
+        Kinds::REPORTS | Kinds::SENT | Kinds::DELIVERED
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
