@@ -3,6 +3,7 @@
 mod support;
 
 use std::path::Path;
+use std::process::Output;
 use support::{file, folder, json, names, starl, status, stderr, stdout};
 
 /// Mutual exclusion by permission, without the order that breaks ties.
@@ -53,6 +54,12 @@ on Permit(_, to)
 invariant exclusion: forall r, s: r == s or r.phase != use or s.phase != use
 ";
 
+/// A search that is to come to its end is given all the time that it may need, on however slow a machine.
+fn explore(folder: &Path, arguments: &[&str]) -> Output {
+    let patient = [&["explore", "--within", "1000h"], arguments].concat();
+    starl(folder, &patient)
+}
+
 fn polite(folder: &Path) -> String {
     file(folder, "polite.starl", POLITE);
     let two = "program = \"polite.starl\"\n[[robots]]\nmodel = \"create\"\ncount = 2\n\
@@ -65,7 +72,6 @@ fn polite(folder: &Path) -> String {
 fn an_example_is_explored_to_the_end() {
     let folder = folder("explore_example");
     let arguments = [
-        "explore",
         "mutex",
         "--robots",
         "2",
@@ -80,7 +86,7 @@ fn an_example_is_explored_to_the_end() {
         "--doubt",
         "--json",
     ];
-    let output = starl(&folder, &arguments);
+    let output = explore(&folder, &arguments);
     let account = json(&output);
     assert_eq!(status(&output), 0, "{account}");
     assert_eq!(account["outcome"], "complete");
@@ -96,7 +102,7 @@ fn an_example_is_explored_to_the_end() {
 fn a_violation_is_kept_and_can_be_gone_again() {
     let folder = folder("explore_violation");
     let target = polite(&folder);
-    let output = starl(&folder, &["explore", &target]);
+    let output = explore(&folder, &[&target]);
     let text = stdout(&output);
     assert_eq!(status(&output), 1, "{text}");
     assert!(text.contains("Polite.exclusion"), "{text}");
@@ -132,14 +138,14 @@ fn a_bound_that_is_hit_is_no_proof() {
     let folder = folder("explore_bounds");
     let target = polite(&folder);
     for (option, outcome) in [("--depth", "depth_bound"), ("--most-states", "state_bound")] {
-        let output = starl(&folder, &["explore", &target, option, "3"]);
+        let output = explore(&folder, &[&target, option, "3"]);
         assert_eq!(status(&output), 3);
         assert!(
             stdout(&output).contains("NOT complete"),
             "{}",
             stdout(&output)
         );
-        let output = starl(&folder, &["explore", &target, option, "3", "--json"]);
+        let output = explore(&folder, &[&target, option, "3", "--json"]);
         assert_eq!(json(&output)["outcome"], outcome);
     }
 }
@@ -168,13 +174,12 @@ fn an_exploration_that_takes_too_long_says_what_it_has_covered() {
 #[test]
 fn what_never_comes_is_noted() {
     let folder = folder("explore_notes");
-    let output = starl(&folder, &["explore", "election"]);
+    let output = explore(&folder, &["election"]);
     assert_eq!(status(&output), 0, "{}", stderr(&output));
     let text = stdout(&output);
     assert!(text.contains("nobody is ever elected"), "{text}");
     assert!(text.contains("--tick"), "{text}");
     let ballots = [
-        "explore",
         "election",
         "--robots",
         "2",
@@ -183,7 +188,7 @@ fn what_never_comes_is_noted() {
         "--depth",
         "9",
     ];
-    let output = starl(&folder, &ballots);
+    let output = explore(&folder, &ballots);
     let text = stdout(&output);
     assert!(!text.contains("nobody is ever elected"), "{text}");
 }
@@ -220,10 +225,7 @@ fn bad_input_is_refused() {
 fn a_way_that_cannot_be_gone_any_more_is_told() {
     let folder = folder("explore_stale");
     let target = polite(&folder);
-    let output = starl(
-        &folder,
-        &["explore", &target, "--save", "way.json", "--quiet"],
-    );
+    let output = explore(&folder, &[&target, "--save", "way.json", "--quiet"]);
     assert_eq!(status(&output), 1);
     let text = std::fs::read_to_string(folder.join("way.json")).expect("it is there");
     // Somebody has mended the program.
