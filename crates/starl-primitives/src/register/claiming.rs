@@ -10,12 +10,15 @@
 //! Invariant: a value is *chosen* once a majority has stored it while it had promised nothing greater. Each
 //! ballot is used by one robot for one value. Who claims under a greater ballot hears of every value that was
 //! chosen before from a member of both majorities, so each chosen value was made from the one chosen before
-//! it. Copies that spread in the background are not counted as stored where something greater is promised.
+//! it. Copies that spread in the background are not counted as stored where something greater is promised. A
+//! robot that restarts recovers promises as it does copies: of those that it gave before, one of the majority
+//! that it hears knows as much (the module `recovery`).
 //!
 //! A write that is refused may have been stored by some, and whoever claimed the register after it may have
 //! read it there or not. To know, a copy names the latest ballot of each robot among those that have led to
 //! it. The writer claims the register itself, looks whether its ballot is among them, and has the copy stored
-//! anew under its new ballot: from then on nothing else can be chosen from before. So the write is
+//! anew under its new ballot: from then on nothing else can be chosen from before. What a robot was writing
+//! when it died is made part of the next claim that finds it, or is never chosen. So the write is
 //! [`Status::Done`](super::Status::Done) or [`Status::Lost`](super::Status::Lost), and never both.
 
 use super::operation::{Kind, Operation, Phase};

@@ -3,8 +3,8 @@
 //! It cannot know whether it ran before, so it asks. In the first stage it learns the number of its last
 //! life from others, in the second it tells them that of its new one, one greater, and gets their copies. A
 //! stage ends when it has heard
-//! - a majority of all participants, among the others, that are up: what a majority had stored, one of
-//!   them has, and whoever counts what this robot acknowledged in an earlier life hears of its new one from
+//! - a majority of all participants, among the others, that are up: what a majority had stored or promised,
+//!   one of them has, and whoever counts what this robot acknowledged in an earlier life hears of its new one from
 //!   one of them; or
 //! - all others, up or just started themselves: nothing more can be known; or
 //! - for some time nobody that is up, and so many that have just started that they are a majority together.
