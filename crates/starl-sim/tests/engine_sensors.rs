@@ -143,6 +143,27 @@ fn hidden_obstacles_become_known_to_the_robot_that_meets_them() {
     assert_eq!(known(RobotId(1)), Some(0u32.into()));
 }
 
+/// Of two that are at one distance, as their nearest points are one, neither hides the other; what is behind them
+/// they hide.
+#[test]
+fn both_walls_of_a_corner_are_seen() {
+    let mut scenario = scenario("create", &[(0.0, 0.0)]);
+    for (a, b) in [
+        ((0.4, 0.0), (1.4, 1.0)),
+        ((0.4, 0.0), (1.4, -1.0)),
+        ((0.5, -0.05), (0.5, 0.05)),
+    ] {
+        let ends = [Point::planar(a.0, a.1), Point::planar(b.0, b.1)];
+        let mut wall = obstacle(Obstacle::polygon(ConvexPolygon::new(&ends).unwrap()));
+        wall.hidden = true;
+        scenario.world.obstacles.push(wall);
+    }
+    let mut simulation = simulate(scenario, Watcher(Command::Straight { speed: 0.0 }));
+    let records = run(&mut simulation, 1.0);
+    let known = named(&records, "known").last().map(|(_, f)| f[0].1.clone());
+    assert_eq!(known, Some(2u32.into()));
+}
+
 #[test]
 fn an_obstacle_that_expires_is_gone_from_the_world_and_from_all_knowledge() {
     let mut scenario = scenario("create", &[(0.0, 0.0)]);

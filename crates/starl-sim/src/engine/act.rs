@@ -25,6 +25,9 @@ const HEADER_BYTES: usize = 64;
 /// Planners that are to go round robots see those this near, metres.
 const SIGHT: f64 = 5.0;
 
+/// Obstacles whose distance differs by less than this meet, metres.
+const CORNER: f64 = 1e-3;
+
 /// All that one robot's turn touches.
 pub struct Turn<'a> {
     pub shared: &'a Shared,
@@ -174,11 +177,16 @@ impl Turn<'_> {
         }
     }
 
-    /// Whether nothing stands between the robot and an obstacle.
+    /// Whether nothing stands between the robot and the nearest point of an obstacle. Another one that meets it
+    /// there, as walls do at a corner, hides nothing of it; so the nearest of all is always seen.
     fn sees(&self, index: u32) -> bool {
         let map = &self.shared.map;
         let eye = self.state.pose.position;
-        let target = map.obstacles()[index as usize].nearest_point(eye);
+        let nearest = map.obstacles()[index as usize].nearest_point(eye);
+        let Some(direction) = (nearest - eye).normalized() else {
+            return true;
+        };
+        let target = nearest - direction * CORNER.min(eye.distance(nearest));
         let mut seen = true;
         map.any_near(
             &starl_core::geometry::Bounds::of_segment(eye, target),
