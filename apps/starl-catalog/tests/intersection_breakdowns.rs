@@ -53,6 +53,23 @@ fn where_it_crashes_beyond_them_its_zones_are_used_again() {
     assert!(traffic.stuck_at_the_end().is_empty());
 }
 
+/// Robot1 crashes with the zone B and starts again at once: it has forgotten that it holds it, and lets Robot2 have it.
+#[test]
+fn where_it_starts_again_its_zone_is_left_to_it_though_it_has_forgotten_it() {
+    for at in [7300, 7500] {
+        let faults = format!(
+            "[[fault]]\nat = \"{at}ms\"\nkind = \"crash\"\nrobots = [\"Robot1\"]\n\
+             [[fault]]\nat = \"{}ms\"\nkind = \"restart\"\nrobots = [\"Robot1\"]\n",
+            at + 270
+        );
+        let sets = ["positioning.position_noise=0", "motion.speed_noise=0"];
+        let traffic = drive("intersection", &sets, &faults);
+        let violations = &traffic.violations;
+        assert!(violations.is_empty(), "{at} {violations:?}");
+        assert_eq!(traffic.passed(), [0, 1, 2, 3], "{at}");
+    }
+}
+
 /// None hears another. Robot1's wheels stop when it has left the others out and may drive: Robot2 waits until its own
 /// turn comes, and Robot1 has given way by then, whenever its wheels are mended.
 #[test]
