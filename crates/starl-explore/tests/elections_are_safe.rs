@@ -5,12 +5,16 @@
 mod support;
 
 use starl_core::Duration;
-use starl_explore::Bounds;
+use starl_explore::{Bounds, Setup};
 use starl_primitives::election::{Algorithm, Options};
 use support::elector::Elector;
-use support::{all_is_well, seconds, setup, watched};
+use support::{all_is_well, happens, seconds, setup, watched};
 
 fn explore(algorithm: Algorithm, ticks: u16, delay: u8, crashes: u8) -> (u32, u64, u32) {
+    all_is_well(watched(election(algorithm, ticks, delay, crashes)), 3)
+}
+
+fn election(algorithm: Algorithm, ticks: u16, delay: u8, crashes: u8) -> Setup {
     let options = Options {
         algorithm,
         lease: Duration::from_seconds(2),
@@ -27,7 +31,19 @@ fn explore(algorithm: Algorithm, ticks: u16, delay: u8, crashes: u8) -> (u32, u6
         clocks: seconds(3, ticks, Some(delay)),
         ..Bounds::default()
     };
-    all_is_well(watched(setup(3, Elector::new(options), bounds)), 3)
+    setup(3, Elector::new(options), bounds)
+}
+
+#[test]
+fn leaders_are_elected_in_what_is_explored() {
+    for (algorithm, ticks) in [
+        (Algorithm::Bully, 2),
+        (Algorithm::Ballots, 2),
+        (Algorithm::Leases, 1),
+    ] {
+        let election = election(algorithm, ticks, 0, 0);
+        assert!(happens(election, 3, "leader"), "{algorithm:?}");
+    }
 }
 
 #[test]

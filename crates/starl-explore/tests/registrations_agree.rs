@@ -4,12 +4,16 @@
 mod support;
 
 use starl_core::Duration;
-use starl_explore::Bounds;
+use starl_explore::{Bounds, Setup};
 use starl_primitives::registration::Options;
 use support::registrar::{Agreement, Registrar};
-use support::{all_is_well, seconds, setup};
+use support::{all_is_well, happens, seconds, setup};
 
 fn explore(ticks: u16, delay: Option<u8>, crashes: u8) -> (u32, u64, u32) {
+    all_is_well(registration(ticks, delay, crashes), 0)
+}
+
+fn registration(ticks: u16, delay: Option<u8>, crashes: u8) -> Setup {
     let options = Options {
         settle: Duration::from_seconds(1),
         gather: Duration::from_seconds(1),
@@ -28,7 +32,17 @@ fn explore(ticks: u16, delay: Option<u8>, crashes: u8) -> (u32, u64, u32) {
     };
     let mut setup = setup(3, Registrar::new(options), bounds);
     setup.checkers.push(Box::new(Agreement::default()));
-    all_is_well(setup, 0)
+    setup
+}
+
+#[test]
+fn robots_agree_in_what_is_explored() {
+    for (ticks, delay) in [(2, Some(0)), (1, None)] {
+        assert!(
+            happens(registration(ticks, delay, 0), 0, "agree"),
+            "{ticks}"
+        );
+    }
 }
 
 #[test]

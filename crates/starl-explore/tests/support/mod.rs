@@ -7,10 +7,10 @@ pub mod locker;
 pub mod registrar;
 pub mod tieless;
 
-use starl_core::{Duration, Program};
+use starl_core::{Duration, Event, Program, Record};
 use starl_explore::{Bounds, Clocks, End, Model, Report, Search, Setup, Walk};
 use starl_sim::Scenario;
-use starl_sim::properties::{self, Setting};
+use starl_sim::properties::{self, Checker, Setting, Violation};
 use starl_sim::scenario::Properties;
 
 /// A fleet of robots that run the same program, and nobody who watches.
@@ -77,6 +77,36 @@ pub fn all_is_well(setup: Setup, warm_up: u16) -> (u32, u64, u32) {
     let report = search.report();
     assert!(report.compared > 0, "no two robots came to the same state");
     size(&report)
+}
+
+/// Whether a primitive reports this event in some behaviour after a warm-up: a search in which nothing is ever
+/// granted would show nothing.
+pub fn happens(mut setup: Setup, warm_up: u16, event: &'static str) -> bool {
+    setup.checkers = vec![Box::new(Sees(event))];
+    matches!(search_warm(setup, warm_up).run(), End::Violated(_))
+}
+
+/// Takes an event of a primitive for a violation.
+#[derive(Clone, Debug)]
+struct Sees(&'static str);
+
+impl Checker for Sees {
+    fn properties(&self) -> &'static [&'static str] {
+        &["seen"]
+    }
+
+    fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
+        if let (Some(robot), Event::Primitive { name, .. }) = (record.robot, &record.event)
+            && name == self.0
+        {
+            violations.push(Violation {
+                property: "seen".into(),
+                at: record.at,
+                robots: vec![robot],
+                text: format!("robot {robot} reports {name}"),
+            });
+        }
+    }
 }
 
 /// Searches to the end, doubting on the way.
