@@ -84,8 +84,7 @@ impl Digest {
                 self.word(5 | (*reason as u64) << 8 | to.map_or(0, |to| u64::from(to.0) + 1) << 16);
                 self.word(u64::from(*sequence) << 32 | u64::from(from.0));
             }
-            // Most of these are longer than a message.
-            other => self.bytes(&crate::message::encode_within::<256, _>(other)),
+            other => crate::message::with_encoded(other, |bytes| self.bytes(bytes)),
         }
     }
 

@@ -4,6 +4,7 @@ use crate::geometry::{Obstacle, Point, Pose};
 use crate::motion::Path;
 use crate::{Destination, Payload, Port, RobotId, time::Time};
 use alloc::borrow::Cow;
+use alloc::boxed::Box;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
@@ -212,8 +213,8 @@ pub enum Value {
     Robots(Vec<RobotId>),
     /// Obstacles.
     Obstacles(Arc<[Obstacle]>),
-    /// An area.
-    Area(crate::Area),
+    /// An area. By far the largest, and rare: in a box it does not make all events larger.
+    Area(Box<crate::Area>),
 }
 
 macro_rules! value_from {

@@ -1,6 +1,7 @@
 //! Messages between robots.
 
 use crate::{Port, RobotId};
+use alloc::vec::Vec;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use smallvec::SmallVec;
 
@@ -27,15 +28,24 @@ impl Message {
 
 /// Encodes a value in postcard's format: compact, and the same on every target.
 pub fn encode<T: Serialize>(value: &T) -> Payload {
-    encode_within(value)
+    with_encoded(value, Payload::from_slice)
 }
 
-/// The same with room for so many bytes in place.
-pub(crate) fn encode_within<const N: usize, T: Serialize>(value: &T) -> SmallVec<[u8; N]> {
+/// Bytes that most values take less than.
+const USUAL: usize = 256;
+
+/// Hands the encoding of a value to `use_it`. Most are made on the stack and not moved.
+pub(crate) fn with_encoded<T: Serialize, R>(value: &T, use_it: impl FnOnce(&[u8]) -> R) -> R {
+    let mut room = [0; USUAL];
+    if let Ok(bytes) = postcard::to_slice(value, &mut room) {
+        return use_it(bytes);
+    }
     // The only error postcard reports for an unbounded buffer is a type without a known length,
     // which no message of ours has.
-    postcard::serialize_with_flavor(value, Buffer::<N>::default())
-        .expect("a message has a known length")
+    let buffer = Buffer::default();
+    let long =
+        postcard::serialize_with_flavor(value, buffer).expect("a message has a known length");
+    use_it(&long)
 }
 
 /// Decodes what [`encode`] made; none where the bytes are not a `T`, or are more than one.
@@ -47,10 +57,10 @@ pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
 }
 
 #[derive(Default)]
-struct Buffer<const N: usize>(SmallVec<[u8; N]>);
+struct Buffer(Vec<u8>);
 
-impl<const N: usize> postcard::ser_flavors::Flavor for Buffer<N> {
-    type Output = SmallVec<[u8; N]>;
+impl postcard::ser_flavors::Flavor for Buffer {
+    type Output = Vec<u8>;
 
     fn try_extend(&mut self, data: &[u8]) -> postcard::Result<()> {
         self.0.extend_from_slice(data);
@@ -62,7 +72,7 @@ impl<const N: usize> postcard::ser_flavors::Flavor for Buffer<N> {
         Ok(())
     }
 
-    fn finalize(self) -> postcard::Result<SmallVec<[u8; N]>> {
+    fn finalize(self) -> postcard::Result<Vec<u8>> {
         Ok(self.0)
     }
 }

@@ -51,7 +51,7 @@ fn fields_of_events_have_their_types() {
             "path",
             Value::Path(vec![Point::ZERO, Point::planar(1.0, 1.0)]),
         ),
-        ("area", Value::Area(circle)),
+        ("area", circle.into()),
         ("pair", text("(a = 1, b = \"x\")")),
         ("numbers", text("[1, 2]")),
         ("at", Value::Time(starl_core::Time::ZERO)),

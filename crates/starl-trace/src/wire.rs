@@ -60,7 +60,7 @@ fn value(field: Field) -> Result<Value, String> {
             .map(obstacles)
             .transpose()?
             .map(|list| Value::Obstacles(list.into())),
-        field.area.map(Area::try_from).transpose()?.map(Value::Area),
+        field.area.map(Area::try_from).transpose()?.map(Value::from),
     ];
     let mut present = candidates.into_iter().flatten();
     match (present.next(), present.next()) {

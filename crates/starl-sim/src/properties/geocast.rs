@@ -82,7 +82,7 @@ impl Geocast {
         };
         let message = Message {
             sent: report.at,
-            area: area.clone(),
+            area: (**area).clone(),
             retry_span: Duration::from_seconds_f64(retry_span),
             delivered: Vec::new(),
         };
