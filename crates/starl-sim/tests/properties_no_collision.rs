@@ -132,6 +132,26 @@ fn what_a_crashed_flyer_falls_on_has_not_collided() {
 }
 
 #[test]
+fn who_restarts_on_a_robot_falls_on_until_it_rises() {
+    for rises in [false, true] {
+        let mut story = crash_landing();
+        story.stays(3100, 4000, 0, at(0.0, 0.0));
+        story.fault(3000, Some(1), "restart");
+        // It flies off and comes back; or it stays, until the robot gives way.
+        let low = Point::new(0.1, 0.0, 0.09);
+        let away = if rises {
+            Point::new(1.0, 0.0, 0.4)
+        } else {
+            low
+        };
+        story.walks(3100, 3500, 1, low, away);
+        story.walks(3600, 4000, 1, away, at(0.1, 0.0));
+        story.collided(4000, 0, WITH_ROBOT_1);
+        assert_eq!(story.verdict(4100).is_empty(), !rises);
+    }
+}
+
+#[test]
 fn who_runs_into_a_flyer_that_fell_collides() {
     let mut story = Story::of(&[GROUND, FLYER]);
     story.stays(0, 3000, 0, at(2.0, 0.0));

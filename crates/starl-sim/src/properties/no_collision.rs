@@ -47,7 +47,7 @@ pub(super) struct NoCollision {
     pairs: BTreeSet<(RobotId, RobotId)>,
     /// The obstacles that each robot touches.
     walls: Vec<Vec<Wall>>,
-    /// Robots that have crashed in the air, until they restart.
+    /// Robots that have crashed in the air, until they have started again and rise.
     falls: BTreeMap<RobotId, Fall>,
 }
 
@@ -57,6 +57,8 @@ struct Fall {
     /// The least height that it has come to, metres, and when it came there.
     lowest: f64,
     since: Time,
+    /// Whether it has started again. It may lie on another robot, which drives off from under it.
+    is_up: bool,
 }
 
 /// An obstacle that a robot touches.
@@ -108,6 +110,18 @@ impl NoCollision {
         self.falls.get(&robot).is_some_and(|fall| fall.lasts(at))
     }
 
+    /// Notes how low one is that has crashed in the air. Once it has started again and rises it falls no more.
+    fn follow_fall(&mut self, at: Time, robot: RobotId, height: f64) {
+        let Some(fall) = self.falls.get_mut(&robot) else {
+            return;
+        };
+        if height < fall.lowest - OVERLAP {
+            (fall.lowest, fall.since) = (height, at);
+        } else if fall.is_up && height > fall.lowest + OVERLAP {
+            self.falls.remove(&robot);
+        }
+    }
+
     fn changed(&mut self, at: Time, robot: RobotId, fault: &str) {
         let Some(&Some(place)) = self.positions.get(robot.index()) else {
             return;
@@ -115,10 +129,20 @@ impl NoCollision {
         match fault {
             "crash" if place.z > OVERLAP => {
                 let (lowest, since) = (place.z, at);
-                self.falls.insert(robot, Fall { lowest, since });
+                let is_up = false;
+                self.falls.insert(
+                    robot,
+                    Fall {
+                        lowest,
+                        since,
+                        is_up,
+                    },
+                );
             }
             "restart" => {
-                self.falls.remove(&robot);
+                if let Some(fall) = self.falls.get_mut(&robot) {
+                    fall.is_up = true;
+                }
             }
             _ => {}
         }
@@ -176,11 +200,7 @@ impl NoCollision {
             return;
         }
         self.positions[index] = Some(position);
-        if let Some(fall) = self.falls.get_mut(&robot)
-            && position.z < fall.lowest - OVERLAP
-        {
-            (fall.lowest, fall.since) = (position.z, at);
-        }
+        self.follow_fall(at, robot, position.z);
         self.check_obstacles(at, robot, position, found);
         let round = &mut self.round;
         round.at = at;
