@@ -120,3 +120,27 @@ fn nothing_is_held_twice_a_while_after_a_corruption_of_state() {
         });
     }
 }
+
+/// Two robots tried other quorums while the network was parted, and what they gave back was not heard: of their old
+/// requests one was granted and the other waited for it.
+#[test]
+fn requests_that_were_given_back_unheard_block_nobody() {
+    let faults = "
+        [[fault]]
+        at = \"700ms\"
+        kind = \"partition\"
+        groups = [[\"robot3\"], [\"robot1\"], [\"robot0\", \"robot2\"]]
+        [[fault]]
+        at = \"1s\"
+        kind = \"partition\"
+        groups = [[\"robot1\", \"robot2\"], [\"robot0\", \"robot3\"]]
+        [[fault]]
+        at = \"2300ms\"
+        kind = \"heal\"";
+    let run = Case {
+        faults,
+        ..Case::new("mutex", &["parameters.algorithm=quorum"], 976)
+    }
+    .run();
+    assert_eq!(run.outcome(), Outcome::Reached, "{:?}", run.violations());
+}

@@ -212,7 +212,8 @@ impl Arbiter {
             )
     }
 
-    /// A request was repeated and still waits: what it waits for may be over without a word.
+    /// A request was repeated and still waits: what it waits for may be over without a word, also what waits itself
+    /// for what nobody else asks for.
     fn ask_those_in_the_way(&mut self, robot: RobotId, terms: Terms, post: &mut Post) {
         if self
             .entries
@@ -229,7 +230,7 @@ impl Arbiter {
         }
         let both = before.into_iter().map(|peer| (peer, false));
         for (peer, must_yield) in both.chain(after.into_iter().map(|peer| (peer, true))) {
-            if let Some(entry) = self.entries.get(&peer).filter(|entry| entry.is_granted) {
+            if let Some(entry) = self.entries.get(&peer) {
                 inquire(peer, entry, must_yield, post);
             }
         }
