@@ -70,7 +70,7 @@ fn trouble() -> Vec<&'static str> {
         "fault_rates.restart_after=3s",
         "fault_rates.partition=0.02/s",
         "fault_rates.heal_after=3s",
-        "duration=600s",
+        "duration=900s",
     ]);
     sets
 }
