@@ -87,16 +87,7 @@ fn partitions_lose_none() {
         let mut world = World::new(5, seed, Wire::bad(), PERIOD, Counter::boxed(None, 1500));
         world.run_for(SECOND * 5);
         for _ in 0..10 {
-            let side: Vec<bool> = (0..5).map(|_| random.chance(0.5)).collect();
-            for from in 0..5 {
-                for to in 0..5 {
-                    if side[from] != side[to] {
-                        world.wire.cut.insert((from as u32, to as u32));
-                    }
-                }
-            }
-            world.run_for(SECOND * 5);
-            world.wire.cut.clear();
+            world.fall_apart(&mut random, SECOND * 5);
             world.run_for(SECOND * 3);
         }
         check(&world, 5, seed);

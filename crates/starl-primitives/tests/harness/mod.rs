@@ -225,6 +225,20 @@ impl World {
         self.nodes[robot].timers.clear();
     }
 
+    /// For this span the network is in two parts, drawn at random.
+    pub fn fall_apart(&mut self, random: &mut Random, span: Duration) {
+        let side: Vec<bool> = self.fleet.iter().map(|_| random.chance(0.5)).collect();
+        for from in 0..side.len() {
+            for to in 0..side.len() {
+                if side[from] != side[to] {
+                    self.wire.cut.insert((from as u32, to as u32));
+                }
+            }
+        }
+        self.run_for(span);
+        self.wire.cut.clear();
+    }
+
     pub fn place(&mut self, robot: usize, position: Point) {
         self.nodes[robot].head_for(None);
         self.nodes[robot].position = position;
