@@ -48,15 +48,6 @@ look()
     eff seen = sum
 "#;
 
-fn bad(code: &Code, robots: u32, seed: u64) -> World {
-    let mut world = World::of(code, robots);
-    world.random = Random::keyed(seed, &[3]);
-    world.loss = 0.2;
-    world.duplication = 0.2;
-    world.delay_ms = (1.0, 200.0);
-    world
-}
-
 fn sum(world: &World, robots: usize, variable: &str) -> i64 {
     (0..robots).map(|robot| world.int(robot, variable)).sum()
 }
@@ -77,7 +68,7 @@ fn restart(world: &mut World, code: &Code, robot: usize) {
 fn no_increment_is_lost() {
     let code = compile(COUNT);
     for seed in 0..30 {
-        let mut world = bad(&code, 4, seed);
+        let mut world = World::over_bad_network(&code, 4, seed, 200.0);
         let mut steps = 0;
         while sum(&world, 4, "added") < 80 {
             world.step();
@@ -94,7 +85,7 @@ fn no_increment_is_lost() {
 #[test]
 fn without_atomic_increments_are_lost() {
     let code = compile(CARELESS);
-    let mut world = bad(&code, 4, 1);
+    let mut world = World::over_bad_network(&code, 4, 1, 200.0);
     world.steps(600);
     assert_eq!(sum(&world, 4, "added"), 80);
     assert!(most_seen(&world, 4) < 80, "{}", most_seen(&world, 4));
@@ -104,7 +95,7 @@ fn without_atomic_increments_are_lost() {
 fn partitions_delay_it_are_told_and_lose_nothing() {
     let code = compile(COUNT);
     for seed in 0..20 {
-        let mut world = bad(&code, 5, seed);
+        let mut world = World::over_bad_network(&code, 5, seed, 200.0);
         let mut random = Random::keyed(seed, &[4]);
         let mut was_blocked = false;
         for _ in 0..12 {
@@ -153,7 +144,7 @@ fn is_storing(world: &World, robot: usize) -> bool {
 fn what_a_robot_adds_before_it_crashes_counts_once_or_not_at_all() {
     let code = compile(COUNT);
     for seed in 0..60 {
-        let mut world = bad(&code, 3, seed);
+        let mut world = World::over_bad_network(&code, 3, seed, 200.0);
         let mut random = Random::keyed(seed, &[5]);
         world.steps(40);
         // Added in lives that are over.
@@ -245,7 +236,7 @@ count()
 fn what_is_written_together_is_seen_together_even_if_robots_crash() {
     let code = compile(TRANSFER);
     for seed in 0..20 {
-        let mut world = bad(&code, 3, seed);
+        let mut world = World::over_bad_network(&code, 3, seed, 200.0);
         let mut random = Random::keyed(seed, &[5]);
         world.steps(40);
         for _ in 0..6 {

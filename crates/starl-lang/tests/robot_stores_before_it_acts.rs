@@ -7,7 +7,6 @@ mod robot_support;
 use robot_support::{PERIOD, World, compile};
 use starl_core::{Agent, Duration, Event, Input, Random};
 use starl_lang::machine::Value;
-use starl_lang::robot::Code;
 
 /// Robot 0 moves what it has to what all share, and gets more all the time by an action and by messages.
 const DEPOSIT: &str = r#"
@@ -52,20 +51,11 @@ on More(_, amount)
     got += amount
 "#;
 
-fn bad(code: &Code, robots: u32, seed: u64) -> World {
-    let mut world = World::of(code, robots);
-    world.random = Random::keyed(seed, &[3]);
-    world.loss = 0.2;
-    world.duplication = 0.2;
-    world.delay_ms = (1.0, 300.0);
-    world
-}
-
 #[test]
 fn what_an_action_depends_on_does_not_change_until_it_takes_place() {
     let code = compile(DEPOSIT);
     for seed in 0..30 {
-        let mut world = bad(&code, 3, seed);
+        let mut world = World::over_bad_network(&code, 3, seed, 300.0);
         for _ in 0..300 {
             let ticks = world.int(0, "ticks");
             world.step();
@@ -177,7 +167,7 @@ fn clocks_that_run_wrong_leases_that_overlap_crashes_and_partitions_lose_no_coun
     let code = compile(COUNT);
     let (mut lost, mut counted) = (0, 0);
     for seed in 0..30 {
-        let mut world = bad(&code, 4, seed);
+        let mut world = World::over_bad_network(&code, 4, seed, 300.0);
         let mut random = Random::keyed(seed, &[4]);
         // Far beyond the bound that leases count on, so that a holder believes in them too long.
         world.clocks_drift = (0..4)
@@ -225,7 +215,7 @@ fn clocks_that_run_wrong_leases_that_overlap_crashes_and_partitions_lose_no_coun
 fn two_of_five_that_stay_dead_keep_nobody_waiting() {
     let code = compile(COUNT);
     for seed in 0..20 {
-        let mut world = bad(&code, 5, seed);
+        let mut world = World::over_bad_network(&code, 5, seed, 300.0);
         let mut random = Random::keyed(seed, &[4]);
         for _ in 0..2 {
             world.steps(20 + random.below(20));

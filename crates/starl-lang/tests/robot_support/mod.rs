@@ -83,6 +83,16 @@ impl World {
         World::new((0..robots).map(|_| program(code)).collect())
     }
 
+    /// The same, where messages get lost, come twice, and take from 1 ms to this long.
+    pub fn over_bad_network(code: &Code, robots: u32, seed: u64, longest_ms: f64) -> World {
+        let mut world = World::of(code, robots);
+        world.random = Random::keyed(seed, &[3]);
+        world.loss = 0.2;
+        world.duplication = 0.2;
+        world.delay_ms = (1.0, longest_ms);
+        world
+    }
+
     pub fn unstarted(programs: Vec<RobotProgram>) -> World {
         let fleet: Vec<RobotId> = (0..programs.len() as u32).map(RobotId).collect();
         let nodes = programs.into_iter().zip(&fleet).map(|(program, id)| Node {
