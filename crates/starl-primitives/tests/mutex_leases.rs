@@ -64,6 +64,53 @@ fn a_holder_that_is_cut_off_knows_when_its_lease_has_ended() {
 }
 
 #[test]
+fn nobody_waits_for_a_lease_where_all_arbiters_hear_of_each_other() {
+    let mut world = world(3, 1, Wire::perfect(), false);
+    world.run_for(SECOND / 5);
+    world.command(0, acquire(&["a"]));
+    world.run_for(SECOND / 5);
+    let first = mutex(&world, 0).fencing();
+    assert!(first.is_some());
+    // Both others have forgotten what they granted.
+    for robot in [1, 2] {
+        world.crash(robot);
+        world.run_for(Duration::from_millis(10));
+        world.start(robot);
+    }
+    world.command(1, acquire(&["a"]));
+    world.command(2, acquire(&["b"]));
+    world.run_for(SECOND / 5);
+    assert!(mutex(&world, 0).crit() && !mutex(&world, 1).crit());
+    assert!(mutex(&world, 2).crit());
+    world.command(0, release(&["a"]));
+    world.run_for(SECOND / 5);
+    assert!(mutex(&world, 1).crit() && mutex(&world, 1).fencing() > first);
+}
+
+#[test]
+fn numbers_grow_though_those_who_forgot_them_have_clocks_that_differ() {
+    let mut world = world(3, 1, Wire::perfect(), false);
+    world.clocks_ahead.insert(1, 3_600_000_000_000);
+    world.run_for(SECOND / 5);
+    world.command(0, acquire(&["a"]));
+    world.run_for(SECOND / 5);
+    let first = mutex(&world, 0).fencing();
+    world.command(0, release(&["a"]));
+    world.run_for(SECOND / 5);
+    for robot in [0, 1, 2] {
+        world.crash(robot);
+    }
+    world.run_for(Duration::from_millis(10));
+    for robot in [0, 1, 2] {
+        world.start(robot);
+    }
+    world.run_for(SECOND / 5);
+    world.command(2, acquire(&["a"]));
+    world.run_for(SECOND / 5);
+    assert!(first.is_some() && mutex(&world, 2).fencing() > first);
+}
+
+#[test]
 fn a_minority_waits_and_says_so() {
     let mut world = calm(5);
     world.run_for(SECOND * 20);

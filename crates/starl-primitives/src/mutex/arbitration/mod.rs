@@ -211,7 +211,9 @@ impl Arbitration {
                 let left = Resources::new();
                 post.send(from, Packet::Release { id, left });
             }
-            Packet::Recall { nonce, list } => self.answer(common, from, nonce, list, post),
+            Packet::Recall { nonce, list } => {
+                self.answer(common, (from, robot.now()), nonce, list, post);
+            }
             Packet::Recalled { list, .. } if list != self.list => {}
             Packet::Recalled {
                 nonce,

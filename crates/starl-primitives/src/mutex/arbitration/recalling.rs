@@ -1,12 +1,13 @@
 //! An arbiter that remembers nothing asks, and robots answer: see [`super::recovery`].
 
 use super::super::common::Common;
+use super::super::lease::number_at;
 use super::packet::Packet;
 use super::recovery::Outlook;
 use super::{Arbitration, Post, RECALL, lease};
 use alloc::vec::Vec;
 use starl_core::random::hash_key;
-use starl_core::{Robot, RobotId};
+use starl_core::{Robot, RobotId, Time};
 
 impl Arbitration {
     /// Begins what has to be begun: see [`recovery`]. Called with every input.
@@ -71,7 +72,7 @@ impl Arbitration {
         let others = common.others(robot);
         let outlook = self.recovery.outlook(robot.now(), &others, lease(common));
         if outlook == Outlook::ReadyWithoutNumbers {
-            self.arbiter.numbers.begin_at(robot.now());
+            self.arbiter.numbers.raise_floor(number_at(robot.now()));
         }
         if outlook != Outlook::Unready {
             self.recovery.is_ready = true;
@@ -84,7 +85,7 @@ impl Arbitration {
     pub(super) fn answer(
         &mut self,
         common: &Common,
-        from: RobotId,
+        (from, now): (RobotId, Time),
         nonce: u32,
         list: u32,
         post: &mut Post,
@@ -92,6 +93,8 @@ impl Arbitration {
         if list != self.list {
             return;
         }
+        let remembers = self.recovery.remembers;
+        let known = self.arbiter.numbers.greatest();
         let request = self
             .request
             .as_mut()
@@ -108,8 +111,12 @@ impl Arbitration {
             nonce,
             list,
             holds,
-            number: self.arbiter.numbers.greatest(),
-            remembers: self.recovery.remembers,
+            number: match remembers {
+                true => known,
+                // It may have forgotten numbers that went on from its time.
+                false => known.max(number_at(now)),
+            },
+            remembers,
         };
         post.send(from, answer);
     }

@@ -3,12 +3,13 @@
 //! A robot cannot tell its first start from a restart, so every robot does this once. Until it is ready it
 //! grants nothing.
 //!
-//! Without leases all others have to answer: whoever does not may hold something by a grant that was
-//! forgotten. With leases nobody does after one lease of silence; what is missing then are the numbers. A
-//! number that somebody has entered with is known to a majority, so those who remember and have answered must
-//! be too many for such a majority to avoid. Where so many do not answer within another lease, or remember
-//! nothing, all being new, numbers go on from the time in milliseconds: no counting is as fast, and so they
-//! grow unless clocks have been set back.
+//! When all others have answered it is: it knows what they hold by grants that were forgotten, and such grants as
+//! are still on their way are to attempts that those who were asked have given up. Without leases all have to
+//! answer. With leases nobody holds anything by a forgotten grant after one lease of silence; what is missing
+//! then are the numbers. A number that somebody has entered with is known to a majority, so those who remember
+//! and have answered must be too many for such a majority to avoid. Where so many remember nothing, all being new,
+//! or do not answer within another lease, numbers go on from the time in milliseconds, the latest of those that
+//! have forgotten: no counting is as fast, and so they grow unless clocks have been set back.
 //!
 //! After a change of participants all of the new ones have to answer, having changed too: two quorums of
 //! different lists need have nobody in common.
@@ -101,7 +102,6 @@ impl Recovery {
         let Some(begun) = &self.begun else {
             return Outlook::Unready;
         };
-        let silent_for = now.since(begun.since);
         let all = others.iter().all(|peer| begun.answers.contains_key(peer));
         let Some(lease) = lease else {
             return if all {
@@ -110,9 +110,6 @@ impl Recovery {
                 Outlook::Unready
             };
         };
-        if silent_for < lease || begun.is_change && !all {
-            return Outlook::Unready;
-        }
         let count = others.len() + 1;
         let majority = count / 2 + 1;
         let remember = begun
@@ -120,7 +117,10 @@ impl Recovery {
             .values()
             .filter(|&&remembers| remembers)
             .count();
-        if remember > count - majority || begun.is_change && self.remembers {
+        let silent_for = now.since(begun.since);
+        if !all && (silent_for < lease || begun.is_change) {
+            Outlook::Unready
+        } else if remember > count - majority || begun.is_change && self.remembers {
             Outlook::Ready
         } else if all || begun.answers.len() + 1 >= majority && silent_for >= lease * 2 {
             Outlook::ReadyWithoutNumbers

@@ -67,11 +67,6 @@ impl Numbers {
         self.floor = self.floor.max(number.min(GREATEST));
     }
 
-    /// From now on all numbers are greater than those that were given before, if each took a millisecond.
-    pub fn begin_at(&mut self, now: Time) {
-        self.raise_floor((now.0 / 1_000_000).saturating_mul(1 << BITS));
-    }
-
     /// A number of a robot for these: the one that it asks for, if that is greater than all before.
     pub fn next(&mut self, robot: RobotId, resources: &Resources, wanted: u64) -> u64 {
         let (before, own) = (self.of(resources), own_bits(robot));
@@ -115,6 +110,11 @@ impl Numbers {
             self.floor = u64::from(random.bits()) << BITS;
         }
     }
+}
+
+/// Numbers beyond this are greater than all that were given before `now`, if each took a millisecond.
+pub(super) fn number_at(now: Time) -> u64 {
+    (now.0 / 1_000_000).saturating_mul(1 << BITS)
 }
 
 /// The bits of a number that are its robot's.
