@@ -252,6 +252,11 @@ impl<'a> Robot<'a> {
         });
     }
 
+    /// How many effects there are by now.
+    pub fn asked(&self) -> usize {
+        self.effects.list.len()
+    }
+
     /// Runs something whose effects do not take place. What it draws at random is drawn.
     pub fn rehearse<T>(&mut self, run: impl FnOnce(&mut Robot<'_>) -> T) -> T {
         let mut effects = Effects::default();

@@ -9,6 +9,7 @@ use crate::machine::known::{self, Known};
 use crate::machine::types::{Layout, ObjectType, Parts, Type};
 use crate::machine::value::state::State;
 use alloc::string::String;
+use alloc::vec;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
@@ -52,6 +53,33 @@ pub struct Bytecode {
     pub primitives: Vec<Binding>,
     /// Properties in the order of the text.
     pub properties: Vec<Property>,
+}
+
+impl Bytecode {
+    /// The instructions of these functions and of all that they call, function by function.
+    pub fn reachable(&self, functions: &[u32]) -> Vec<&Instruction> {
+        let mut found = Vec::new();
+        let mut seen = vec![false; self.functions.len()];
+        let mut left = functions.to_vec();
+        while let Some(number) = left.pop() {
+            let index = number as usize;
+            let (Some(function), Some(seen)) = (self.functions.get(index), seen.get_mut(index))
+            else {
+                continue;
+            };
+            if core::mem::replace(seen, true) {
+                continue;
+            }
+            let code = self.code.get(function.entry as usize..function.end as usize);
+            for instruction in code.unwrap_or_default() {
+                if let Instruction::Call { function, .. } = instruction {
+                    left.push(function.0);
+                }
+                found.push(instruction);
+            }
+        }
+        found
+    }
 }
 
 /// A piece of a source file.

@@ -5,6 +5,7 @@ use super::joint::{Joiner, Joint};
 use super::messages::Inbox;
 use super::parameter;
 use super::primitives::{KINDS, Needs};
+use super::rest;
 use super::services::Services;
 use super::shape::Declared;
 use crate::machine::{Bytecode, Import, LoadError, Program, RuntimeError, State};
@@ -23,6 +24,8 @@ struct Inner {
     instances: Vec<Instance>,
     /// What each action with `atomic` keeps waiting.
     conflicts: Vec<Option<Conflicts>>,
+    /// See [`Code::is_steady`].
+    is_steady: bool,
     /// What its primitives need in common.
     needs: Needs,
     /// The same, made once for all robots: it takes longer to make than to copy.
@@ -60,9 +63,11 @@ impl Code {
             reason: "a message's handler does not take the sender and the message's fields",
         })?;
         let initial = parameter::defaults(&program);
+        let joints = joiner.finish();
         Ok(Code(Arc::new(Inner {
             initial: initial.map_err(|error| place(&program, &error)),
-            joints: joiner.finish(),
+            is_steady: rest::is_steady(program.bytecode(), &joints),
+            joints,
             services: Services::of(&program.bytecode().name, needs(&instances)),
             needs: needs(&instances),
             conflicts: Conflicts::of(program.bytecode()),
@@ -108,6 +113,11 @@ impl Code {
     /// What an action with `atomic` keeps waiting while what it writes is stored.
     pub(super) fn conflicts(&self, action: u32) -> Option<&Conflicts> {
         self.0.conflicts.get(action as usize)?.as_ref()
+    }
+
+    /// Whether all guards follow from the program's variables and its primitives.
+    pub(super) fn is_steady(&self) -> bool {
+        self.0.is_steady
     }
 
     /// What the program's primitives have in common, not started.

@@ -117,7 +117,7 @@ impl RobotHost<'_, '_> {
         self.context.instance = form;
         match self.bound.get_mut(instance) {
             Some(Some(seat)) => {
-                seat.is_stirred = true;
+                seat.is_stirred |= !call.import.query;
                 seat.bound
                     .call(usize::from(member), &mut self.context, call)
             }
@@ -135,7 +135,7 @@ impl RobotHost<'_, '_> {
         };
         self.context.message = joint.message.as_ref();
         match joint.on_robot {
-            Some(OnRobot::Builtin(run)) => run(self, call),
+            Some(OnRobot::Builtin(builtin)) => (builtin.run)(self, call),
             Some(OnRobot::Bind(kind)) => self.bind(kind, call),
             Some(OnRobot::Member { kind, member }) => self.member(kind, member, call),
             None => Err("only properties ask this of robots".into()),

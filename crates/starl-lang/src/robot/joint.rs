@@ -1,6 +1,6 @@
 //! Joining a program's imports to the functions that serve them.
 
-use super::builtins::{self, BUILTINS};
+use super::builtins::{BUILTINS, Builtin};
 use super::messages::Outgoing;
 use super::primitives::{Entry, KINDS};
 use super::properties::{self, OBSERVABLES};
@@ -24,7 +24,7 @@ pub struct Joint {
 #[derive(Clone, Copy, Debug)]
 pub enum OnRobot {
     /// It is a built-in function.
-    Builtin(builtins::Run),
+    Builtin(&'static Builtin),
     /// It binds a primitive of this kind.
     Bind(u16),
     /// It is a member of a kind.
@@ -88,7 +88,7 @@ impl Joiner {
         let Some((kind, member)) = import.name.split_once('.') else {
             let mut those = BUILTINS.iter().filter(|b| b.signature.name == import.name);
             let found = those.find(|builtin| fits(&builtin.signature, 0));
-            return (found.map(|builtin| OnRobot::Builtin(builtin.run)), 0);
+            return (found.map(OnRobot::Builtin), 0);
         };
         let mut kinds = KINDS.iter().enumerate();
         let Some((number, entry)) = kinds.find(|(_, entry)| entry.name == kind) else {

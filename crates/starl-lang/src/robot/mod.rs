@@ -22,6 +22,7 @@ mod parameter;
 mod primitives;
 mod program;
 pub mod properties;
+mod rest;
 mod services;
 mod shape;
 mod words;

@@ -7,6 +7,7 @@ use super::corruption;
 use super::host::{Context, RobotHost};
 use super::parameter::{self, ParameterError};
 use super::primitives::{Attended, Report, Slot};
+use super::rest::Disturbing;
 use super::services::Services;
 use super::workbench::Workbench;
 use crate::machine::{Limits, Machine, RuntimeError, State, Value};
@@ -37,6 +38,8 @@ pub struct RobotProgram {
     /// See [`RobotProgram::version`].
     version: u64,
     pub(super) phase: Phase,
+    /// Whether it rests: see [`rest`](super::rest).
+    rests: bool,
 }
 
 /// How far the program is.
@@ -63,6 +66,7 @@ impl RobotProgram {
             waiting: VecDeque::new(),
             version: 0,
             phase: Phase::New,
+            rests: false,
         })
     }
 
@@ -105,7 +109,8 @@ impl RobotProgram {
             has_fired: false,
             script: part.take_script(),
         };
-        let is_told = !reports.is_empty() || !matches!(part, Part::Actions(_));
+        let is_activation = matches!(part, Part::Actions(_));
+        let is_told = !reports.is_empty() || !is_activation;
         let (program, limits) = (code.program(), Limits::default());
         let mut machine = Machine::new(program, &mut self.state, workspace, &mut host, limits);
         let result = handle_reports(code.instances(), &reports, &mut machine)
@@ -114,6 +119,7 @@ impl RobotProgram {
         if has_fired || is_told {
             self.version += 1;
         }
+        self.rests = is_activation && !has_fired && code.is_steady();
         bench.workspace.trim();
         robot.return_scratch(bench);
         if let Err(error) = result {
@@ -220,16 +226,23 @@ impl Program for RobotProgram {
         self.bound.fill_with(|| None);
         self.reports.clear();
         self.waiting.clear();
+        self.rests = false;
         self.services = Services::start(&self.code, robot);
         self.run(robot, Part::Start);
     }
 
     fn activate(&mut self, robot: &mut Robot<'_>) {
+        // Without optimisation it is seen to that nothing was missed.
+        let rests = self.rests && self.services.atomic.is_none();
+        if rests && !cfg!(debug_assertions) {
+            return;
+        }
         let mut turn = Turn::default();
         if let Some(atomic) = &mut self.services.atomic {
             turn = atomic.turn(robot, &self.code);
         }
         self.run(robot, Part::Actions(&mut turn));
+        debug_assert!(!rests || self.rests, "an action is enabled without cause");
         if let Some(atomic) = &mut self.services.atomic
             && self.phase == Phase::Running
         {
@@ -265,13 +278,18 @@ impl Program for RobotProgram {
                 form,
                 number: number as u32,
                 reports: &mut self.reports,
+                rests: &mut self.rests,
             });
         }
-        self.services.primitives(&self.code, visit);
+        let rests = &mut self.rests;
+        self.services.primitives(&self.code, &mut |primitive| {
+            visit(&mut Disturbing { primitive, rests });
+        });
     }
 
     fn corrupt(&mut self, random: &mut Random) {
         self.version += 1;
+        self.rests = false;
         corruption::corrupt(self.code.program(), &mut self.state, random);
         for seat in self.bound.iter_mut().flatten() {
             seat.is_stirred = true;
@@ -281,7 +299,7 @@ impl Program for RobotProgram {
     }
 
     fn write_state(&self, text: &mut dyn fmt::Write) -> bool {
-        // The code never changes, and the version is for those who watch.
+        // The code never changes, the version is for those who watch, and to rest saves time alone.
         let RobotProgram {
             code: _,
             state,
@@ -291,6 +309,7 @@ impl Program for RobotProgram {
             waiting,
             version: _,
             phase,
+            rests: _,
         } = self;
         write!(
             text,

@@ -9,7 +9,6 @@ use crate::machine::{Bytecode, Instruction};
 use alloc::boxed::Box;
 use alloc::collections::BTreeSet;
 use alloc::string::String;
-use alloc::vec;
 use alloc::vec::Vec;
 
 /// Something that parts of a program have in common.
@@ -79,26 +78,8 @@ impl Footprint {
     /// That of these functions and all that they call.
     fn of(bytecode: &Bytecode, functions: &[u32]) -> Footprint {
         let mut footprint = Footprint::default();
-        let mut seen = vec![false; bytecode.functions.len()];
-        let mut left = functions.to_vec();
-        while let Some(number) = left.pop() {
-            let index = number as usize;
-            let (Some(function), Some(seen)) = (bytecode.functions.get(index), seen.get_mut(index))
-            else {
-                continue;
-            };
-            if core::mem::replace(seen, true) {
-                continue;
-            }
-            let code = bytecode
-                .code
-                .get(function.entry as usize..function.end as usize);
-            for instruction in code.unwrap_or_default() {
-                if let Instruction::Call { function, .. } = instruction {
-                    left.push(function.0);
-                }
-                footprint.add(bytecode, instruction);
-            }
+        for instruction in bytecode.reachable(functions) {
+            footprint.add(bytecode, instruction);
         }
         footprint
     }

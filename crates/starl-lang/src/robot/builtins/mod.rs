@@ -12,9 +12,12 @@ use super::shape::{Shape, Signature};
 use crate::machine::HostCall;
 
 /// A built-in function or name.
+#[derive(Debug)]
 pub struct Builtin {
     /// What it is called, takes and gives.
     pub signature: Signature,
+    /// Whether what it tells depends on its arguments alone, and on what is the same as long as the robot runs.
+    pub is_steady: bool,
     /// What it does.
     pub run: Run,
 }
@@ -36,7 +39,23 @@ const fn query(
         fields: false,
         result: Some(result),
     };
-    Builtin { signature, run }
+    Builtin {
+        signature,
+        is_steady: false,
+        run,
+    }
+}
+
+/// One that tells what is the same as long as the robot runs.
+const fn steady(
+    name: &'static str,
+    parameters: &'static [Shape],
+    result: Shape,
+    run: Run,
+) -> Builtin {
+    let mut builtin = query(name, parameters, result, run);
+    builtin.is_steady = true;
+    builtin
 }
 
 /// One that does something.
@@ -53,12 +72,16 @@ const fn effect(
         fields: false,
         result,
     };
-    Builtin { signature, run }
+    Builtin {
+        signature,
+        is_steady: false,
+        run,
+    }
 }
 
 /// All of them, in the order of the language's table.
 pub static BUILTINS: &[Builtin] = &[
-    query("me", &[], Shape::Robot, |host, call| {
+    steady("me", &[], Shape::Robot, |host, call| {
         call.set_robot(0, host.context.robot.id());
         Ok(0)
     }),
@@ -83,7 +106,7 @@ pub static BUILTINS: &[Builtin] = &[
         call.set_object(0, host.context.memo.fleet(fleet));
         Ok(0)
     }),
-    query(
+    steady(
         "robot_name",
         &[Shape::Robot],
         Shape::Text,
@@ -107,7 +130,7 @@ pub static BUILTINS: &[Builtin] = &[
         call.set_bool(0, atomic.is_some_and(|atomic| atomic.is_blocked()));
         Ok(0)
     }),
-    query(
+    steady(
         "way_points",
         &[],
         Shape::List(&Shape::Point),
@@ -117,7 +140,7 @@ pub static BUILTINS: &[Builtin] = &[
             Ok(0)
         },
     ),
-    query(
+    steady(
         "way_point",
         &[Shape::Text],
         Shape::Optional(&Shape::Point),
@@ -126,7 +149,7 @@ pub static BUILTINS: &[Builtin] = &[
             Ok(way_point(way_points, call))
         },
     ),
-    query(
+    steady(
         "way_point_group",
         &[Shape::Int],
         Shape::List(&Shape::Point),
@@ -139,13 +162,13 @@ pub static BUILTINS: &[Builtin] = &[
         call.set_object(0, host.context.robot.obstacles().into());
         Ok(0)
     }),
-    query(
+    steady(
         "areas_of",
         &[Shape::Obstacles],
         Shape::List(&Shape::Area),
         sensing::areas_of,
     ),
-    query(
+    steady(
         "with_area",
         &[Shape::Obstacles, Shape::Area],
         Shape::Obstacles,
@@ -190,6 +213,7 @@ pub static BUILTINS: &[Builtin] = &[
             fields: true,
             result: None,
         },
+        is_steady: false,
         run: telling::emit,
     },
     effect("log", &[Shape::Text], None, telling::log),

@@ -6,6 +6,7 @@
 
 use super::{Bound, KINDS, Report};
 use crate::robot::code::Instance;
+use crate::robot::rest::Disturbing;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::fmt;
@@ -54,6 +55,8 @@ pub struct Attended<'a> {
     pub number: u32,
     /// Where its reports go, with its number.
     pub reports: &'a mut Vec<(u32, Report)>,
+    /// Whether the program rests.
+    pub rests: &'a mut bool,
 }
 
 impl Primitive for Attended<'_> {
@@ -69,7 +72,8 @@ impl Primitive for Attended<'_> {
         }
         self.seat.is_stirred = false;
         if let Some(primitive) = self.seat.bound.primitive() {
-            primitive.handle(robot, input);
+            let rests = &mut *self.rests;
+            Disturbing { primitive, rests }.handle(robot, input);
         }
         let before = self.reports.len();
         self.seat.bound.take_reports(&mut |report| {

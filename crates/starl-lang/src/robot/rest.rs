@@ -1,0 +1,53 @@
+//! Programs that rest: no action is enabled, and none will be until something happens. Their guards need not be
+//! looked at meanwhile, and a fleet that waits costs little.
+//!
+//! Invariant: while a program rests, what its guards depend on is as it was when none of them held. They depend
+//! on its variables, which only the program itself and faults change, and on what its primitives tell. A
+//! primitive tells something else only after an input, or where an activation makes it do something.
+
+use super::joint::{Joint, OnRobot};
+use crate::machine::{Bytecode, Instruction};
+use alloc::vec::Vec;
+use starl_core::{Input, Port, Primitive, Robot};
+
+/// Whether all guards follow from variables and primitives alone: not from the time, or where the robot is.
+pub fn is_steady(bytecode: &Bytecode, joints: &[Joint]) -> bool {
+    let guards: Vec<u32> = bytecode.actions.iter().map(|action| action.guard).collect();
+    let is_steady = |instruction: &&Instruction| match instruction {
+        Instruction::CallHost { import, .. } => {
+            let index = import.0 as usize;
+            // Imports are joined in their order.
+            let joint = joints.get(index).and_then(|joint| joint.on_robot);
+            match joint {
+                Some(OnRobot::Builtin(builtin)) => builtin.is_steady,
+                Some(OnRobot::Member { .. }) => {
+                    bytecode.imports.get(index).is_some_and(|i| i.query)
+                }
+                Some(OnRobot::Bind(_)) | None => false,
+            }
+        }
+        Instruction::LoadOther { .. } | Instruction::LoadOtherObject { .. } => false,
+        _ => true,
+    };
+    bytecode.reachable(&guards).iter().all(is_steady)
+}
+
+/// A primitive whose inputs end the program's rest.
+pub struct Disturbing<'a> {
+    /// The primitive.
+    pub primitive: &'a mut dyn Primitive,
+    /// Whether the program rests.
+    pub rests: &'a mut bool,
+}
+
+impl Primitive for Disturbing<'_> {
+    fn port(&self) -> Port {
+        self.primitive.port()
+    }
+
+    fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
+        let before = robot.asked();
+        self.primitive.handle(robot, input);
+        *self.rests &= matches!(input, Input::Activate) && robot.asked() == before;
+    }
+}
