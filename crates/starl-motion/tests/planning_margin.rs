@@ -2,11 +2,11 @@
 
 mod planning_support;
 
-use planning_support::{Case, PLANNERS, model, rectangle, wall};
+use planning_support::{Case, PLANNERS, least_gap, model, rectangle, wall};
 use starl_core::motion::{Path, Planner};
 use starl_core::{Obstacle, Point};
-use starl_motion::Model;
-use starl_motion::planning::Options;
+use starl_motion::planning::{self, Options};
+use starl_motion::{Model, Neighbour};
 
 /// The margin that is asked for, metres.
 fn margin(model: &dyn Model) -> f64 {
@@ -80,29 +80,116 @@ fn a_straight_way_within_the_margin_of_a_wall_is_not_taken() {
     assert!(elsewhere >= margin(&*model) - 1e-6, "{elsewhere}");
 }
 
+/// Two walls a metre long, a passage of so many metres between them, and no other way to behind them.
+fn passage(width: f64) -> Case {
+    let y = 0.5 * width;
+    let mut obstacles: Vec<Obstacle> = Vec::new();
+    for side in [-1.0, 1.0] {
+        obstacles.push(wall((0.0, side * y), (1.0, side * y)));
+        obstacles.push(wall((0.0, side * y), (0.0, side * 9.0)));
+    }
+    let far = wall((-1.0, -9.0), (-1.0, 9.0));
+    obstacles.extend([far, wall((-1.0, 9.0), (0.0, 9.0))]);
+    obstacles.push(wall((-1.0, -9.0), (0.0, -9.0)));
+    let mut case = Case::new(Point::planar(-0.5, 3.0), Point::planar(2.0, 1.0), obstacles);
+    case.request.most_nodes = 20_000;
+    case
+}
+
 #[test]
-fn a_passage_too_narrow_for_the_margin_but_not_for_the_body_is_gone_through() {
+fn a_passage_too_narrow_for_the_whole_margin_is_gone_through_with_a_lesser_one() {
     let model = model("create");
     let radius = model.body().radius;
     for planner in [Planner::RrtConnect, Planner::RrtStar] {
-        // Between two walls a metre long; there is no other way.
-        for (half, share) in [(1.16, 0.5), (1.08, 0.25), (1.04, 0.125)] {
-            let y = half * radius;
-            let mut obstacles: Vec<Obstacle> = Vec::new();
-            for side in [-1.0, 1.0] {
-                obstacles.push(wall((0.0, side * y), (1.0, side * y)));
-                obstacles.push(wall((0.0, side * y), (0.0, side * 9.0)));
-            }
-            let far = wall((-1.0, -9.0), (-1.0, 9.0));
-            obstacles.extend([far, wall((-1.0, 9.0), (0.0, 9.0))]);
-            obstacles.push(wall((-1.0, -9.0), (0.0, -9.0)));
-            let case = Case::new(Point::planar(-0.5, 3.0), Point::planar(2.0, 1.0), obstacles);
-            let mut case = case.with(planner, 7);
-            case.request.most_nodes = 20_000;
+        for (room, least) in [
+            (1.2 * margin(&*model), margin(&*model)),
+            (0.03, 0.02),
+            (0.022, 0.02),
+        ] {
+            let case = passage(2.0 * (radius + room)).with(planner, 7);
             let path = case.plan(&*model).expect("a path");
             let (near, elsewhere) = gaps(&*model, &case, &path);
-            let least = share * margin(&*model) - 1e-6;
-            assert!(near.min(elsewhere) >= least, "{planner:?} {half}");
+            assert!(near.min(elsewhere) >= least - 1e-6, "{planner:?} {room}");
+        }
+    }
+}
+
+#[test]
+fn a_passage_narrower_than_positions_err_is_no_way() {
+    let model = model("create");
+    let radius = model.body().radius;
+    let plan = |options: &Options, room: f64| {
+        let case = passage(2.0 * (radius + room)).with(Planner::RrtConnect, 7);
+        planning::plan_with(options, &*model, &case.estimate(), &case.request, &[])
+    };
+    let exact = Options {
+        least_margin: 0.0,
+        ..Options::default()
+    };
+    for room in [0.007, 0.012, 0.019] {
+        assert!(plan(&exact, room).is_some(), "{room}");
+        assert_eq!(plan(&Options::default(), room), None, "{room}");
+    }
+    // Positions that err by more need more room.
+    assert!(plan(&Options::with_accuracy(0.005), 0.03).is_some());
+    assert_eq!(plan(&Options::with_accuracy(0.01), 0.03), None);
+}
+
+#[test]
+fn nobody_squeezes_past_a_robot_that_stands_in_a_door() {
+    // A door of one metre, a dead robot beside one of its posts, 6 mm more than the body on either side;
+    // round the end of the wall is another way.
+    let model = model("create");
+    let posts = vec![wall((-3.0, 0.0), (0.0, 0.0)), wall((1.0, 0.0), (4.0, 0.0))];
+    let dead = Neighbour {
+        position: Point::planar(1.0 - 2.0 * 0.171 - 0.165, 0.0),
+        velocity: Point::ZERO,
+        radius: 0.165,
+        height: 0.078,
+    };
+    let disc = Obstacle::circle(dead.position, dead.radius);
+    for planner in [Planner::RrtConnect, Planner::RrtStar] {
+        for seed in 0..20 {
+            let ends = (Point::planar(0.8, -0.6), Point::planar(0.8, 0.6));
+            let mut case = Case::new(ends.0, ends.1, posts.clone()).with(planner, seed);
+            case.request.around_robots = true;
+            // What the last of its ways through would be found with.
+            case.request.most_nodes = 1_000;
+            let estimate = case.estimate();
+            let path = planning::plan(&*model, &estimate, &case.request, &[dead]);
+            let path = path.expect("a path round the wall");
+            let all: Vec<Obstacle> = posts.iter().cloned().chain([disc.clone()]).collect();
+            let gap = least_gap(model.body(), &case.whole(&*model, &path), &all);
+            assert!(gap >= 0.02 - 1e-6, "{planner:?} {seed}: {gap} {path:?}");
+        }
+    }
+}
+
+#[test]
+fn a_robot_that_stands_in_too_narrow_a_passage_leaves_it_but_enters_no_other() {
+    let model = model("create");
+    let radius = model.body().radius;
+    for room in [0.019, 0.006, 0.001] {
+        for planner in PLANNERS {
+            for (door, is_way) in [(0.03, true), (0.018, false)] {
+                // It stands a little aside; its target is behind a door four metres farther.
+                let mut case = passage(2.0 * (radius + room)).with(planner, 3);
+                case.from = Point::planar(0.5, 0.2 * room);
+                case.request.target = Point::planar(6.0, 0.0);
+                let half = radius + door;
+                let ends = [(5.0, -9.0), (5.0, -half), (5.0, half), (5.0, 9.0)];
+                let mut obstacles = case.request.unsafe_set.to_vec();
+                obstacles.extend([wall(ends[0], ends[1]), wall(ends[2], ends[3])]);
+                obstacles.extend([-9.0, 9.0].map(|y| wall((0.0, y), (5.0, y))));
+                case.request.unsafe_set = obstacles.into();
+                let path = case.plan(&*model);
+                assert_eq!(path.is_some(), is_way, "{planner:?} {room} {door}");
+                if let Some(path) = path {
+                    let all = &case.request.unsafe_set;
+                    let gap = least_gap(model.body(), &case.whole(&*model, &path), all);
+                    assert!(gap >= 0.9 * 0.8 * room - 1e-6, "{planner:?} {room} {gap}");
+                }
+            }
         }
     }
 }

@@ -29,6 +29,7 @@ mod surroundings;
 mod yielding;
 
 pub use options::Options;
+pub(crate) use surroundings::OBSTACLE_MARGIN;
 
 use crate::pilot::Neighbour;
 use crate::tracking::Goal;

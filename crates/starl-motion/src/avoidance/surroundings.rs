@@ -16,7 +16,7 @@ use starl_core::{Obstacle, Point};
 
 /// Room kept to obstacles, metres: paths are planned farther away, but inertia, or room made for
 /// neighbours, takes robots off them.
-const OBSTACLE_MARGIN: f64 = 0.02;
+pub(crate) const OBSTACLE_MARGIN: f64 = 0.02;
 
 /// A target that is nearer to an obstacle than that leaves so much room to get there, metres.
 const PLAY: f64 = 0.003;

@@ -14,7 +14,25 @@ pub struct Mover {
     pub body: Body,
     /// Metres; in the air also above and below.
     pub margin: f64,
+    /// What is kept of the margin near an end that has so much, metres.
+    pub least: f64,
+    /// Where it yields to an end that has less than the least.
+    pub yields: Yields,
 }
+
+/// How far the margin yields to the ends of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Yields {
+    /// Near the end only.
+    NearEnds,
+    /// All along what leaves the end less than the least margin: the robot is in a passage too narrow for
+    /// it, or is to go to one.
+    Along,
+}
+
+/// What is kept of the gap at an end that has less than the least margin. Below one, so that a robot can
+/// leave a passage that it just fits into.
+const KEPT: f64 = 0.9;
 
 impl Mover {
     /// The planner's point for a place in the world.
@@ -79,8 +97,13 @@ impl Mover {
         for &end in ends {
             let room = self.room_beside(obstacle, end);
             if 0.0 < room && room < self.margin {
-                let (reach, less) = (2.0 * (self.margin - room), self.margin - 0.5 * room);
-                list.dent_last(Mover::to_space(end), reach, less);
+                let kept = (0.5 * room).max(self.least.min(KEPT * room));
+                let is_narrow = self.yields == Yields::Along && room < self.least;
+                let reach = match is_narrow {
+                    true => f64::INFINITY,
+                    false => 2.0 * (self.margin - room),
+                };
+                list.dent_last(Mover::to_space(end), reach, self.margin - kept);
             }
         }
     }

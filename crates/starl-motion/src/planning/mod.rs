@@ -43,6 +43,7 @@ mod task;
 pub mod tree;
 pub mod vector;
 
+use crate::avoidance::OBSTACLE_MARGIN;
 use crate::{Model, Neighbour};
 use starl_core::motion::{Estimate, Path, PlanRequest};
 use task::Task;
@@ -53,14 +54,33 @@ pub struct Options {
     /// How far paths stay away from things beyond the body's own radius, as a part of that radius; see
     /// [`plan`] for where it is less.
     pub margin_radii: f64,
+    /// The least that is left of it where there is no way otherwise, metres: more than positions and
+    /// tracking err by, or the robot would touch what it passes. Where it is greater than the whole
+    /// margin, that is the least.
+    pub least_margin: f64,
     /// How far a robot that is too near to something may go to get clear of it, in radii.
     pub escape_radii: f64,
+}
+
+/// The least margin is so many standard deviations of positions.
+const DEVIATIONS: f64 = 4.0;
+
+impl Options {
+    /// The defaults for robots whose positions err by this standard deviation, metres.
+    pub fn with_accuracy(deviation: f64) -> Options {
+        let options = Options::default();
+        Options {
+            least_margin: options.least_margin.max(DEVIATIONS * deviation),
+            ..options
+        }
+    }
 }
 
 impl Default for Options {
     fn default() -> Options {
         Options {
             margin_radii: 0.3,
+            least_margin: OBSTACLE_MARGIN,
             escape_radii: 4.0,
         }
     }
@@ -72,9 +92,12 @@ impl Default for Options {
 ///   where the body has the margin, or half of the room that the request's vicinity leaves; there is
 ///   no path if that is none.
 /// - The body keeps out of the unsafe set all along the way, `margin_radii` further off than it must.
-///   Where start or end are within that margin of something, half of the gap that is there takes its
-///   place, twice as far about that end as the margin lacks. Where there is no way with such a margin,
-///   a half, a quarter and an eighth of it are tried, each with half of the nodes that are left.
+///   Where there is no way with such a margin, a half, a quarter and an eighth of it are tried, each with
+///   half of the nodes that are left, but none below `least_margin`: through a passage narrower than
+///   that there is no path.
+/// - Where start or end are within the margin of something, half of the gap that is there takes its
+///   place, or `least_margin` if that is more, or nine tenths of the gap if that is less than
+///   `least_margin`, twice as far about that end as the margin lacks.
 /// - If the body touches something at the start, the first way-point is the nearest place with the
 ///   margin that can be reached by moving away from it. A robot whose centre is inside an obstacle
 ///   gets no path.

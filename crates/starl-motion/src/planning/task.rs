@@ -2,7 +2,7 @@
 
 use super::driving::{self, Driving};
 use super::free_space::FreeSpace;
-use super::grow::Mover;
+use super::grow::{Mover, Yields};
 use super::space::Space;
 use super::vector::Vector;
 use super::{Options, escape, rrt, rrt_connect, rrt_star, shorten};
@@ -17,8 +17,8 @@ const SHORTEST_STEP: f64 = 0.01;
 /// Rounds of shortening; most paths are taut sooner.
 const ROUNDS: u32 = 8;
 
-/// How many margins are tried, each half of the one before. Every search but the last may use half of
-/// the nodes that are left.
+/// How many margins are tried at most, each half of the one before but no less than the least. Every
+/// search but the last may use half of the nodes that are left.
 const MARGINS: u32 = 4;
 
 /// A request and all that bears on it.
@@ -39,24 +39,49 @@ pub struct Task<'a> {
 impl Task<'_> {
     /// The way-points, or none; in two coordinates on the floor, three in the air.
     pub fn solve<const D: usize>(&self) -> Option<Path> {
-        let mut margin = self.options.margin_radii * self.model.body().radius;
+        let mut mover = Mover {
+            body: self.model.body(),
+            margin: self.options.margin_radii * self.model.body().radius,
+            least: self.options.least_margin,
+            yields: Yields::NearEnds,
+        };
         let mut left = self.request.most_nodes;
-        for turn in 1..=MARGINS {
-            let nodes = if turn < MARGINS { left / 2 } else { left };
+        for turn in 1.. {
+            let next = self.next::<D>(mover, turn);
+            let nodes = if next.is_some() { left / 2 } else { left };
             left -= nodes;
-            if let Some(path) = self.solve_with::<D>(margin, nodes) {
+            if let Some(path) = self.solve_with::<D>(mover, nodes) {
                 return Some(path);
             }
-            margin *= 0.5;
+            mover = next?;
         }
         None
     }
 
-    /// A path with this margin, metres, found with so many nodes.
-    fn solve_with<const D: usize>(&self, margin: f64, nodes: u32) -> Option<Path> {
-        let body = self.model.body();
-        let end = self.end::<D>(margin)?;
-        let mover = Mover { body, margin };
+    /// What to try where there is no way with this: half the margin, down to the least; and for a robot that
+    /// already is in a narrower place, or is to go to one, the way along that.
+    fn next<const D: usize>(&self, mover: Mover, turn: u32) -> Option<Mover> {
+        let least = self.options.least_margin;
+        if turn < MARGINS && mover.margin > least {
+            let margin = (0.5 * mover.margin).max(least);
+            return Some(Mover { margin, ..mover });
+        }
+        let narrow = Mover {
+            yields: Yields::Along,
+            ..mover
+        };
+        let ends = [Some(self.from), self.end::<D>(mover)];
+        let has_less = |at: Point| {
+            let room = mover.room(at, &self.request.unsafe_set, self.robots);
+            0.0 < room && room < least.min(mover.margin)
+        };
+        let is_narrow = ends.into_iter().flatten().any(has_less);
+        (mover.yields == Yields::NearEnds && is_narrow).then_some(narrow)
+    }
+
+    /// A path for this body and margin, found with so many nodes.
+    fn solve_with<const D: usize>(&self, mover: Mover, nodes: u32) -> Option<Path> {
+        let end = self.end::<D>(mover)?;
         let grown = mover.grow::<D>(&self.request.unsafe_set, self.robots, &[self.from, end]);
         let (from, target) = (Mover::to_space(self.from), Mover::to_space(end));
         let drives = self.planner() == Planner::Rrt;
@@ -66,7 +91,7 @@ impl Task<'_> {
         let space = mover.space::<D>(self.from, end, grown);
         let root = match space.is_free(&from) {
             true => from,
-            false => escape::escape(&space, &from, self.options.escape_radii * body.radius)?,
+            false => escape::escape(&space, &from, self.longest_escape())?,
         };
         let found = match drives {
             true => self.drive(&space, &root, &target, nodes)?,
@@ -77,11 +102,16 @@ impl Task<'_> {
         Some(path.map(Mover::to_world).collect())
     }
 
+    /// Metres.
+    fn longest_escape(&self) -> f64 {
+        self.options.escape_radii * self.model.body().radius
+    }
+
     /// Where the path ends: at the target if the body can be there, otherwise at the nearest place
     /// where it has the margin or half of the room that the vicinity leaves beyond contact.
-    fn end<const D: usize>(&self, margin: f64) -> Option<Point> {
-        let (body, request) = (self.model.body(), self.request);
-        let room = Mover { body, margin }.room(self.target, &request.unsafe_set, self.robots);
+    fn end<const D: usize>(&self, mover: Mover) -> Option<Point> {
+        let request = self.request;
+        let room = mover.room(self.target, &request.unsafe_set, self.robots);
         if room > 0.0 {
             return Some(self.target);
         }
@@ -89,8 +119,12 @@ impl Task<'_> {
         if left.is_nan() || left <= 0.0 {
             return None;
         }
-        let margin = if left < margin { left } else { margin };
-        let mover = Mover { body, margin };
+        let margin = if left < mover.margin {
+            left
+        } else {
+            mover.margin
+        };
+        let mover = Mover { margin, ..mover };
         let grown = mover.grow::<D>(&request.unsafe_set, self.robots, &[]);
         let space = mover.space::<D>(self.from, self.target, grown);
         let target = Mover::to_space(self.target);
@@ -134,6 +168,8 @@ impl Task<'_> {
         Some(path)
     }
 
+    /// A path of points. Searches begin where both ends have their margin: in a dent most of what a tree
+    /// grows to is its rim, and no way from there.
     fn connect<const D: usize>(
         &self,
         space: &FreeSpace<D>,
@@ -147,7 +183,30 @@ impl Task<'_> {
             longest_step: f64::INFINITY,
             shortest_step: self.shortest_step(),
         };
-        rrt_connect::rrt_connect(space, root, target, &options, random)
+        let (first, last) = (
+            self.out_of_dent(space, root),
+            self.out_of_dent(space, target),
+        );
+        let mut path = rrt_connect::rrt_connect(space, &first, &last, &options, random)?;
+        if first != *root {
+            path.insert(0, *root);
+        }
+        if last != *target {
+            path.push(*target);
+        }
+        Some(path)
+    }
+
+    /// The nearest place with the margin straight away from all that an end is too near to; the end itself
+    /// if it has the margin, or if there is no such way.
+    fn out_of_dent<const D: usize>(&self, space: &FreeSpace<D>, end: &Vector<D>) -> Vector<D> {
+        let mut is_near = false;
+        space.for_each_met(end, end, |_, _, _| is_near = true);
+        is_near
+            .then(|| escape::escape(space, end, self.longest_escape()))
+            .flatten()
+            .filter(|out| space.sees(end, out))
+            .unwrap_or(*end)
     }
 
     fn shortest_step(&self) -> f64 {

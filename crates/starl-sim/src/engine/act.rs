@@ -388,7 +388,9 @@ impl Turn<'_> {
         match request {
             MotionRequest::Plan(request) => {
                 self.gather(if request.around_robots { SIGHT } else { 0.0 });
-                let path = planning::plan(
+                let noise = self.shared.scenario.positioning.position_noise;
+                let path = planning::plan_with(
+                    &planning::Options::with_accuracy(noise),
                     &*self.kind.model,
                     &self.mind.estimate,
                     request,
