@@ -20,6 +20,7 @@ struct Given {
     /// The versions of the robots' states, if they are told.
     versions: Option<Vec<u64>>,
     undisturbed: Duration,
+    uncorrupted: Duration,
 }
 
 impl Given {
@@ -35,6 +36,7 @@ impl Given {
             up: vec![true; robots],
             versions: None,
             undisturbed: Duration::ZERO,
+            uncorrupted: Duration::ZERO,
         }
     }
 
@@ -87,6 +89,10 @@ impl Fleet for Given {
     fn undisturbed(&self) -> Duration {
         self.undisturbed
     }
+
+    fn uncorrupted(&self) -> Duration {
+        self.uncorrupted
+    }
 }
 
 fn seconds(seconds: u64) -> Time {
@@ -113,6 +119,25 @@ always done: count > 0 or undisturbed < 5s
     let mut judge = fleet.judge();
     for (time, undisturbed, violations) in [(1, 4, 0), (2, 0, 0), (7, 5, 1)] {
         fleet.undisturbed = Duration::from_seconds(undisturbed);
+        assert_eq!(judge.observe(seconds(time), &fleet).len(), violations);
+    }
+}
+
+#[test]
+fn a_property_may_ask_for_time_without_corruption() {
+    let source = "program Sound
+
+count: Int = 0
+
+work()
+    eff count += 1
+
+always done: count > 0 or uncorrupted < 5s
+";
+    let mut fleet = Given::new(source, 1);
+    let mut judge = fleet.judge();
+    for (time, uncorrupted, violations) in [(1, 4, 0), (2, 0, 0), (7, 5, 1)] {
+        fleet.uncorrupted = Duration::from_seconds(uncorrupted);
         assert_eq!(judge.observe(seconds(time), &fleet).len(), violations);
     }
 }

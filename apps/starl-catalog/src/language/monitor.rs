@@ -109,6 +109,10 @@ impl Fleet for Members<'_> {
         self.witness.undisturbed()
     }
 
+    fn uncorrupted(&self) -> Duration {
+        self.witness.uncorrupted()
+    }
+
     fn everyone(&self) -> Option<&[RobotId]> {
         Some(self.witness.robots())
     }

@@ -49,7 +49,8 @@ impl ReachAvoid {
         let Some(command) = &self.command else {
             return true;
         };
-        let (target, position) = (command.target, robot.position());
+        let target = robot.body().reachable(command.target);
+        let position = robot.position();
         let distance = match robot.body().flies() {
             true => position.distance(target),
             false => position.planar_distance(target),

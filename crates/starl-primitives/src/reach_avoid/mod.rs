@@ -43,6 +43,7 @@ pub struct ReachAvoid {
 /// A command under way.
 #[derive(Clone, Debug)]
 struct Command {
+    /// As given; the robot goes as near as it can be.
     target: Point,
     unsafe_set: Obstacles,
     /// The obstacles that the robot knew when it planned.
@@ -148,7 +149,7 @@ impl ReachAvoid {
             return false;
         }
         self.command = Some(Command {
-            target: robot.body().reachable(target),
+            target,
             unsafe_set,
             known: robot.obstacles(),
             phase: Phase::Braking {
@@ -172,6 +173,11 @@ impl ReachAvoid {
     /// Whether a command is under way.
     pub fn active(&self) -> bool {
         self.command.is_some()
+    }
+
+    /// Where the command under way leads, as it was given, metres; none if there is none.
+    pub fn target(&self) -> Option<Point> {
+        self.command.as_ref().map(|command| command.target)
     }
 
     /// Whether the last command brought the robot to the vicinity of its target.

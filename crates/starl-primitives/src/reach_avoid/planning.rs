@@ -41,7 +41,7 @@ impl ReachAvoid {
         let seed = u64::from(random.bits()) << 32 | u64::from(random.bits());
         robot.plan(PlanRequest {
             ticket: self.ticket,
-            target: command.target,
+            target: robot.body().reachable(command.target),
             vicinity: self.options.vicinity,
             unsafe_set: union(&command.unsafe_set, &command.known),
             around_robots,

@@ -34,6 +34,8 @@ pub struct Simulation {
     faults_done: usize,
     /// When the last fault came.
     disturbed: Time,
+    /// When the last one came that overwrote the state of robots.
+    corrupted: Time,
     /// How many robots have a motor that is stuck, or sensors that are frozen.
     impaired: usize,
     /// When the next obstacle vanishes.
@@ -100,6 +102,7 @@ impl Simulation {
             calendar: Calendar::default(),
             faults_done: 0,
             disturbed: Time::ZERO,
+            corrupted: Time::ZERO,
             impaired: 0,
             next_expiry: Time::NEVER,
             world_digest: Digest::default(),
@@ -141,6 +144,11 @@ impl Simulation {
             return Duration::ZERO;
         }
         self.now.since(self.disturbed)
+    }
+
+    /// How long it is since the start and since a fault last overwrote the state of robots at random.
+    pub fn uncorrupted(&self) -> Duration {
+        self.now.since(self.corrupted)
     }
 
     /// Advances by one physics step.
@@ -263,6 +271,9 @@ impl Simulation {
 
     fn bring_fault(&mut self, at: Time, kind: &FaultKind) {
         self.disturbed = at;
+        if matches!(kind, FaultKind::CorruptState(_)) {
+            self.corrupted = at;
+        }
         let robots = match kind {
             FaultKind::Partition(groups) => {
                 self.shared.parts = fault::parts(groups, self.shared.bodies.len());

@@ -50,6 +50,11 @@ impl<'a> Witness<'a> {
         self.simulation.undisturbed()
     }
 
+    /// How long it is since the start and since a fault last overwrote the state of robots at random.
+    pub fn uncorrupted(&self) -> Duration {
+        self.simulation.uncorrupted()
+    }
+
     /// What is simulated.
     pub fn scenario(&self) -> &'a Scenario {
         self.simulation.scenario()

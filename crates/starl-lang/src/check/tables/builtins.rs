@@ -59,6 +59,7 @@ builtins! {
 
     // The run.
     Undisturbed = "undisturbed: Duration" Property "How long it is since the start and since the last fault began or was mended; zero while the network is parted, a motor is stuck or sensors are frozen."
+    Uncorrupted = "uncorrupted: Duration" Property "How long it is since the start and since a fault last overwrote the state of robots at random."
 
     // Input.
     WayPoints = "way_points() -> List[Point]" Query "The way-points of the scenario, in their order."

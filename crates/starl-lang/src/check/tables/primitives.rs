@@ -70,6 +70,11 @@ pub const PRIMITIVES: &[Primitive] = &[
             member("stop()", Effect, "Stops and stays; all flags become false."),
             member("active: Bool", Query, "Whether a command is under way."),
             member(
+                "target: Point?",
+                Query,
+                "Where the command under way leads, as it was given.",
+            ),
+            member(
                 "done: Bool",
                 Query,
                 "Whether the last command brought the robot to its target.",

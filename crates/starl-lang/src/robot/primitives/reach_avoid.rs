@@ -55,6 +55,17 @@ impl Kind for ReachAvoid {
             call.set_bool(0, motion.active());
             Ok(0)
         }),
+        query(
+            "target",
+            &[],
+            Shape::Optional(&Shape::Point),
+            |motion, _, call| {
+                let target = motion.target();
+                call.set_bool(0, target.is_some());
+                call.set_point(1, target.unwrap_or_default());
+                Ok(0)
+            },
+        ),
         query("done", &[], Shape::Bool, |motion, _, call| {
             call.set_bool(0, motion.done());
             Ok(0)

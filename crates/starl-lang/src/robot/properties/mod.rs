@@ -61,6 +61,11 @@ pub trait Fleet {
         Duration::ZERO
     }
 
+    /// How long it is since the start and since a fault last overwrote the state of robots; zero where that is not known.
+    fn uncorrupted(&self) -> Duration {
+        Duration::ZERO
+    }
+
     /// All robots of the application; none if they are those of [`Fleet::robots`].
     fn everyone(&self) -> Option<&[RobotId]> {
         None

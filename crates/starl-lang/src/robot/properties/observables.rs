@@ -98,6 +98,10 @@ pub static OBSERVABLES: &[Observable] = &[
         call.set_nanoseconds(0, court.fleet.undisturbed().0);
         Ok(0)
     }),
+    observable("uncorrupted", &[], Shape::Duration, |court, call| {
+        call.set_nanoseconds(0, court.fleet.uncorrupted().0);
+        Ok(0)
+    }),
     observable("peers", &[], Shape::Set(&Shape::Robot), |court, call| {
         let everyone = court.fleet.everyone();
         let everyone = everyone.unwrap_or_else(|| court.fleet.robots());
