@@ -11,7 +11,7 @@ const PROGRAM: &str = "\
 program Settings
 enum Side {left, right}
 param flag: Bool
-param count: Int = 1
+param count: Int in -9..10 = 1
 param length: Float = 1.0
 param name: String = \"a\"
 param span: Duration = 1s
@@ -108,6 +108,10 @@ fn what_does_not_fit_is_refused_with_its_place() {
         (
             "count = \"3m\"",
             "run.toml:6:9: parameters.count: 3 does not fit; give a whole number, without unit or point",
+        ),
+        (
+            "count = 10",
+            "run.toml:6:9: parameters.count: 10 is out of range; give a whole number, without unit or point, from -9 to 9",
         ),
         (
             "length = \"2s\"",

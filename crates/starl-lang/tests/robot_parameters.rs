@@ -100,6 +100,51 @@ fn its_value_must_be_of_its_type() {
 }
 
 #[test]
+fn its_value_must_be_in_its_range() {
+    let source = "program Ranges
+
+const most = 5
+
+param count: Int in 1..most + 1 = 1
+param speed: Float in -1.5..1.5 = 0.0
+param pause: Duration in 100ms..1min = 1s
+
+idle()
+    eff log(\"{} {} {}\", count, speed, pause)
+";
+    let code = compile(source);
+    let given = |name, value| RobotProgram::new(&code, &[(name, value)]).map(|_| ());
+    let seconds = |seconds| Value::Duration(Duration::from_seconds(seconds));
+    for (name, value) in [
+        ("count", Value::Int(1)),
+        ("count", Value::Int(5)),
+        ("speed", Value::Float(-1.5)),
+        ("pause", seconds(59)),
+    ] {
+        assert_eq!(given(name, value), Ok(()), "{name}");
+    }
+    for (name, value, range) in [
+        ("count", Value::Int(0), "from 1 to 5, and 0 is"),
+        ("count", Value::Int(6), "from 1 to 5, and 6 is"),
+        (
+            "speed",
+            Value::Float(1.5),
+            "from -1.5 to below 1.5, and 1.5 is",
+        ),
+        (
+            "speed",
+            Value::Float(f64::NAN),
+            "from -1.5 to below 1.5, and NaN is",
+        ),
+        ("pause", seconds(60), "from 100ms to below 60s, and 60s is"),
+    ] {
+        let error = given(name, value).unwrap_err().to_string();
+        let expected = format!("the parameter `{name}` goes {range} not in that");
+        assert_eq!(error, expected);
+    }
+}
+
+#[test]
 fn a_default_that_cannot_be_worked_out_is_told_with_its_place() {
     let code = compile("program Late\n\nconst zero = 0\n\nparam a: Int = 1 / zero\n\nb: Int = a\n");
     let error = RobotProgram::new(&code, &[]).map(|_| ()).unwrap_err();

@@ -33,7 +33,15 @@ pub fn program(code: &Code, group: &Group, fleet: &Fleet) -> Result<RobotProgram
     for variable in declared {
         let (name, kind) = (&*variable.name, &variable.kind);
         match group.parameters.get(name) {
-            Some(given) => values.push((name, reader.value(given, kind, name)?)),
+            Some(given) => {
+                let value = reader.value(given, kind, name)?;
+                if let Some(range) = variable.range_text().filter(|_| !variable.accepts(&value)) {
+                    let message = format!("{} is out of range", describe(given));
+                    let help = format!("give {}, {range}", reader.expected(kind));
+                    return Err(complaint(name, &message, help));
+                }
+                values.push((name, value));
+            }
             None if variable.parameter == machine::Parameter::Required => {
                 let message = "is missing; the program has no value of its own for it";
                 let help = format!("give {}", reader.expected(kind));

@@ -126,6 +126,7 @@ impl Checker {
                     name: name.text,
                     ty: Type::Error,
                     default: None,
+                    range: None,
                     locals: Vec::new(),
                     site: self.site(name.span),
                     documentation,

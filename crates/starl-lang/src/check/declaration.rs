@@ -155,13 +155,43 @@ impl Checker {
         for number in 0..self.nodes.parameters.len() {
             let node = self.nodes.parameters[number].clone();
             let ty = self.program.parameters[number].ty.clone();
-            let (default, locals) = self.in_body(Where::Constant, |checker| {
-                let value = node.value()?;
-                Some(checker.expect(Some(value), &ty, "the default"))
+            let ((default, range), locals) = self.in_body(Where::Constant, |checker| {
+                let range = node
+                    .range()
+                    .and_then(|range| checker.check_range(&range, &ty));
+                let value = node.value();
+                let default = value.map(|value| checker.expect(Some(value), &ty, "the default"));
+                (default, range)
             });
             let parameter = &mut self.program.parameters[number];
-            parameter.default = default;
+            (parameter.default, parameter.range) = (default, range);
             parameter.locals = locals;
+        }
+    }
+
+    /// The bounds of a parameter of this type.
+    fn check_range(&mut self, node: &ast::ParameterRange, ty: &Type) -> Option<[Expression; 2]> {
+        if !matches!(ty, Type::Int | Type::Float | Type::Duration | Type::Error) {
+            let name = self.name_of(ty);
+            let message = format!("a parameter of the type {name} has no range");
+            let problem = Diagnostic::new(Code::InvalidRange, node.span(), message);
+            self.report(problem.note("an Int, a Float or a Duration has"));
+            return None;
+        }
+        let range = node.value()?;
+        let is_range =
+            |pair: &ast::BinaryExpression| pair.operator() == Some(ast::BinaryOperator::Range);
+        match range {
+            ast::Expression::Binary(pair) if is_range(&pair) => Some([
+                self.expect(pair.left(), ty, "the least value"),
+                self.expect(pair.right(), ty, "the end of the range"),
+            ]),
+            other => {
+                let message = "this is no range";
+                let problem = Diagnostic::new(Code::InvalidRange, other.span(), message);
+                self.report(problem.note("`a..b` is from `a` to before `b`"));
+                None
+            }
         }
     }
 

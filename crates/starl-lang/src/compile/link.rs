@@ -4,14 +4,16 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use super::call::shared_kind;
+use super::computed::computed;
 use super::problem::{Compiled, Problem};
 use super::unit::{Finished, Routine, Unit};
 use crate::check::CheckedFile;
-use crate::diagnostic::Span;
-use crate::ir::{FunctionId, Program, SharedId, Type};
+use crate::diagnostic::{self, Span};
+use crate::ir::{self, FunctionId, Program, SharedId, Type};
 use crate::machine::{
-    Action, Binding, Bytecode, Function, Handler, Parameter, SourceFile, Variable,
+    Action, Binding, Bytecode, Function, Handler, Parameter, Range, SourceFile, Value, Variable,
 };
+use starl_core::Duration;
 
 /// Compiles a program without errors.
 pub(super) fn link(program: &Program, files: &[CheckedFile]) -> Result<Bytecode, Vec<Problem>> {
@@ -136,6 +138,7 @@ fn variables(unit: &mut Unit<'_>) -> Compiled<Vec<Variable>> {
                 true => Parameter::Optional,
                 false => Parameter::No,
             },
+            range: None,
         });
     }
     for parameter in &program.parameters {
@@ -147,9 +150,39 @@ fn variables(unit: &mut Unit<'_>) -> Compiled<Vec<Variable>> {
                 Some(_) => Parameter::Optional,
                 None => Parameter::Required,
             },
+            range: range(unit, parameter)?,
         });
     }
     Ok(variables)
+}
+
+/// The values that a parameter may have; its default is among them.
+fn range(unit: &Unit<'_>, parameter: &ir::Parameter) -> Compiled<Option<Range>> {
+    let Some([least, end]) = &parameter.range else {
+        return Ok(None);
+    };
+    let value = |of| computed(unit, of, &parameter.locals, parameter.site);
+    let (from, before) = (value(least)?, value(end)?);
+    let range = Range { from, before };
+    let typed = |scalar: u64| match parameter.ty {
+        ir::Type::Int => Value::Int(scalar as i64),
+        ir::Type::Float => Value::Float(f64::from_bits(scalar)),
+        _ => Value::Duration(Duration(scalar)),
+    };
+    let problem = |span, message: &str| {
+        let code = diagnostic::Code::InvalidRange;
+        Err(Problem::new(code, parameter.site.file, span, message))
+    };
+    if !range.contains(&typed(from)) {
+        return problem(end.span, "there is nothing in this range")
+            .map_err(|problem| problem.note("`a..b` is from `a` to before `b`"));
+    }
+    match &parameter.default {
+        Some(default) if !range.contains(&typed(value(default)?)) => {
+            problem(default.span, "the default is out of the parameter's range")
+        }
+        _ => Ok(Some(range)),
+    }
 }
 
 fn source_file((number, file): (usize, &CheckedFile)) -> SourceFile {

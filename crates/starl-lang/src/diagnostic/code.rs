@@ -200,6 +200,8 @@ codes! {
     OutsideAtomic = "E0254",
     /// An `atomic` where nothing can wait.
     MisplacedAtomic = "E0255",
+    /// A parameter's range that is none.
+    InvalidRange = "E0256",
     /// More values at a time than the machine has registers.
     TooManyRegisters = "E0302",
     /// More of something than a compiled program can hold.

@@ -51,7 +51,7 @@ pub(super) fn describe(checked: &Checked, symbol: Symbol) -> Description {
         Symbol::Parameter(id) => {
             let found = &program[id];
             let text = format!("param {}: {}", found.name, typed(&found.ty));
-            let text = with_value(checked, text, found.site);
+            let text = with_value(checked, with_range(checked, text, found.site), found.site);
             Description::new(text, &*found.documentation)
         }
         Symbol::Constant(id) => {
@@ -230,6 +230,19 @@ fn header(checked: &Checked, file: u32) -> Description {
     let site = headers(checked).find(|(number, _)| *number == file);
     let name = site.map_or(found.name.as_str(), |(_, site)| site.span.of(&found.source));
     Description::new(format!("{word} {name}"), documentation)
+}
+
+/// The text of a declaration with the range of a parameter as it is written.
+fn with_range(checked: &Checked, text: String, site: Site) -> String {
+    let declaration = node_at(checked, site).and_then(|name| name.parent());
+    let range = declaration.and_then(|node| node.children().find_map(ast::ParameterRange::cast));
+    match range {
+        Some(range) => {
+            let source = &checked.files[site.file as usize].source;
+            format!("{text} {}", one_line(range.span().of(source)))
+        }
+        None => text,
+    }
 }
 
 /// The declaration with its value as it is written, if there is one and it is short.

@@ -16,7 +16,7 @@ pub struct Site {
     pub span: Span,
 }
 
-/// `param name: Type = default`
+/// `param name: Type in from..before = default`
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// Its name.
@@ -26,7 +26,9 @@ pub struct Parameter {
     /// Its value where the scenario gives none; none if the scenario must give it. It reads
     /// constants only.
     pub default: Option<Expression>,
-    /// Locals of the default (of its comprehensions).
+    /// The least value that it may have, and the first beyond the greatest; none if it may have any.
+    pub range: Option<[Expression; 2]>,
+    /// Locals of the default and the range (of their comprehensions).
     pub locals: Vec<Local>,
     /// Where it is declared.
     pub site: Site,

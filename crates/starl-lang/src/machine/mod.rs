@@ -40,6 +40,7 @@ mod interpreter;
 mod known;
 pub mod operand;
 mod program;
+mod range;
 mod text;
 mod types;
 mod value;
@@ -52,7 +53,7 @@ pub use interpreter::workspace::Workspace;
 pub use interpreter::{Limits, Machine};
 pub use program::{
     Action, Binding, Bytecode, Claim, Enum, Function, FunctionKind, Handler, Parameter, Program,
-    Property, SourceFile, Span, Variable,
+    Property, Range, SourceFile, Span, Variable,
 };
 pub use text::{AssemblyError, assemble, disassemble};
 pub use types::{Layout, ObjectType, Order, Parts, Type};

@@ -121,6 +121,17 @@ pub struct Variable {
     pub kind: Type,
     /// Whether the host gives it a value before the start.
     pub parameter: Parameter,
+    /// What values the host may give it; none if any of its type will do.
+    pub range: Option<Range>,
+}
+
+/// What an Int, a Float or a Duration may be: from the one to before the other, as scalars.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Range {
+    /// The least.
+    pub from: u64,
+    /// The first beyond the greatest.
+    pub before: u64,
 }
 
 /// Whether the host gives a variable its value.

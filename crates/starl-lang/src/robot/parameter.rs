@@ -29,6 +29,15 @@ pub enum ParameterError {
         /// The value that was given.
         found: String,
     },
+    /// The value is none that the parameter may have.
+    OutOfRange {
+        /// The parameter.
+        name: String,
+        /// What it may be, e.g. `from 1 to 10`.
+        range: String,
+        /// The value that was given.
+        found: String,
+    },
     /// The parameter has no default and was not given.
     Missing {
         /// The parameter.
@@ -55,6 +64,12 @@ impl fmt::Display for ParameterError {
                 expected,
                 found,
             } => write!(f, "the parameter `{name}` is {expected}, not {found}"),
+            ParameterError::OutOfRange { name, range, found } => {
+                write!(
+                    f,
+                    "the parameter `{name}` goes {range}, and {found} is not in that"
+                )
+            }
             ParameterError::Missing { name, expected } => {
                 write!(f, "the parameter `{name}`, {expected}, is not given")
             }
@@ -105,6 +120,13 @@ pub(super) fn state(code: &Code, given: &[(&str, Value)]) -> Result<State, Param
             return Err(ParameterError::WrongType {
                 name: (*name).into(),
                 expected: expected(variable),
+                found: alloc::format!("{value}"),
+            });
+        }
+        if let Some(range) = variable.range_text().filter(|_| !variable.accepts(value)) {
+            return Err(ParameterError::OutOfRange {
+                name: (*name).into(),
+                range,
                 found: alloc::format!("{value}"),
             });
         }

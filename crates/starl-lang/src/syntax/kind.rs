@@ -93,7 +93,7 @@ kinds! {
         SourceFile, Error, Name,
         ProgramHeader, LibraryHeader, Import,
         EnumDeclaration, VariantList, RecordDeclaration, FieldList, Field, MessageDeclaration,
-        ParameterDeclaration, ConstantDeclaration, VariableDeclaration, SharedDeclaration,
+        ParameterDeclaration, ParameterRange, ConstantDeclaration, VariableDeclaration, SharedDeclaration,
         Consistency, BindingDeclaration, FunctionDeclaration, ParameterList, Parameter,
         InitDeclaration, ActionDeclaration, ActionBody, PreClause, EffClause, HandlerDeclaration, EventPath,
         HandlerParameterList, RoleDeclaration, RoleBody, PropertyDeclaration,

@@ -26,6 +26,7 @@ variable numbers type1
 variable notes type10
 parameter places type3
 parameter limit Duration?
+parameter pause Duration in 0 0x3b9aca00
 import position query () (Point)
 import emit (Int, type0) () labels index
 defaults f6

@@ -12,7 +12,7 @@
 //! constant 0.075
 //! text "arrived"
 //! parameter vicinity Float
-//! required patience Duration
+//! required patience Duration in 0x3b9aca00 0x2540be400
 //! variable target type0
 //! import position query () (Point)
 //! import emit (type1) () labels index
@@ -35,14 +35,14 @@
 //! ```
 //!
 //! `file` gives the bytes at which its lines begin. A `parameter` may be set by the host, one that is
-//! `required` must be. `span` gives the source of the instructions after it: file, first byte, byte after the last. A
+//! `required` must be, `in` is followed by the least value and the first beyond the greatest. `span` gives the source of the instructions after it: file, first byte, byte after the last. A
 //! jump names a label of its function with `@` before it.
 
 use crate::machine::host::Import;
 use crate::machine::instruction::Instruction;
 use crate::machine::program::{
     Action, Binding, Bytecode, Claim, Enum, Function, FunctionKind, Handler, Parameter, Property,
-    SourceFile, Span, Variable,
+    Range, SourceFile, Span, Variable,
 };
 use crate::machine::text::types::Cursor;
 use alloc::collections::BTreeMap;
@@ -196,10 +196,18 @@ impl Assembler {
     fn variable(&mut self, cursor: &mut Cursor<'_>, parameter: Parameter) -> Option<()> {
         let name = cursor.word()?.into();
         let kind = cursor.kind(0)?;
+        let range = match cursor.eat("in ") {
+            true => Some(Range {
+                from: constant(cursor)?,
+                before: constant(cursor)?,
+            }),
+            false => None,
+        };
         self.bytecode.variables.push(Variable {
             name,
             kind,
             parameter,
+            range,
         });
         Some(())
     }

@@ -53,7 +53,11 @@ fn declarations(out: &mut String, bytecode: &Bytecode) -> fmt::Result {
             Parameter::Optional => "parameter",
             Parameter::Required => "required",
         };
-        writeln!(out, "{declared} {} {}", variable.name, variable.kind)?;
+        write!(out, "{declared} {} {}", variable.name, variable.kind)?;
+        if let Some(range) = variable.range {
+            write!(out, " in {:#x} {:#x}", range.from, range.before)?;
+        }
+        writeln!(out)?;
     }
     for import in &bytecode.imports {
         let query = if import.query { " query" } else { "" };

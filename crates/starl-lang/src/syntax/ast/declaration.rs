@@ -15,8 +15,10 @@ nodes! {
     LibraryHeader
     /// `import name`
     Import
-    /// `param name: Type = default`
+    /// `param name: Type in from..before = default`
     ParameterDeclaration
+    /// `in from..before`
+    ParameterRange
     /// `const name = value`
     ConstantDeclaration
     /// `name: Type = value`
@@ -95,7 +97,15 @@ macro_rules! valued {
 typed! { Parameter ParameterDeclaration ConstantDeclaration VariableDeclaration SharedDeclaration }
 valued! {
     ParameterDeclaration ConstantDeclaration VariableDeclaration SharedDeclaration BindingDeclaration
-    FunctionDeclaration
+    FunctionDeclaration ParameterRange
+}
+
+impl ParameterDeclaration {
+    /// The values that it may have, if that is written.
+    #[must_use]
+    pub fn range(&self) -> Option<ParameterRange> {
+        child(&self.0)
+    }
 }
 
 impl SharedDeclaration {

@@ -31,12 +31,18 @@ pub(super) fn import(parser: &mut Parser<'_>) {
     name(parser);
 }
 
-/// `param name: Type = default`.
+/// `param name: Type in from..before = default`.
 pub(super) fn parameter(parser: &mut Parser<'_>) {
     parser.bump();
     name(parser);
     if parser.expect(Colon) {
         types::any(parser);
+        if parser.at(InKeyword) {
+            parser.start(ParameterRange);
+            parser.bump();
+            expression::expression(parser);
+            parser.finish();
+        }
         value(parser);
     }
 }
