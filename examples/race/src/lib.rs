@@ -13,7 +13,8 @@
 //!   way-points;
 //! - the guard of `pick` there also holds once ReachAvoid is done, so the robot would set out for the
 //!   same point again instead of telling the others. Here it holds unless the last command is under
-//!   way or done: a robot that failed or gave up tries again;
+//!   way to the point or done: a robot that failed, gave up or was sent elsewhere by a fault tries again;
+//! - `recover` is added, for faults that overwrite the state;
 //! - `finish` is added: the listing does not say when the application is over.
 
 #![no_std]
@@ -78,6 +79,15 @@ impl Race {
         self.current_index
     }
 
+    /// A fault has overwritten the index with what cannot be: it begins anew.
+    fn recover(&mut self, robot: &mut Robot<'_>) {
+        let is_beyond = self.current_index as usize > robot.way_points().len();
+        if self.location != Location::Init && is_beyond {
+            robot.action("recover");
+            self.location = Location::Init;
+        }
+    }
+
     fn initialize(&mut self, robot: &mut Robot<'_>) {
         if self.location == Location::Init {
             robot.action("initialize");
@@ -90,8 +100,8 @@ impl Race {
         let Some(target) = self.target(robot) else {
             return;
         };
-        let moving_or_there = self.reach_avoid.active() || self.reach_avoid.done();
-        if self.location == Location::Pick || self.location == Location::Wait && !moving_or_there {
+        let goes_there = self.reach_avoid.target() == Some(target.position);
+        if self.location == Location::Pick || !self.reach_avoid.done() && !goes_there {
             robot.action("pick");
             self.reach_avoid
                 .reach_avoid(robot, target.position, robot.obstacles());
@@ -131,6 +141,7 @@ impl Race {
 
 impl Program for Race {
     fn activate(&mut self, robot: &mut Robot<'_>) {
+        self.recover(robot);
         self.initialize(robot);
         self.pick(robot);
         self.wait(robot);
