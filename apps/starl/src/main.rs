@@ -34,11 +34,14 @@ mod threads;
 
 use args::{Arguments, Command};
 use clap::Parser;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    // Bad arguments end the process here, with exit status 2.
-    let arguments = Arguments::parse();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return refuse(&error),
+    };
     let result = match &arguments.command {
         Command::Explore(arguments) => return exit(explore::run(arguments)),
         Command::Run(arguments) => run::run(arguments),
@@ -53,6 +56,25 @@ fn main() -> ExitCode {
         Command::Bench(arguments) => bench::bench(arguments),
     };
     exit(result.map(|is_well| ExitCode::from(u8::from(!is_well))))
+}
+
+/// Says what is wrong with the arguments, or what was asked for, such as the help.
+fn refuse(error: &clap::Error) -> ExitCode {
+    let argument = error.get(ContextKind::InvalidArg);
+    if let (ErrorKind::UnknownArgument, Some(ContextValue::String(word))) = (error.kind(), argument)
+        && word.starts_with('-')
+        && word.parse::<f64>().is_ok()
+    {
+        // A field and its value as two words: the parser would say that `-- -1` passes a value.
+        let message = format!(
+            "{word} belongs to no option; fields are set in one word, as in --set parameters.count={word}"
+        );
+        console::error(&message);
+        return ExitCode::from(2);
+    }
+    // Where nobody listens any more there is nobody to tell.
+    let _ = error.print();
+    ExitCode::from(error.exit_code() as u8)
 }
 
 /// The status, or one message on what went wrong.

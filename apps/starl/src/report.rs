@@ -66,6 +66,9 @@ pub struct Property {
     pub first: Option<Breach>,
 }
 
+/// The verdict on a property of a primitive that the run did not use.
+pub const UNUSED: &str = "unused";
+
 /// A violation of a property.
 #[derive(Clone, Debug, Serialize)]
 pub struct Breach {
@@ -199,9 +202,10 @@ impl Breach {
 fn properties(run: &Run, scenario: &Scenario) -> Vec<Property> {
     let property = |verdict: starl_sim::Verdict| Property {
         property: verdict.property,
-        verdict: match (verdict.violations, verdict.open) {
-            (0, false) => "holds",
-            (0, true) => "open",
+        verdict: match (verdict.violations, verdict.open, verdict.used) {
+            (0, _, false) => UNUSED,
+            (0, false, _) => "holds",
+            (0, true, _) => "open",
             _ => "violated",
         },
         violations: verdict.violations,

@@ -1,7 +1,7 @@
 //! The summary that people read, within 80 columns.
 
 use crate::console::{grouped, rounded};
-use crate::report::{Breach, Ending, Failed, Property, Report, Robot};
+use crate::report::{Breach, Ending, Failed, Property, Report, Robot, UNUSED};
 use starl_sim::Outcome;
 use std::fmt::{self, Write};
 
@@ -41,13 +41,19 @@ fn write(text: &mut String, report: &Report) -> fmt::Result {
     )?;
     writeln!(
         text,
-        "messages    {} sent ({} of them again), {} delivered,\n            {} lost, {} dropped",
+        "messages    {} sent, {} delivered,\n            {} lost, {} dropped",
         grouped(messages.sent),
-        grouped(messages.retransmitted),
         grouped(messages.delivered),
         grouped(messages.lost),
         grouped(messages.dropped)
     )?;
+    if messages.retransmitted > 0 {
+        let repeated = grouped(messages.retransmitted);
+        writeln!(
+            text,
+            "            {repeated} sent again by Broadcast, Geocast or Unicast"
+        )?;
+    }
     writeln!(text, "collisions  {}", grouped(report.collisions))?;
     writeln!(text, "seed        {}", report.seed)?;
     writeln!(text, "digest      {}", report.digest)?;
@@ -151,19 +157,16 @@ fn models(text: &mut String, robots: &[Robot]) -> fmt::Result {
 }
 
 fn properties(text: &mut String, properties: &[Property]) -> fmt::Result {
-    let width = properties
-        .iter()
-        .map(|entry| entry.property.len())
-        .max()
-        .unwrap_or(0)
-        .max(8);
+    let used = || properties.iter().filter(|entry| entry.verdict != UNUSED);
+    let width = used().map(|entry| entry.property.len()).max();
+    let width = width.unwrap_or(0).max(8);
     writeln!(text, "{:width$}  verdict", "property")?;
     for Property {
         property,
         verdict,
         violations,
         ..
-    } in properties
+    } in used()
     {
         match violations {
             0 => writeln!(text, "{property:width$}  {verdict}")?,
@@ -175,7 +178,11 @@ fn properties(text: &mut String, properties: &[Property]) -> fmt::Result {
             )?,
         }
     }
-    Ok(())
+    match properties.len() - used().count() {
+        0 => Ok(()),
+        1 => writeln!(text, "1 more is about what this run did not use"),
+        unused => writeln!(text, "{unused} more are about what this run did not use"),
+    }
 }
 
 /// More programs that cannot go on are counted, not listed.

@@ -183,6 +183,26 @@ fn bad_options_are_refused() {
 }
 
 #[test]
+fn bad_parameters_are_refused() {
+    let folder = folder("bad_parameters");
+    let range = "parameters.entries: -1 is out of range; give a whole number, without unit or point, from 1 to";
+    for (options, expected) in [
+        (&["--set", "parameters.entries=-1"][..], range),
+        (
+            &["--set", "parameters.entries", "-1"],
+            "--set parameters.count=-1",
+        ),
+        (
+            &["--set", "entries=1"],
+            "--set entries: there is no such field; is it a parameter of the program, `parameters.entries`?",
+        ),
+        (&["--set", "parameters.entrys=1"], "did you mean `entries`?"),
+    ] {
+        refused(&folder, &[&["run", "mutex"], options].concat(), &[expected]);
+    }
+}
+
+#[test]
 fn what_is_no_scenario_or_trace_is_refused() {
     let folder = folder("bad_files");
     file(&folder, "empty", "");

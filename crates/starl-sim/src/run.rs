@@ -15,6 +15,8 @@ pub struct Run {
     monitors: Vec<Box<dyn Monitor>>,
     violations: Vec<Violation>,
     failures: Vec<Failure>,
+    /// The primitives that have reported something.
+    used: Vec<Name>,
     records: Vec<Record>,
     /// Those of the records of the last step.
     kinds: Vec<Kinds>,
@@ -57,6 +59,8 @@ pub struct Verdict {
     /// Whether it has not been violated, but would be if nothing more happened: it demands something
     /// by a time that has not come.
     pub open: bool,
+    /// Whether anything took place that it speaks of: a property of a primitive that nobody used says nothing.
+    pub used: bool,
 }
 
 /// A program that cannot go on.
@@ -83,6 +87,7 @@ impl Run {
             monitors: Vec::new(),
             violations: Vec::new(),
             failures: Vec::new(),
+            used: Vec::new(),
             records: Vec::new(),
             kinds: Vec::new(),
         })
@@ -133,6 +138,13 @@ impl Run {
         self.kinds.clear();
         self.kinds
             .extend(records.iter().map(|record| Kinds::of(&record.event)));
+        for record in records {
+            if let Event::Primitive { primitive, .. } = &record.event
+                && !self.used.contains(primitive)
+            {
+                self.used.push(primitive.clone());
+            }
+        }
         for checker in &mut self.checkers {
             let mut heeds = checker.heeds();
             for (record, &kind) in records.iter().zip(&self.kinds) {
@@ -198,19 +210,29 @@ impl Run {
     pub fn verdicts(&self) -> Vec<Verdict> {
         let checked = self.checkers.iter().flat_map(|checker| {
             let properties = checker.properties().iter();
-            properties.map(|&property| (Name::from(property), false))
+            properties.map(|&property| {
+                let used = self.is_used(property) && checker.has_subject(property);
+                (Name::from(property), false, used)
+            })
         });
         let monitored = self.monitors.iter().flat_map(|monitor| {
             let properties = monitor.properties().into_iter().enumerate();
-            properties.map(|(index, property)| (property, monitor.is_open(index)))
+            properties.map(|(index, property)| (property, monitor.is_open(index), true))
         });
         checked
             .chain(monitored)
-            .map(|(property, open)| self.verdict(property, open))
+            .map(|(property, open, used)| self.verdict(property, open, used))
             .collect()
     }
 
-    fn verdict(&self, property: Name, open: bool) -> Verdict {
+    /// Whether the primitive that a checker's property is called after has been used. What is called after none
+    /// is about the world.
+    fn is_used(&self, property: &str) -> bool {
+        let primitive = property.split_once('.').map(|(primitive, _)| primitive);
+        primitive.is_none_or(|primitive| self.used.iter().any(|used| used == primitive))
+    }
+
+    fn verdict(&self, property: Name, open: bool, used: bool) -> Verdict {
         let mut against = self.violations.iter().filter(|v| v.property == property);
         let first = against.next().cloned();
         let violations = usize::from(first.is_some()) + against.count();
@@ -218,6 +240,7 @@ impl Run {
             property,
             violations,
             open: open && first.is_none(),
+            used: used || first.is_some(),
             first,
         }
     }

@@ -14,7 +14,8 @@ pub struct Tally {
     pub lost: u64,
     /// Datagrams dropped for any other reason.
     pub dropped: u64,
-    /// Datagrams that primitives sent again.
+    /// What Broadcast, Geocast and Unicast sent again, for each receiver that had not acknowledged it. What other
+    /// primitives repeat does not show in events, and is not counted here.
     pub retransmitted: u64,
     /// Times that two bodies, or a body and an obstacle, came to touch.
     pub collisions: u64,

@@ -70,6 +70,13 @@ pub trait Checker: dyn_clone::DynClone + fmt::Debug + Send + Sync {
         Kinds::ALL
     }
 
+    /// Whether anything has come up that this property speaks of, where its primitive is used: not every broadcast
+    /// promises an order.
+    fn has_subject(&self, property: &str) -> bool {
+        let _ = property;
+        true
+    }
+
     /// Takes the next record; records come in the order of their times.
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>);
 

@@ -70,6 +70,10 @@ impl<'a> Section<'a> {
             let names: Vec<&str> = self.fields.iter().map(|field| field.name).collect();
             let message = "there is no such field".to_string();
             let help = suggest::help(name, &names, "there are");
+            // What a program calls a parameter is easily taken for a field.
+            let parameter = || format!("is it a parameter of the program, `parameters.{name}`?");
+            let is_top = names.contains(&"parameters") && names.contains(&"program");
+            let help = help.or_else(|| is_top.then(parameter));
             self.complain(entry.name_origin, name, (message, help));
         }
     }

@@ -200,6 +200,14 @@ impl Checker for BroadcastOrder {
         &[INTEGRITY, FIFO, CAUSAL, TOTAL, AGREEMENT]
     }
 
+    fn has_subject(&self, property: &str) -> bool {
+        self.instances.values().any(|instance| match property {
+            CAUSAL => instance.causality.is_some(),
+            TOTAL | AGREEMENT => instance.is_total,
+            _ => true,
+        })
+    }
+
     fn heeds(&self) -> Kinds {
         // What is overdue is found at the next record of any kind.
         match self.agreement.is_owed() {

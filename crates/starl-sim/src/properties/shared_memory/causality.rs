@@ -164,6 +164,10 @@ impl Checker for Causality {
         &[CAUSALITY]
     }
 
+    fn has_subject(&self, _: &str) -> bool {
+        !self.memories.is_empty()
+    }
+
     fn heeds(&self) -> Kinds {
         Kinds::REPORTS
     }
