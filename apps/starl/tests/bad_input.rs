@@ -196,7 +196,7 @@ fn bad_parameters_are_refused() {
             &["--set", "entries=1"],
             "--set entries: there is no such field; is it a parameter of the program, `parameters.entries`?",
         ),
-        (&["--set", "parameters.entrys=1"], "did you mean `entries`?"),
+        (&["--set", "parameters.entry=1"], "did you mean `entries`?"),
     ] {
         refused(&folder, &[&["run", "mutex"], options].concat(), &[expected]);
     }
