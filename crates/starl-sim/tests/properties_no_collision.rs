@@ -132,22 +132,51 @@ fn what_a_crashed_flyer_falls_on_has_not_collided() {
 }
 
 #[test]
-fn who_restarts_on_a_robot_falls_on_until_it_rises() {
-    for rises in [false, true] {
+fn who_restarts_in_its_fall_sinks_on_for_a_moment() {
+    // It starts again 0.1 m above the robot, and comes down on it before it has caught itself.
+    let mut story = Story::of(&[GROUND, FLYER]);
+    story.stays(0, 2000, 0, at(0.0, 0.0));
+    story.stays(0, 500, 1, Point::new(0.1, 0.0, 0.6));
+    story.fault(550, Some(1), "crash");
+    let (high, low) = (Point::new(0.1, 0.0, 0.2), Point::new(0.1, 0.0, 0.09));
+    story.walks(600, 1400, 1, Point::new(0.1, 0.0, 0.6), high);
+    story.fault(1450, Some(1), "restart");
+    story.walks(1500, 1800, 1, high, low);
+    story.collided(1800, 0, WITH_ROBOT_1);
+    assert_none(&story.verdict(2000));
+}
+
+#[test]
+fn who_restarts_in_its_fall_and_goes_down_by_itself_collides() {
+    // It sinks all the while and never rises, but two seconds after its restart nobody falls.
+    let mut story = Story::of(&[GROUND, FLYER]);
+    story.stays(0, 4000, 0, at(0.0, 0.0));
+    story.stays(0, 500, 1, Point::new(0.1, 0.0, 0.9));
+    story.fault(550, Some(1), "crash");
+    let high = Point::new(0.1, 0.0, 0.7);
+    story.walks(600, 1000, 1, Point::new(0.1, 0.0, 0.9), high);
+    story.fault(1050, Some(1), "restart");
+    story.walks(1100, 3100, 1, high, Point::new(0.1, 0.0, 0.12));
+    story.collided(3100, 0, WITH_ROBOT_1);
+    let verdict = story.verdict(4000);
+    assert_only(&verdict, "no_collision", 3100, &[0, 1]);
+}
+
+#[test]
+fn who_restarts_on_a_robot_flies_off_and_comes_back_collides() {
+    for flies_off in [false, true] {
         let mut story = crash_landing();
         story.stays(3100, 4000, 0, at(0.0, 0.0));
         story.fault(3000, Some(1), "restart");
-        // It flies off and comes back; or it stays, until the robot gives way.
         let low = Point::new(0.1, 0.0, 0.09);
-        let away = if rises {
-            Point::new(1.0, 0.0, 0.4)
-        } else {
-            low
+        let away = match flies_off {
+            true => Point::new(1.0, 0.0, 0.4),
+            false => low,
         };
         story.walks(3100, 3500, 1, low, away);
-        story.walks(3600, 4000, 1, away, at(0.1, 0.0));
+        story.walks(3600, 4000, 1, away, low);
         story.collided(4000, 0, WITH_ROBOT_1);
-        assert_eq!(story.verdict(4100).is_empty(), !rises);
+        assert_eq!(story.verdict(4100).is_empty(), !flies_off);
     }
 }
 

@@ -28,6 +28,10 @@ const APART: f64 = 0.1;
 /// A robot that fell has come to lie when it has come no lower for so long.
 const LIES_AFTER: Duration = Duration::from_millis(500);
 
+/// One that restarts in its fall has caught itself by then: three times what an AR.Drone's rate of climb takes to
+/// follow.
+const CAUGHT_AFTER: Duration = Duration::from_seconds(1);
+
 /// What the walls around the world are called.
 const EDGE: &str = "the edge of the world";
 
@@ -57,8 +61,8 @@ struct Fall {
     /// The least height that it has come to, metres, and when it came there.
     lowest: f64,
     since: Time,
-    /// Whether it has started again. It may lie on another robot, which drives off from under it.
-    is_up: bool,
+    /// When it has started again. It sinks on for a moment, whatever its program does.
+    restarted: Option<Time>,
 }
 
 /// An obstacle that a robot touches.
@@ -80,7 +84,8 @@ struct Round {
 
 impl Fall {
     fn lasts(self, now: Time) -> bool {
-        now.since(self.since) <= LIES_AFTER
+        let is_caught = |restarted| now.since(restarted) > CAUGHT_AFTER;
+        now.since(self.since) <= LIES_AFTER && !self.restarted.is_some_and(is_caught)
     }
 }
 
@@ -117,7 +122,7 @@ impl NoCollision {
         };
         if height < fall.lowest - OVERLAP {
             (fall.lowest, fall.since) = (height, at);
-        } else if fall.is_up && height > fall.lowest + OVERLAP {
+        } else if fall.restarted.is_some() && height > fall.lowest + OVERLAP {
             self.falls.remove(&robot);
         }
     }
@@ -128,20 +133,16 @@ impl NoCollision {
         };
         match fault {
             "crash" if place.z > OVERLAP => {
-                let (lowest, since) = (place.z, at);
-                let is_up = false;
-                self.falls.insert(
-                    robot,
-                    Fall {
-                        lowest,
-                        since,
-                        is_up,
-                    },
-                );
+                let fall = Fall {
+                    lowest: place.z,
+                    since: at,
+                    restarted: None,
+                };
+                self.falls.insert(robot, fall);
             }
             "restart" => {
                 if let Some(fall) = self.falls.get_mut(&robot) {
-                    fall.is_up = true;
+                    fall.restarted = Some(at);
                 }
             }
             _ => {}
