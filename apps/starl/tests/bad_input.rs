@@ -196,7 +196,10 @@ fn bad_parameters_are_refused() {
             &["--set", "entries=1"],
             "--set entries: there is no such field; is it a parameter of the program, `parameters.entries`?",
         ),
-        (&["--set", "parameters.entry=1"], "did you mean `entries`?"),
+        (
+            &["--set", "parameters.Entries=1"],
+            "did you mean `entries`?",
+        ),
     ] {
         refused(&folder, &[&["run", "mutex"], options].concat(), &[expected]);
     }
