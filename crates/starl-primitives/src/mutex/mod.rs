@@ -90,7 +90,8 @@ impl Mutex {
     }
 
     /// Asks for all of these resources at once (the thesis's do_mutex). A request that is under way
-    /// already is withdrawn, unless it is for the same resources. Nothing is asked for an empty set, which
+    /// already is withdrawn, unless it is for the same resources: that one keeps its turn, and with
+    /// [`Algorithm::Permission`] those who are participants now are asked. Nothing is asked for an empty set, which
     /// counts as held.
     ///
     /// # Errors
@@ -108,6 +109,9 @@ impl Mutex {
             };
         }
         if self.wanted() == Some(&resources) {
+            if let Protocol::Permission(permission) = &mut self.protocol {
+                permission.ask_others(&mut self.common, robot);
+            }
             return Ok(());
         }
         self.withdraw(robot);

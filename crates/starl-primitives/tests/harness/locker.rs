@@ -77,6 +77,7 @@ fn numbered(bits: u32) -> Resources {
 
 const ACQUIRE: u16 = 0;
 const RELEASE: u16 = 1;
+const ASK_ONLY: u16 = 2;
 
 fn about(kind: u16, resources: &[&str]) -> TimerKey {
     let bit = |resource: &&str| RESOURCES.iter().position(|name| name == resource);
@@ -94,6 +95,11 @@ pub fn acquire(resources: &[&str]) -> TimerKey {
 /// Tells a robot to give these back.
 pub fn release(resources: &[&str]) -> TimerKey {
     about(RELEASE, resources)
+}
+
+/// Tells a robot whom to ask from its next request on.
+pub fn ask_only(robots: &[u32]) -> TimerKey {
+    command(ASK_ONLY, robots.iter().map(|robot| 1 << robot).sum())
 }
 
 fn pause(random: &mut Random) -> Duration {
@@ -132,7 +138,12 @@ impl Program for Locker {
                 .mutex
                 .acquire(robot, resources)
                 .expect("it holds nothing"),
-            _ => self.mutex.release(robot, &resources),
+            RELEASE => self.mutex.release(robot, &resources),
+            _ => {
+                let robots = (0..32).filter(|robot| key.number >> robot & 1 == 1);
+                let participants = robots.map(RobotId).collect();
+                self.mutex.set_participants(Some(participants));
+            }
         }
     }
 

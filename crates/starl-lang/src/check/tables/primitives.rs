@@ -173,7 +173,7 @@ pub const PRIMITIVES: &[Primitive] = &[
         documentation: "Notices which robots have failed, by their heartbeats.",
     },
     Primitive {
-        constructor: "Mutex(id: String, participants?: Set[RobotId], algorithm?: MutexAlgorithm, lease?: Duration)",
+        constructor: "Mutex(id: String, participants?: Set[RobotId], algorithm?: MutexAlgorithm, lease?: Duration, repeat?: Duration)",
         members: &[
             member(
                 "acquire(resources: Set[String], participants?: Set[RobotId])",

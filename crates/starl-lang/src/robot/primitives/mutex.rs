@@ -14,12 +14,13 @@ use starl_primitives::mutex::{AcquireError, Options, Resources};
 impl Kind for Mutex {
     const NAME: &'static str = "Mutex";
 
-    /// The name of the mutex, who takes part (all, if none are given), how they agree, and for how long a
-    /// lease is.
+    /// The name of the mutex, who takes part (all, if none are given), how they agree, for how long a
+    /// lease is, and the longest time between repetitions of a request.
     const CONSTRUCTOR: &'static [Shape] = &[
         Shape::Text,
         Shape::Optional(&Shape::Set(&Shape::Robot)),
         Shape::Optional(&Shape::MutexAlgorithm),
+        Shape::Optional(&Shape::Duration),
         Shape::Optional(&Shape::Duration),
     ];
 
@@ -122,10 +123,18 @@ impl Kind for Mutex {
             lease: arguments
                 .optional(Arguments::duration)
                 .unwrap_or(default.lease),
+            longest_timeout: arguments
+                .optional(Arguments::duration)
+                .unwrap_or(default.longest_timeout),
             ..default
         };
-        if options.lease.is_zero() {
-            return Err("`lease` is no time at all".into());
+        for (name, time) in [
+            ("lease", options.lease),
+            ("repeat", options.longest_timeout),
+        ] {
+            if time.is_zero() {
+                return Err(format!("`{name}` is no time at all").into());
+            }
         }
         Ok(Mutex::new(&name, participants, options))
     }

@@ -15,7 +15,7 @@ mod packet;
 
 use super::Resources;
 use super::common::Common;
-use alloc::collections::BTreeMap;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 use packet::{Packet, Wish};
 use starl_core::{Destination, Message, Random, Robot, RobotId, TimerKey};
@@ -38,6 +38,8 @@ struct Waiting {
     wish: Wish,
     /// Those whose permission is missing, and the first attempt that their answer may be to.
     missing: BTreeMap<RobotId, u32>,
+    /// All that were asked.
+    asked: BTreeSet<RobotId>,
     /// How often it was repeated.
     repetitions: u32,
 }
@@ -47,6 +49,7 @@ impl Permission {
         let (clock, id) = (common.tick(robot), common.next_id(robot));
         self.waiting = Some(Waiting {
             missing: common.others(robot).into_iter().map(|p| (p, 0)).collect(),
+            asked: common.others(robot).into_iter().collect(),
             wish: Wish {
                 id,
                 attempt: 0,
@@ -56,6 +59,32 @@ impl Permission {
             repetitions: 0,
         });
         self.ask(common, robot);
+        self.enter_if_permitted(common, robot);
+    }
+
+    /// Others are to be asked: those who were not are, and those who are participants no longer are not waited for.
+    pub fn ask_others(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
+        let others: BTreeSet<RobotId> = common.others(robot).into_iter().collect();
+        let Some(waiting) = &mut self.waiting else {
+            return;
+        };
+        if waiting.asked == others {
+            return;
+        }
+        // Who was not asked by this one may be missing as it has asked for the same.
+        let asked = &waiting.asked;
+        let is_left = |peer: &RobotId| others.contains(peer) || !asked.contains(peer);
+        waiting.missing.retain(|peer, _| is_left(peer));
+        let new = others.difference(&waiting.asked).copied();
+        let attempt = waiting.wish.attempt.wrapping_add(1);
+        let missed = waiting.missing.len();
+        waiting.missing.extend(new.map(|peer| (peer, attempt)));
+        waiting.asked = others;
+        if waiting.missing.len() > missed {
+            waiting.wish.attempt = attempt;
+            waiting.repetitions = 0;
+            self.ask(common, robot);
+        }
         self.enter_if_permitted(common, robot);
     }
 
