@@ -70,7 +70,9 @@ impl Bytecode {
             if core::mem::replace(seen, true) {
                 continue;
             }
-            let code = self.code.get(function.entry as usize..function.end as usize);
+            let code = self
+                .code
+                .get(function.entry as usize..function.end as usize);
             for instruction in code.unwrap_or_default() {
                 if let Instruction::Call { function, .. } = instruction {
                     left.push(function.0);
