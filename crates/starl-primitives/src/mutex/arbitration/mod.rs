@@ -227,7 +227,7 @@ impl Arbitration {
                     if let Some(wish) = holds {
                         self.arbiter.reinstate(from, wish, terms);
                     }
-                    self.review(common, robot, post);
+                    self.hear_answer(common, robot, post);
                 }
             }
             Packet::Grant { id, .. } | Packet::Wait { id, .. } | Packet::Outdated { id, .. }

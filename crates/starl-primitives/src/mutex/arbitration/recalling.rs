@@ -39,37 +39,50 @@ impl Arbitration {
 
     /// Asks those who have not said yet what this robot had granted them.
     pub(super) fn recall(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
-        let others = common.others(robot);
         let mut post = Post::default();
         self.review(common, robot, &mut post);
-        let lease = lease(common);
-        let silent = match lease {
-            // Who has answered may have come to remember more since.
-            Some(_) => others,
-            None => self.recovery.silent(&others),
-        };
-        let list = self.list;
-        if let Some(begun) = self.recovery.asking() {
-            let recall = Packet::Recall {
-                nonce: begun.nonce,
-                list,
-            };
-            for peer in silent {
-                post.send(peer, recall.clone());
-            }
-            let timeout = common.options.timeout(begun.repetitions);
-            begun.repetitions = begun.repetitions.saturating_add(1);
-            robot.set_timer(common.timer(RECALL), timeout);
-        }
+        self.ask_others(common, robot, &mut post);
         self.deliver(common, robot, post);
     }
 
-    /// Looks whether enough has been heard to be an arbiter.
-    pub(super) fn review(&mut self, common: &Common, robot: &Robot<'_>, post: &mut Post) {
-        if self.recovery.is_ready {
+    /// An answer has come.
+    pub(super) fn hear_answer(
+        &mut self,
+        common: &mut Common,
+        robot: &mut Robot<'_>,
+        post: &mut Post,
+    ) {
+        if self.review(common, robot, post) {
+            self.ask_others(common, robot, post);
+        }
+    }
+
+    fn ask_others(&mut self, common: &Common, robot: &mut Robot<'_>, post: &mut Post) {
+        let to_ask = self.recovery.to_ask(&common.others(robot));
+        let until_more =
+            lease(common).and_then(|lease| self.recovery.until_more(robot.now(), lease));
+        let list = self.list;
+        let Some(begun) = self.recovery.asking() else {
             return;
+        };
+        let nonce = begun.nonce;
+        for peer in to_ask {
+            post.send(peer, Packet::Recall { nonce, list });
+        }
+        let timeout = common.options.timeout(begun.repetitions);
+        let timeout = until_more.map_or(timeout, |more| timeout.min(more));
+        begun.repetitions = begun.repetitions.saturating_add(1);
+        robot.set_timer(common.timer(RECALL), timeout);
+    }
+
+    /// Looks whether enough has been heard to be an arbiter; whether others are to be asked at once.
+    fn review(&mut self, common: &Common, robot: &Robot<'_>, post: &mut Post) -> bool {
+        if self.recovery.is_ready {
+            return false;
         }
         let others = common.others(robot);
+        let asks_anew = lease(common)
+            .is_some_and(|lease| self.recovery.ends_silence(robot.now(), &others, lease));
         let outlook = self.recovery.outlook(robot.now(), &others, lease(common));
         if outlook == Outlook::ReadyWithoutNumbers {
             self.arbiter.numbers.raise_floor(number_at(robot.now()));
@@ -79,6 +92,7 @@ impl Arbitration {
             self.recovery.remembers = true;
             self.arbiter.settle(self.terms(common, robot), post);
         }
+        asks_anew
     }
 
     /// An arbiter asks what it had granted this robot. What is only waited for is asked for anew.

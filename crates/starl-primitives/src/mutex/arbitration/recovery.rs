@@ -3,13 +3,14 @@
 //! A robot cannot tell its first start from a restart, so every robot does this once. Until it is ready it
 //! grants nothing.
 //!
-//! When all others have answered it is: it knows what they hold by grants that were forgotten, and such grants as
-//! are still on their way are to attempts that those who were asked have given up. Without leases all have to
-//! answer. With leases nobody holds anything by a forgotten grant after one lease of silence; what is missing
-//! then are the numbers. A number that somebody has entered with is known to a majority, so those who remember
-//! and have answered must be too many for such a majority to avoid. Where so many remember nothing, all being new,
-//! or do not answer within another lease, numbers go on from the time in milliseconds, the latest of those that
-//! have forgotten: no counting is as fast, and so they grow unless clocks have been set back.
+//! When all others have answered, nobody can enter by a grant that was forgotten: they have said what they hold,
+//! and who waits has begun another attempt, to which such a grant is none. Without leases that is needed, and is
+//! enough. With leases a lease of silence shows as much, and what is missing then are the numbers, so it asks
+//! once more: a number that somebody entered with by a forgotten grant may have come to those who gave the
+//! others after they had answered. A number that somebody has entered with is known to a majority, so those who
+//! remember and have answered must be too many for such a majority to avoid. Where so many remember nothing, all
+//! being new, or do not answer within another lease, numbers go on from the time in milliseconds, the latest of
+//! those that have forgotten: no counting is as fast, and so they grow unless clocks have been set back.
 //!
 //! After a change of participants all of the new ones have to answer, having changed too: two quorums of
 //! different lists need have nobody in common.
@@ -35,6 +36,8 @@ pub(super) struct Begun {
     since: Time,
     /// Whether the participants have changed; otherwise the robot has started.
     is_change: bool,
+    /// Whether nobody can enter by a grant that was forgotten; with leases.
+    is_silence_over: bool,
     /// Who has answered, and whether they remember what they granted.
     answers: BTreeMap<RobotId, bool>,
     /// How often it has asked.
@@ -62,6 +65,7 @@ impl Recovery {
             nonce,
             since: now,
             is_change,
+            is_silence_over: false,
             answers: BTreeMap::new(),
             repetitions: 0,
         });
@@ -84,6 +88,44 @@ impl Recovery {
             .copied()
             .filter(|peer| !answered(peer))
             .collect()
+    }
+
+    /// Who is to be asked: who has not answered, and whose answer may be another one by now.
+    pub fn to_ask(&self, others: &[RobotId]) -> Vec<RobotId> {
+        let remembers = |peer: &RobotId| self.begun.as_ref()?.answers.get(peer).copied();
+        let is_silence_over = self.begun.as_ref().is_some_and(|b| b.is_silence_over);
+        let others = others.iter().copied();
+        others
+            .filter(|peer| match remembers(peer) {
+                None => true,
+                Some(remembers) => is_silence_over && !remembers,
+            })
+            .collect()
+    }
+
+    /// Whether it is now that nobody can enter by a forgotten grant any longer: then all are asked once more.
+    pub fn ends_silence(&mut self, now: Time, others: &[RobotId], lease: Duration) -> bool {
+        let all = self.silent(others).is_empty();
+        let Some(begun) = self.asking().filter(|begun| !begun.is_silence_over) else {
+            return false;
+        };
+        let has_ended = all || !begun.is_change && now.since(begun.since) >= lease;
+        if has_ended {
+            begun.is_silence_over = true;
+            begun.nonce = begun.nonce.wrapping_add(1);
+            begun.answers.clear();
+            begun.repetitions = 0;
+        }
+        has_ended
+    }
+
+    /// The time until more can be known without an answer: until one lease is over, or two.
+    pub fn until_more(&self, now: Time, lease: Duration) -> Option<Duration> {
+        let since = self.begun.as_ref()?.since;
+        let mut ends = [since + lease, since + lease * 2].into_iter();
+        // Timers are no more precise.
+        let least = Duration::from_millis(1);
+        Some(ends.find(|&end| end > now)?.since(now).max(least))
     }
 
     /// Takes an answer; false if it is to another question.
@@ -117,12 +159,12 @@ impl Recovery {
             .values()
             .filter(|&&remembers| remembers)
             .count();
-        let silent_for = now.since(begun.since);
-        if !all && (silent_for < lease || begun.is_change) {
+        let is_late = now.since(begun.since) >= lease * 2;
+        if !begun.is_silence_over || begun.is_change && !all {
             Outlook::Unready
         } else if remember > count - majority || begun.is_change && self.remembers {
             Outlook::Ready
-        } else if all || begun.answers.len() + 1 >= majority && silent_for >= lease * 2 {
+        } else if all || begun.answers.len() + 1 >= majority && is_late {
             Outlook::ReadyWithoutNumbers
         } else {
             Outlook::Unready
