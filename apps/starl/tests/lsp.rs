@@ -188,7 +188,15 @@ fn what_may_be_typed_is_suggested() {
         .iter()
         .filter_map(|item| item["label"].as_str())
         .collect();
-    let expected = ["active", "done", "failed", "follow", "reach_avoid", "stop"];
+    let expected = [
+        "active",
+        "done",
+        "failed",
+        "follow",
+        "reach_avoid",
+        "stop",
+        "target",
+    ];
     assert_eq!(labels, expected);
     assert_eq!(items[4]["textEdit"]["newText"], "reach_avoid($0)");
     assert_eq!(items[4]["insertTextFormat"], 2);

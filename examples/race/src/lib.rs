@@ -100,8 +100,9 @@ impl Race {
         let Some(target) = self.target(robot) else {
             return;
         };
+        let waits = self.location == Location::Wait && !self.reach_avoid.done();
         let goes_there = self.reach_avoid.target() == Some(target.position);
-        if self.location == Location::Pick || !self.reach_avoid.done() && !goes_there {
+        if self.location == Location::Pick || waits && !goes_there {
             robot.action("pick");
             self.reach_avoid
                 .reach_avoid(robot, target.position, robot.obstacles());
