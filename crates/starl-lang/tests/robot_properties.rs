@@ -104,42 +104,35 @@ fn rows(violations: &[Violation]) -> Vec<Vec<u32>> {
     violations.iter().map(row).collect()
 }
 
-#[test]
-fn a_property_may_ask_for_time_without_faults() {
-    let source = "program Calm
+/// Judges a property that asks for 5 s of what `word` says and `set` gives.
+fn asks_for_time(word: &str, set: impl Fn(&mut Given, Duration)) {
+    let source = format!(
+        "program Calm
 
 count: Int = 0
 
 work()
     eff count += 1
 
-always done: count > 0 or undisturbed < 5s
-";
-    let mut fleet = Given::new(source, 1);
+always done: count > 0 or {word} < 5s
+"
+    );
+    let mut fleet = Given::new(&source, 1);
     let mut judge = fleet.judge();
-    for (time, undisturbed, violations) in [(1, 4, 0), (2, 0, 0), (7, 5, 1)] {
-        fleet.undisturbed = Duration::from_seconds(undisturbed);
+    for (time, given, violations) in [(1, 4, 0), (2, 0, 0), (7, 5, 1)] {
+        set(&mut fleet, Duration::from_seconds(given));
         assert_eq!(judge.observe(seconds(time), &fleet).len(), violations);
     }
 }
 
 #[test]
+fn a_property_may_ask_for_time_without_faults() {
+    asks_for_time("undisturbed", |fleet, time| fleet.undisturbed = time);
+}
+
+#[test]
 fn a_property_may_ask_for_time_without_corruption() {
-    let source = "program Sound
-
-count: Int = 0
-
-work()
-    eff count += 1
-
-always done: count > 0 or uncorrupted < 5s
-";
-    let mut fleet = Given::new(source, 1);
-    let mut judge = fleet.judge();
-    for (time, uncorrupted, violations) in [(1, 4, 0), (2, 0, 0), (7, 5, 1)] {
-        fleet.uncorrupted = Duration::from_seconds(uncorrupted);
-        assert_eq!(judge.observe(seconds(time), &fleet).len(), violations);
-    }
+    asks_for_time("uncorrupted", |fleet, time| fleet.uncorrupted = time);
 }
 
 const ALWAYS: &str = "program Always

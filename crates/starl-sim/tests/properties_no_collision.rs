@@ -131,34 +131,33 @@ fn what_a_crashed_flyer_falls_on_has_not_collided() {
     assert_none(&story.verdict(3000));
 }
 
+/// A flyer over a ground robot that crashes at one height, starts again at a lower one, and sinks on until it is on the
+/// robot.
+fn restart_in_the_fall((top, high): (f64, f64), restarts: u64, lands: u64) -> Story {
+    let over = |height| Point::new(0.1, 0.0, height);
+    let mut story = Story::of(&[GROUND, FLYER]);
+    story.stays(0, lands, 0, at(0.0, 0.0));
+    story.stays(0, 500, 1, over(top));
+    story.fault(550, Some(1), "crash");
+    story.walks(600, restarts - 50, 1, over(top), over(high));
+    story.fault(restarts, Some(1), "restart");
+    story.walks(restarts + 50, lands, 1, over(high), over(0.09));
+    story.collided(lands, 0, WITH_ROBOT_1);
+    story
+}
+
 #[test]
 fn who_restarts_in_its_fall_sinks_on_for_a_moment() {
-    // It starts again 0.1 m above the robot, and comes down on it before it has caught itself.
-    let mut story = Story::of(&[GROUND, FLYER]);
-    story.stays(0, 2000, 0, at(0.0, 0.0));
-    story.stays(0, 500, 1, Point::new(0.1, 0.0, 0.6));
-    story.fault(550, Some(1), "crash");
-    let (high, low) = (Point::new(0.1, 0.0, 0.2), Point::new(0.1, 0.0, 0.09));
-    story.walks(600, 1400, 1, Point::new(0.1, 0.0, 0.6), high);
-    story.fault(1450, Some(1), "restart");
-    story.walks(1500, 1800, 1, high, low);
-    story.collided(1800, 0, WITH_ROBOT_1);
-    assert_none(&story.verdict(2000));
+    // It comes down on the robot before it has caught itself.
+    let story = restart_in_the_fall((0.6, 0.2), 1450, 1800);
+    assert_none(&story.verdict(1800));
 }
 
 #[test]
 fn who_restarts_in_its_fall_and_goes_down_by_itself_collides() {
-    // It sinks all the while and never rises, but two seconds after its restart nobody falls.
-    let mut story = Story::of(&[GROUND, FLYER]);
-    story.stays(0, 4000, 0, at(0.0, 0.0));
-    story.stays(0, 500, 1, Point::new(0.1, 0.0, 0.9));
-    story.fault(550, Some(1), "crash");
-    let high = Point::new(0.1, 0.0, 0.7);
-    story.walks(600, 1000, 1, Point::new(0.1, 0.0, 0.9), high);
-    story.fault(1050, Some(1), "restart");
-    story.walks(1100, 3100, 1, high, Point::new(0.1, 0.0, 0.12));
-    story.collided(3100, 0, WITH_ROBOT_1);
-    let verdict = story.verdict(4000);
+    // It never rises, but two seconds after its restart nobody falls.
+    let story = restart_in_the_fall((0.9, 0.7), 1050, 3100);
+    let verdict = story.verdict(3100);
     assert_only(&verdict, "no_collision", 3100, &[0, 1]);
 }
 
