@@ -53,7 +53,15 @@ fn after_the_dot_of_a_primitive_its_members() {
     found.sort();
     assert_eq!(
         found,
-        ["active", "done", "failed", "follow", "reach_avoid", "stop"]
+        [
+            "active",
+            "done",
+            "failed",
+            "follow",
+            "reach_avoid",
+            "stop",
+            "target"
+        ]
     );
 }
 
