@@ -83,3 +83,13 @@ fn register() {
 fn registration() {
     recovers("registration", "3s", 30);
 }
+
+#[test]
+fn intersection() {
+    recovers("intersection", "10s", 20);
+}
+
+#[test]
+fn traffic_signs() {
+    recovers("traffic-signs", "10s", 20);
+}
