@@ -112,9 +112,8 @@ impl Code {
         match self.kind() {
             Kind::Activate => Step::Activate(robot),
             Kind::Timer => {
-                let mut armed = robots.state(local).timers.keys();
-                let key = armed.nth(self.which() as usize);
-                Step::Timer(robot, *key.unwrap_or_else(|| unreachable!("it fired")))
+                let armed = robots.state(local).timers(&robots.surroundings);
+                Step::Timer(robot, armed[self.which() as usize].0)
             }
             Kind::Deliver => Step::Deliver(datagram()),
             Kind::Duplicate => Step::Duplicate(datagram()),

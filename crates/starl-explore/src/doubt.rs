@@ -64,7 +64,7 @@ impl Robots {
         let happening = self.happening(local, code);
         let mine = self.state(local).turn(&happening, &self.surroundings);
         let its = twin.turn(&happening, &self.surroundings);
-        let robot = twin.robot;
+        let robot = twin.robot();
         let is_same = mine.sent == its.sent && mine.events == its.events;
         let motions = self.motions;
         let (mine, its) = (self.enter(mine), self.enter(its));

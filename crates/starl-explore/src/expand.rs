@@ -2,7 +2,7 @@
 
 use crate::bounds::{Clocks, Left};
 use crate::code::{Code, Flying, Kind};
-use crate::robot::Local;
+use crate::robot::{Local, Surroundings};
 use crate::robots::Outcome;
 use crate::search::{HEAD, Search};
 use starl_core::RobotId;
@@ -34,24 +34,21 @@ impl Site {
 }
 
 /// The timers of a robot that may fire now, by their places among those that are armed.
-pub(crate) fn ready(
-    local: &Local,
-    clocks: Clocks,
-    silent: impl Fn(starl_core::Port) -> bool,
-) -> Vec<u32> {
+pub(crate) fn ready(local: &Local, surroundings: &Surroundings) -> Vec<u32> {
+    let silent = &surroundings.model.silent;
+    let timers = local.timers(surroundings);
     let heard = || {
-        local
-            .timers
+        timers
             .iter()
             .zip(0..)
-            .filter(|((key, _), _)| !silent(key.port))
+            .filter(|((key, _), _)| !silent.contains(&key.port))
     };
-    let first = heard().map(|((_, &due), _)| due).min();
-    let may_fire = |due: u64| match clocks {
+    let first = heard().map(|((_, due), _)| *due).min();
+    let may_fire = |due: u64| match surroundings.clocks {
         Clocks::Still => true,
         Clocks::Ticking { .. } => due <= local.clock && Some(due) == first,
     };
-    let ready = heard().filter(|((_, due), _)| may_fire(**due));
+    let ready = heard().filter(|((_, due), _)| may_fire(*due));
     ready.map(|(_, place)| place).collect()
 }
 
@@ -70,7 +67,7 @@ impl Search {
         self.arrivals(&mut site);
         for robot in self.robots.surroundings.fleet.clone() {
             let local = self.robots.state(site.local(robot));
-            match (local.agent.is_some(), local.runs()) {
+            match (local.is_up(), local.runs()) {
                 (true, true) => self.turns(&mut site, robot),
                 (true, false) => {}
                 (false, _) => self.restarts(&mut site, robot),
@@ -102,7 +99,7 @@ impl Search {
             let datagram = flying.number();
             let to = self.robots.datagram(datagram).to;
             let local = site.local(to);
-            if self.robots.state(local).agent.is_none() {
+            if !self.robots.state(local).is_up() {
                 continue;
             }
             let deliver = Code::datagram(Kind::Deliver, datagram);
@@ -138,10 +135,7 @@ impl Search {
             site.left,
         );
         let local = self.robots.state(site.local(robot));
-        let model = &self.robots.surroundings.model;
-        let ready = ready(local, self.bounds.clocks, |port| {
-            model.silent.contains(&port)
-        });
+        let ready = ready(local, &self.robots.surroundings);
         let is_still = self.bounds.clocks == Clocks::Still;
         site.held |= is_still && site.left.timers == 0 && !ready.is_empty();
         if !is_still || site.left.timers > 0 {
@@ -208,9 +202,8 @@ impl Search {
             .min()
             .unwrap_or_default();
         let may_tick = |search: &Search, robot: RobotId| {
-            let model = &search.robots.surroundings.model;
             let local = search.robots.state(site.local(robot));
-            !local.is_due(&model.silent) && local.clock < u64::from(ticks)
+            !local.is_due(&search.robots.surroundings) && local.clock < u64::from(ticks)
         };
         let able: Vec<RobotId> = fleet
             .iter()
@@ -279,7 +272,7 @@ impl Search {
         let fleet = &self.robots.surroundings.fleet;
         let waits = |robot: &RobotId| {
             let local = self.robots.state(site.local(*robot));
-            local.runs() && !local.finished
+            local.is_waiting()
         };
         let waiting: Vec<RobotId> = fleet.iter().copied().filter(waits).collect();
         let at = self.robots.surroundings.time(0);
@@ -288,5 +281,5 @@ impl Search {
 }
 
 fn local_is_up(robots: &crate::robots::Robots, site: &Site, robot: RobotId) -> bool {
-    robots.state(site.local(robot)).agent.is_some()
+    robots.state(site.local(robot)).is_up()
 }

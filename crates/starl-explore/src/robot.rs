@@ -4,32 +4,27 @@
 //! of one number that write the same answer every input alike.
 
 use crate::bounds::Clocks;
-use crate::model::Model;
+use crate::model::{Member, Model};
 use crate::step::Datagram;
 use crate::texts::fingerprint;
-use starl_core::effect::Effects;
 use starl_core::random::hash_key;
 use starl_core::{
-    Agent, Destination, Duration, Effect, Estimate, Event, Input, Message, Port, Random, RobotId,
-    Sensors, Time, TimerKey, View,
+    Agent, Destination, Duration, Estimate, Event, Input, Message, MotionRequest, Port, Random,
+    RobotId, Sensors, Time, TimerKey,
 };
-use std::collections::{BTreeMap, BTreeSet};
+use starl_host::{Clock, Happening as Call, Hardware, Node, Outlet, PlanJob, Snapshot, Workspace};
+use starl_motion::Neighbour;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// A robot's state.
 #[derive(Clone)]
 pub(crate) struct Local {
-    pub robot: RobotId,
-    /// None while it is down.
-    pub agent: Option<Agent>,
-    /// Armed timers, with the tick at which they are due.
-    pub timers: BTreeMap<TimerKey, u64>,
+    pub node: Node,
     /// Ticks of its clock.
     pub clock: u64,
     /// Counts its starts.
     life: u64,
-    pub finished: bool,
-    pub failed: bool,
     /// What has happened to it in this life, where its program does not write its state.
     history: u128,
 }
@@ -62,15 +57,24 @@ pub(crate) struct Surroundings {
     pub model: Model,
     pub fleet: Vec<RobotId>,
     pub clocks: Clocks,
+    /// By robot.
+    hardware: Vec<Hardware>,
 }
 
 impl Surroundings {
     pub fn new(model: Model, clocks: Clocks) -> Surroundings {
         let fleet = model.fleet();
+        let hardware = |member: &Member| Hardware {
+            body: member.body,
+            control_period: Duration::ZERO,
+            drive: None,
+        };
+        let hardware = model.members.iter().map(hardware).collect();
         Surroundings {
             model,
             fleet,
             clocks,
+            hardware,
         }
     }
 
@@ -86,28 +90,35 @@ impl Surroundings {
         Time::ZERO + self.tick() * ticks
     }
 
-    /// When a timer that is armed now is due: at a later tick, if clocks tick.
-    fn due(&self, now: u64, after: Duration) -> u64 {
+    /// The tick at which a clock that shows this time or later has got there; 0 where clocks stand still.
+    fn ticks(&self, at: Time) -> u64 {
         match self.tick().0 {
             0 => 0,
-            tick => now.saturating_add(after.0.div_ceil(tick).max(1)),
+            tick => at.0.div_ceil(tick),
         }
+    }
+
+    /// The software of a robot for one of its lives.
+    fn agent(&self, robot: RobotId, life: u64) -> Agent {
+        let program = self.model.members[robot.index()].program.clone();
+        Agent::new(
+            program,
+            Random::keyed(self.model.seed, &[u64::from(robot.0), life]),
+        )
     }
 }
 
 impl Local {
     /// A robot that starts for the first time.
     pub fn start(robot: RobotId, surroundings: &Surroundings) -> Turn {
-        let local = Local {
-            robot,
-            agent: None,
-            timers: BTreeMap::new(),
+        let agent = surroundings.agent(robot, 0);
+        let mut local = Local {
+            node: Node::new(robot, Clock::default(), agent, Time::ZERO),
             clock: 0,
             life: 0,
-            finished: false,
-            failed: false,
             history: 0,
         };
+        local.node.crash();
         local.turn(&Happening::Restart, surroundings)
     }
 
@@ -120,16 +131,13 @@ impl Local {
             motions: 0,
         };
         match happening {
-            Happening::Activate => turn.feed(&Input::Activate, surroundings),
-            Happening::Timer(key) => {
-                turn.local.timers.remove(key);
-                turn.feed(&Input::Timer(*key), surroundings);
-            }
+            Happening::Activate => turn.feed(Input::Activate, surroundings),
+            Happening::Timer(key) => turn.feed(Input::Timer(*key), surroundings),
             Happening::Message(message) => {
-                turn.feed(&Input::Message(message.clone()), surroundings);
+                turn.feed(Input::Message(message.clone()), surroundings);
             }
-            Happening::Suspect(peer) => turn.feed(&Input::Suspected(*peer), surroundings),
-            Happening::Trust(peer) => turn.feed(&Input::Trusted(*peer), surroundings),
+            Happening::Suspect(peer) => turn.feed(Input::Suspected(*peer), surroundings),
+            Happening::Trust(peer) => turn.feed(Input::Trusted(*peer), surroundings),
             Happening::Tick => turn.local.clock += 1,
             Happening::Crash => turn.crash(),
             Happening::Restart => turn.start(surroundings),
@@ -137,161 +145,175 @@ impl Local {
         turn
     }
 
+    /// The robot's number.
+    pub fn robot(&self) -> RobotId {
+        self.node.id()
+    }
+
+    /// Whether it is up.
+    pub fn is_up(&self) -> bool {
+        !self.node.condition().down
+    }
+
     /// Whether it is up and its program can go on.
     pub fn runs(&self) -> bool {
-        self.agent.is_some() && !self.failed
+        self.node.runs()
+    }
+
+    /// Whether it runs and its program has not reached its goal.
+    pub fn is_waiting(&self) -> bool {
+        self.runs() && !self.node.condition().finished
+    }
+
+    /// The armed timers in the order of their keys, with the ticks at which they are due.
+    pub fn timers(&self, surroundings: &Surroundings) -> Vec<(TimerKey, u64)> {
+        let armed = self.node.timers().iter();
+        let mut timers: Vec<_> = armed
+            .map(|(at, key)| (key, surroundings.ticks(at)))
+            .collect();
+        timers.sort_unstable();
+        timers
     }
 
     /// Whether a timer is due that has to fire before the clock goes on.
-    pub fn is_due(&self, silent: &BTreeSet<Port>) -> bool {
-        let mut heard = self
-            .timers
-            .iter()
-            .filter(|(key, _)| !silent.contains(&key.port));
-        self.runs() && heard.any(|(_, &due)| due <= self.clock)
+    pub fn is_due(&self, surroundings: &Surroundings) -> bool {
+        let silent: &BTreeSet<Port> = &surroundings.model.silent;
+        let is_due = |(at, key): (Time, TimerKey)| {
+            !silent.contains(&key.port) && surroundings.ticks(at) <= self.clock
+        };
+        self.runs() && self.node.timers().iter().any(is_due)
     }
 
     /// Writes all that its future depends on.
-    pub fn write(&self, text: &mut String) {
+    pub fn write(&self, surroundings: &Surroundings, text: &mut String) {
         let Local {
-            robot,
-            agent,
-            timers,
+            node,
             clock,
             life,
-            finished,
-            failed,
             history,
         } = self;
+        let (robot, timers) = (node.id(), self.timers(surroundings));
+        let condition = node.condition();
         // Writing to a text cannot fail.
-        let _ = write!(
-            text,
-            "{robot} {clock} {life} {finished} {failed} {timers:?} "
-        );
-        match agent {
-            None => text.push_str("down"),
-            Some(agent) => {
-                if !agent.write_state(text) {
-                    let _ = write!(text, "{history:x}");
-                }
-            }
+        let _ = write!(text, "{robot} {clock} {life} {condition:?} {timers:?} ");
+        if self.is_up() && !node.agent().write_state(text) {
+            let _ = write!(text, "{history:x}");
         }
     }
 }
 
 impl Turn {
     fn start(&mut self, surroundings: &Surroundings) {
-        let model = &surroundings.model;
         let local = &mut self.local;
-        let Some(member) = model.members.get(local.robot.index()) else {
-            return;
-        };
         if local.life > 0 {
             self.events.push(Event::Fault("restart".into()));
         }
-        let random = Random::keyed(model.seed, &[u64::from(local.robot.0), local.life]);
-        local.agent = Some(Agent::new(member.program.clone(), random));
+        let agent = surroundings.agent(local.robot(), local.life);
+        let now = surroundings.time(local.clock);
+        local.node.restart(now, agent);
         local.life += 1;
         local.history = u128::from(hash_key(local.life, &[local.clock]));
-        self.feed(&Input::Start, surroundings);
-        self.feed(&Input::Estimate, surroundings);
+        self.call(Call::Start, &Input::Start, surroundings);
+        self.call(Call::Located, &Input::Estimate, surroundings);
     }
 
     fn crash(&mut self) {
-        let Local {
-            robot, clock, life, ..
-        } = self.local;
-        self.local = Local {
-            robot,
-            agent: None,
-            timers: BTreeMap::new(),
-            clock,
-            life,
-            finished: false,
-            failed: false,
-            history: 0,
-        };
+        self.local.node.crash();
+        self.local.history = 0;
         self.events.push(Event::Fault("crash".into()));
     }
 
-    /// Hands an input to the robot's software and carries out what it asks for.
-    fn feed(&mut self, input: &Input, surroundings: &Surroundings) {
+    fn feed(&mut self, input: Input, surroundings: &Surroundings) {
+        self.call(Call::Input(input.clone()), &input, surroundings);
+    }
+
+    /// Calls the robot's node, which hands its software this input.
+    fn call(&mut self, call: Call, input: &Input, surroundings: &Surroundings) {
         let Local {
-            robot,
-            agent: Some(agent),
-            failed: false,
+            node,
             clock,
             history,
             ..
-        } = &mut self.local
-        else {
+        } = &mut self.local;
+        if !node.runs() {
             return;
-        };
+        }
         let model = &surroundings.model;
-        let Some(member) = model.members.get(robot.index()) else {
-            return;
+        let robot = node.id();
+        let mut wire = Wire {
+            robot,
+            fleet: &surroundings.fleet,
+            sent: &mut self.sent,
+            events: &mut self.events,
+            motions: &mut self.motions,
+            workspace: Workspace::default(),
         };
+        *history = fingerprint(&format!("{history:x} {clock} {input:?}"));
         let now = surroundings.time(*clock);
-        let view = View {
-            id: *robot,
-            now,
-            estimate: Estimate {
-                at: now,
-                pose: member.pose,
-                ..Estimate::default()
-            },
-            body: member.body,
+        let estimate = Estimate {
+            pose: model.members[robot.index()].pose,
+            ..Estimate::default()
+        };
+        let snapshot = Snapshot {
+            hardware: &surroundings.hardware[robot.index()],
             sensors: Sensors::default(),
             fleet: &surroundings.fleet,
             way_points: &model.way_points,
             obstacles: &model.obstacles,
         };
-        *history = fingerprint(&format!("{history:x} {clock} {input:?}"));
-        let mut effects = Effects::default();
-        agent.handle(input, &view, &mut effects);
-        for effect in effects.list {
-            self.carry_out(effect, surroundings);
+        node.locate(now, estimate, &mut wire);
+        node.handle(now, call, &snapshot, &mut wire);
+    }
+}
+
+/// Where a robot's node leaves what comes of a turn.
+struct Wire<'a> {
+    robot: RobotId,
+    fleet: &'a [RobotId],
+    sent: &'a mut Vec<Datagram>,
+    events: &'a mut Vec<Event>,
+    motions: &'a mut u64,
+    workspace: Workspace,
+}
+
+impl Outlet for Wire<'_> {
+    fn workspace(&mut self) -> &mut Workspace {
+        &mut self.workspace
+    }
+
+    /// Robots stand still and know where; datagrams are told of by the network.
+    fn record(&mut self, _: Time, event: Event) {
+        if !matches!(event, Event::Estimated(_) | Event::Sent { .. }) {
+            self.events.push(event);
         }
     }
 
-    fn carry_out(&mut self, effect: Effect, surroundings: &Surroundings) {
-        match effect {
-            Effect::Transmit {
-                destination,
-                port,
-                payload,
-            } => {
-                let from = self.local.robot;
-                let is_meant = |to: &RobotId| match destination {
-                    Destination::All => *to != from,
-                    Destination::Robot(robot) => *to == robot,
-                };
-                let receivers = surroundings.fleet.iter().copied().filter(is_meant);
-                self.sent.extend(receivers.map(|to| Datagram {
-                    from,
-                    to,
-                    port,
-                    payload: payload.to_vec(),
-                }));
-            }
-            Effect::SetTimer { key, after } => {
-                let due = surroundings.due(self.local.clock, after);
-                self.local.timers.insert(key, due);
-            }
-            Effect::CancelTimer(key) => {
-                self.local.timers.remove(&key);
-            }
-            Effect::Move(_) => self.motions += 1,
-            Effect::Record(event) => self.events.push(event),
-            Effect::Finish => {
-                if !std::mem::replace(&mut self.local.finished, true) {
-                    self.events.push(Event::Finished);
-                }
-            }
-            Effect::Fail(reason) => {
-                self.local.failed = true;
-                self.events.push(Event::Failed(reason));
-            }
-        }
+    fn transmit(&mut self, _: Time, datagram: starl_host::Datagram) {
+        let starl_host::Datagram {
+            destination,
+            message,
+            ..
+        } = datagram;
+        let is_meant = |to: &RobotId| match destination {
+            Destination::All => *to != self.robot,
+            Destination::Robot(robot) => *to == robot,
+        };
+        let receivers = self.fleet.iter().copied().filter(is_meant);
+        self.sent.extend(receivers.map(|to| Datagram {
+            from: message.from,
+            to,
+            port: message.port,
+            payload: message.payload.to_vec(),
+        }));
+    }
+
+    fn plan(&mut self, _: Time, _: PlanJob) {
+        *self.motions += 1;
+    }
+
+    fn neighbours(&mut self, _: f64, _: &mut Vec<Neighbour>) {}
+
+    fn request_motion(&mut self, _: Time, _: &MotionRequest) {
+        *self.motions += 1;
     }
 }

@@ -128,9 +128,9 @@ impl Robots {
         let peer = RobotId(code.which());
         match code.kind() {
             Kind::Timer => {
-                let mut armed = self.states[local as usize].timers.keys();
-                match armed.nth(code.which() as usize) {
-                    Some(key) => Happening::Timer(*key),
+                let armed = self.states[local as usize].timers(&self.surroundings);
+                match armed.get(code.which() as usize) {
+                    Some((key, _)) => Happening::Timer(*key),
                     None => unreachable!("only timers that are armed fire"),
                 }
             }
@@ -149,7 +149,7 @@ impl Robots {
     /// Gives all that has come of a turn its numbers.
     pub(crate) fn enter(&mut self, turn: crate::robot::Turn) -> Outcome {
         self.motions += turn.motions;
-        let robot = turn.local.robot;
+        let robot = turn.local.robot();
         let begin = self.sent.len();
         for datagram in turn.sent {
             let number = self.number_of(datagram);
@@ -167,7 +167,7 @@ impl Robots {
     /// The number of a robot's state.
     pub fn number(&mut self, local: Local) -> u32 {
         let mut text = String::new();
-        local.write(&mut text);
+        local.write(&self.surroundings, &mut text);
         let (number, is_new) = self.texts.insert(&text);
         if is_new {
             self.states.push(local);

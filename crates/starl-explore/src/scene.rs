@@ -35,19 +35,19 @@ impl<'a> Scene<'a> {
     /// What a robot's program shows ([`starl_core::Program::inspect`]); none of a robot that is down.
     pub fn program(&self, robot: RobotId) -> Option<&'a dyn Any> {
         let local = *self.locals.get(robot.index())?;
-        local.agent.as_ref()?.program().inspect()
+        local.is_up().then(|| local.node.program().inspect())?
     }
 
     /// Whether a robot is up.
     pub fn is_up(&self, robot: RobotId) -> bool {
         let local = self.locals.get(robot.index());
-        local.is_some_and(|local| local.agent.is_some())
+        local.is_some_and(|local| local.is_up())
     }
 
     /// Whether a robot is up and its program has reached its goal.
     pub fn has_finished(&self, robot: RobotId) -> bool {
         let local = self.locals.get(robot.index());
-        local.is_some_and(|local| local.runs() && local.finished)
+        local.is_some_and(|local| local.node.condition().has_finished())
     }
 
     /// Where a robot stands.

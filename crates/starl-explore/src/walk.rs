@@ -98,10 +98,9 @@ impl Walk {
             Step::Activate(robot) => vec![self.turn(*robot, Happening::Activate)?],
             Step::Timer(robot, key) => {
                 let local = self.running(*robot)?;
-                let silent = &self.surroundings.model.silent;
-                let mut armed = local.timers.keys();
-                let place = armed.position(|armed| armed == key);
-                let ready = ready(local, self.bounds.clocks, |port| silent.contains(&port));
+                let mut armed = local.timers(&self.surroundings).into_iter();
+                let place = armed.position(|(armed, _)| armed == *key);
+                let ready = ready(local, &self.surroundings);
                 if !place.is_some_and(|place| ready.contains(&(place as u32))) {
                     return Err(Impossible("the timer cannot fire".into()));
                 }
@@ -175,11 +174,8 @@ impl Walk {
     /// Robots that wait for ever, if nothing can happen any more in this state. Whether something can is
     /// for the search to say.
     pub fn stuck(&self) -> Option<Violation> {
-        let waiting = self
-            .locals
-            .iter()
-            .filter(|local| local.runs() && !local.finished);
-        crate::stuck(waiting.map(|local| local.robot).collect(), Time::ZERO)
+        let waiting = self.locals.iter().filter(|local| local.is_waiting());
+        crate::stuck(waiting.map(|local| local.robot()).collect(), Time::ZERO)
     }
 
     /// Where records of this step are in time.
@@ -194,9 +190,9 @@ impl Walk {
 
     fn running(&self, robot: RobotId) -> Result<&Local, Impossible> {
         let local = self.local(robot)?;
-        match local.agent {
-            Some(_) => Ok(local),
-            None => Err(Impossible(format!("robot {robot} is down"))),
+        match local.is_up() {
+            true => Ok(local),
+            false => Err(Impossible(format!("robot {robot} is down"))),
         }
     }
 
@@ -207,9 +203,9 @@ impl Walk {
 
     fn restart(&self, robot: RobotId) -> Result<Turn, Impossible> {
         let local = self.local(robot)?;
-        match local.agent {
-            None => Ok(local.turn(&Happening::Restart, &self.surroundings)),
-            Some(_) => Err(Impossible(format!("robot {robot} is not down"))),
+        match local.is_up() {
+            false => Ok(local.turn(&Happening::Restart, &self.surroundings)),
+            true => Err(Impossible(format!("robot {robot} is not down"))),
         }
     }
 
@@ -218,7 +214,7 @@ impl Walk {
         let Clocks::Ticking { ticks, .. } = self.bounds.clocks else {
             return Err(Impossible("clocks stand still".into()));
         };
-        if local.is_due(&self.surroundings.model.silent) || local.clock >= u64::from(ticks) {
+        if local.is_due(&self.surroundings) || local.clock >= u64::from(ticks) {
             return Err(Impossible(format!(
                 "the clock of robot {robot} cannot tick"
             )));
@@ -294,7 +290,7 @@ impl Walk {
         let mut violations = Vec::new();
         let at = self.at();
         for turn in turns {
-            let robot = turn.local.robot;
+            let robot = turn.local.robot();
             self.locals[robot.index()] = turn.local;
             let ticks = self.locals.iter().map(|local| local.clock).max();
             let now = self.surroundings.time(ticks.unwrap_or_default());

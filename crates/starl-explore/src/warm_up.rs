@@ -7,7 +7,6 @@ use crate::bounds::Clocks;
 use crate::expand::ready;
 use crate::step::Step;
 use crate::walk::{Impossible, Moment, Walk};
-use starl_core::TimerKey;
 
 /// Robots that are never silent are not waited for any longer than for so many steps.
 const LONGEST: usize = 10_000;
@@ -40,13 +39,12 @@ impl Walk {
         let Clocks::Ticking { skew, .. } = self.bounds.clocks else {
             return None;
         };
-        let silent = &self.surroundings.model.silent;
         for local in &self.locals {
-            let ready = ready(local, self.bounds.clocks, |port| silent.contains(&port));
-            let mut armed = local.timers.keys();
-            let first = ready.first().and_then(|&place| armed.nth(place as usize));
-            if let Some(&key) = first.filter(|_: &&TimerKey| local.runs()) {
-                return Some(Step::Timer(local.robot, key));
+            let ready = ready(local, &self.surroundings);
+            let armed = local.timers(&self.surroundings);
+            let first = ready.first().map(|&place| armed[place as usize].0);
+            if let Some(key) = first.filter(|_| local.runs()) {
+                return Some(Step::Timer(local.robot(), key));
             }
         }
         if skew > 0 {
@@ -56,7 +54,7 @@ impl Walk {
                 return None;
             }
             *ticks -= u16::from(!is_ahead);
-            return Some(Step::Tick(slowest.robot));
+            return Some(Step::Tick(slowest.robot()));
         }
         *ticks = ticks.checked_sub(1)?;
         Some(Step::TickAll)

@@ -1,106 +1,89 @@
 //! What the simulator keeps of one robot apart from its physical state.
 
-use super::timers::Timers;
 use starl_core::event::Hit;
 use starl_core::motion::{Obstacles, Path};
 use starl_core::sensor::Contact;
-use starl_core::{Agent, Command, Digest, Duration, Estimate, Message, RobotId, Time};
-use starl_motion::{Neighbour, Pilot};
+use starl_core::{Digest, RobotId, Time};
+use starl_host::{Datagram, Node};
+use starl_motion::Neighbour;
 
-/// One robot's software, clock and knowledge.
+/// One robot's software and what is around it.
 #[derive(Clone)]
 pub struct Mind {
-    pub id: RobotId,
+    pub node: Node,
+    pub senses: Senses,
+    pub account: Account,
     pub group: u32,
-    pub agent: Agent,
-    pub estimate: Estimate,
-    pub pilot: Option<Box<Pilot>>,
-    pub command: Command,
-    pub timers: Timers,
     pub next_estimate: Time,
-    pub next_activation: Time,
     pub next_pose_record: Time,
-    pub clock: Clock,
-    /// Counts datagrams.
-    pub sequence: u32,
-    /// When the radio has sent all that waits.
-    pub radio_free: Time,
-    /// Paths found, to be handed over at the next step.
-    pub plans: Vec<(u32, Option<Path>)>,
-    /// What this robot knows of obstacles, where that differs from what all know.
-    pub knowledge: Option<Box<Knowledge>>,
-    pub contact: Option<Contact>,
-    pub touching: Option<Hit>,
-    pub frozen: Option<Box<Frozen>>,
-    pub condition: Condition,
-    pub digest: Digest,
+    pub motor_stuck: bool,
     pub distance: f64,
-    pub way_points: u32,
 }
 
 impl Mind {
+    /// The robot's number.
+    pub fn id(&self) -> RobotId {
+        self.node.id()
+    }
+
+    /// Whether the robot neither moves nor senses as it should.
+    pub fn is_impaired(&self) -> bool {
+        self.motor_stuck || self.senses.are_frozen
+    }
+
+    /// A crashed robot keeps its body, its clock and its history, and nothing else.
+    pub fn crash(&mut self) {
+        self.node.crash();
+        self.account.plans.clear();
+        self.motor_stuck = false;
+        self.senses.knowledge = None;
+        self.repair_senses();
+    }
+
+    /// Ends that the sensors repeat their last readings.
+    pub fn repair_senses(&mut self) {
+        self.senses.are_frozen = false;
+        self.senses.frozen = None;
+    }
+
     /// What other robots take this one to be: what its positioning says, or where it is if that says
     /// nothing any more.
     pub fn perceived(&self, body: &Neighbour) -> Neighbour {
-        if self.condition.down || self.condition.sensors_frozen {
+        if self.node.condition().down || self.senses.are_frozen {
             return *body;
         }
-        let (position, velocity) = (self.estimate.pose.position, self.estimate.twist.linear);
+        let estimate = self.node.estimate();
         Neighbour {
-            position,
-            velocity,
+            position: estimate.pose.position,
+            velocity: estimate.twist.linear,
             ..*body
         }
     }
 }
 
-/// What state a robot is in, as opposed to where.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Condition {
-    pub started: bool,
-    pub down: bool,
-    pub motor_stuck: bool,
-    pub sensors_frozen: bool,
-    pub finished: bool,
-    pub failed: bool,
+/// What the robot senses of the world.
+#[derive(Clone, Debug, Default)]
+pub struct Senses {
+    /// What this robot knows of obstacles, where that differs from what all know.
+    pub knowledge: Option<Box<Knowledge>>,
+    pub contact: Option<Contact>,
+    pub touching: Option<Hit>,
+    /// Whether sensors and positioning repeat their last readings.
+    pub are_frozen: bool,
+    /// These readings, once they have been taken.
+    pub frozen: Option<Box<Frozen>>,
 }
 
-impl Condition {
-    /// Whether the robot neither moves nor senses as it should.
-    pub fn is_impaired(&self) -> bool {
-        self.motor_stuck || self.sensors_frozen
-    }
-
-    /// Whether the robot is up and its program has reached its goal.
-    pub fn has_finished(&self) -> bool {
-        !self.down && self.finished && !self.failed
-    }
-}
-
-/// A robot's own clock.
-#[derive(Clone, Copy, Debug)]
-pub struct Clock {
-    pub offset: Duration,
-    /// Seconds it counts in a second.
-    pub rate: f64,
-}
-
-impl Clock {
-    /// What the clock shows.
-    pub fn read(&self, now: Time) -> Time {
-        if self.rate == 1.0 {
-            return now + self.offset;
-        }
-        Time((now.0 as f64 * self.rate) as u64) + self.offset
-    }
-
-    /// How long a span of this clock takes.
-    pub fn real(&self, span: Duration) -> Duration {
-        if self.rate == 1.0 {
-            return span;
-        }
-        Duration((span.0 as f64 / self.rate) as u64)
-    }
+/// What the robot has done, and what is still due to it.
+#[derive(Clone, Debug, Default)]
+pub struct Account {
+    pub digest: Digest,
+    /// When the radio has sent all that waits.
+    pub radio_free: Time,
+    /// Jobs of planning that are done, to be handed over at the next step.
+    pub plans: Vec<(u32, Option<Path>)>,
+    /// How many way-points ReachAvoid has reached.
+    pub way_points: u32,
 }
 
 /// Hidden obstacles that a robot has met.
@@ -125,7 +108,5 @@ pub struct Frozen {
 pub struct Outgoing {
     /// When it leaves the robot.
     pub at: Time,
-    pub sequence: u32,
-    pub destination: starl_core::Destination,
-    pub message: Message,
+    pub datagram: Datagram,
 }

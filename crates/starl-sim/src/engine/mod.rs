@@ -2,10 +2,12 @@
 
 mod act;
 mod collide;
+mod discover;
 mod fault;
 mod grid;
 mod inbox;
 mod mind;
+mod outlet;
 mod position;
 mod radio;
 mod record;
@@ -13,7 +15,6 @@ mod sense;
 mod shard;
 mod shared;
 mod simulation;
-mod timers;
 
 pub use fault::timeline;
 pub use record::Tally;

@@ -12,6 +12,7 @@ use crate::scenario::{DelayDistribution, Link};
 use starl_core::event::DropReason;
 use starl_core::geometry::Bounds;
 use starl_core::{Destination, Digest, Duration, Event, Random, RobotId, Time};
+use starl_host::Datagram;
 
 /// One arrival of a datagram of a shard's outbox.
 #[derive(Clone, Copy, Debug)]
@@ -32,9 +33,10 @@ pub fn route(
     posted: &mut Vec<Posted>,
 ) {
     let network = &shared.scenario.network;
-    let from = outgoing.message.from;
+    let Outgoing { at, datagram } = outgoing;
+    let from = datagram.message.from;
     let mut lost = |to, reason| {
-        let sequence = outgoing.sequence;
+        let sequence = datagram.sequence;
         let event = Event::Dropped {
             from,
             to: Some(to),
@@ -42,7 +44,7 @@ pub fn route(
             reason,
         };
         // It may still be in the sender's queue, but its fate is known now.
-        log.record(digest, from, outgoing.at.min(window.to), event);
+        log.record(digest, from, (*at).min(window.to), event);
     };
     let mut offer = |to: RobotId| {
         if network.line_of_sight && occluded(shared, from, to) {
@@ -58,7 +60,7 @@ pub fn route(
             posted.push(Posted {
                 outgoing: index,
                 to,
-                at: outgoing.at + delay,
+                at: *at + delay,
             });
         };
         if !is_random(link) {
@@ -68,7 +70,7 @@ pub fn route(
         let key = [
             u64::from(from.0),
             u64::from(to.0),
-            u64::from(outgoing.sequence),
+            u64::from(datagram.sequence),
         ];
         let mut random = stream(shared.scenario.seed, Stream::Link, &key);
         if random.chance(link.loss) {
@@ -80,7 +82,7 @@ pub fn route(
             arrive(delay(link, &mut random));
         }
     };
-    match (outgoing.destination, network.range) {
+    match (datagram.destination, network.range) {
         (Destination::Robot(to), range) => {
             let exists = to.index() < shared.bodies.len();
             if exists && range.is_none_or(|range| apart(shared, from, to) <= range) {
@@ -127,9 +129,9 @@ pub fn post(
         let transmission = match pages.iter().find(|page| page.0 == steps) {
             Some(page) => page.1,
             None => {
-                let Outgoing {
+                let Datagram {
                     sequence, message, ..
-                } = &outbox[at_hand as usize];
+                } = &outbox[at_hand as usize].datagram;
                 let index = calendar.add_transmission(
                     steps,
                     Transmission {

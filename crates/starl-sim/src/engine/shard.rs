@@ -6,14 +6,15 @@ use super::act::Turn;
 use super::collide;
 use super::inbox::Delivery;
 use super::mind::{Mind, Outgoing};
+use super::outlet::Desk;
 use super::radio::{self, Posted};
 use super::record::Log;
 use super::sense::Readings;
 use super::shared::{Shared, Window};
-use starl_core::effect::Effects;
 use starl_core::event::Hit;
 use starl_core::sensor::Contact;
 use starl_core::{Command, Event, Point, RobotId, math};
+use starl_host::Workspace;
 use starl_motion::{Impact, Neighbour, State};
 
 /// How many robots a shard holds.
@@ -35,10 +36,9 @@ pub struct Shard {
 /// Room for work, used over and over.
 #[derive(Clone, Default)]
 pub struct Scratch {
-    pub effects: Effects,
+    pub workspace: Workspace,
     pub readings: Readings,
     pub arrivals: Vec<Delivery>,
-    pub neighbours: Vec<Neighbour>,
 }
 
 impl Shard {
@@ -57,26 +57,35 @@ impl Shard {
         for (index, mind) in self.minds.iter_mut().enumerate() {
             let kind = &shared.kinds[mind.group as usize];
             let state = &self.states[index];
-            let mut turn = Turn {
+            let scratch = &mut self.scratch;
+            let desk = Desk {
+                robot: mind.id(),
                 shared,
                 kind,
-                window,
                 state,
-                mind,
+                account: &mut mind.account,
                 outbox: &mut self.outbox,
                 log: &mut self.log,
-                scratch: &mut self.scratch,
-                sensed: false,
+                workspace: &mut scratch.workspace,
             };
-            turn.run();
-            let command = if mind.condition.down {
+            let mut turn = Turn {
+                window,
+                node: &mut mind.node,
+                next_estimate: &mut mind.next_estimate,
+                senses: &mut mind.senses,
+                readings: &mut scratch.readings,
+                sensed: false,
+                desk,
+            };
+            turn.run(&mut scratch.arrivals);
+            let command = if mind.node.condition().down {
                 kind.at_a_loss
-            } else if mind.condition.motor_stuck {
+            } else if mind.motor_stuck {
                 Command::Stop
             } else {
-                mind.command
+                mind.node.command()
             };
-            let disturbance = shared.disturbance(mind.id, window.from);
+            let disturbance = shared.disturbance(mind.id(), window.from);
             let elapsed = shared.scenario.physics.step;
             let predicted = kind.model.predict(state, &command, &disturbance, elapsed);
             next[index] = predicted.pose.position;
@@ -109,35 +118,37 @@ impl Shard {
         for (index, mind) in self.minds.iter_mut().enumerate() {
             let (state, body) = (&mut self.states[index], &mut bodies[index]);
             let kind = &shared.kinds[mind.group as usize];
-            let hit = hits.get(mind.id.index()).copied().flatten();
-            let direction = hit.map(|hit| collide::direction(shared, mind.id, hit));
+            let hit = hits.get(mind.id().index()).copied().flatten();
+            let direction = hit.map(|hit| collide::direction(shared, mind.id(), hit));
             let impact = direction.map(|direction| Impact { direction });
             kind.model.update(state, &self.predicted[index], impact);
-            let before = shared.bodies[mind.id.index()].position;
+            let before = shared.bodies[mind.id().index()].position;
             mind.distance += state.pose.position.distance(before);
             body.position = state.pose.position;
             body.velocity = state.twist.linear;
             if let Some(seen) = perceived.get_mut(index) {
                 *seen = mind.perceived(body);
             }
-            mind.contact = direction.map(|direction| Contact {
+            mind.senses.contact = direction.map(|direction| Contact {
                 bearing: math::wrap_angle(direction.heading() - state.pose.yaw),
             });
-            if hit != mind.touching {
-                mind.touching = hit;
+            if hit != mind.senses.touching {
+                mind.senses.touching = hit;
                 if let Some(with) = hit {
                     let event = Event::Collided { with };
-                    self.log.record(&mut mind.digest, mind.id, window.to, event);
+                    let digest = &mut mind.account.digest;
+                    self.log.record(digest, mind.node.id(), window.to, event);
                     // Two robots that meet are one collision, not two.
                     let counted_there = matches!(with, Hit::Robot(other)
-                        if other < mind.id && hits[other.index()] == Some(Hit::Robot(mind.id)));
+                        if other < mind.id() && hits[other.index()] == Some(Hit::Robot(mind.id())));
                     self.log.tally.collisions += u64::from(!counted_there);
                 }
             }
             if mind.next_pose_record <= window.to {
                 mind.next_pose_record += shared.scenario.trace.pose_period;
                 let event = Event::Moved(state.pose);
-                self.log.record(&mut mind.digest, mind.id, window.to, event);
+                let digest = &mut mind.account.digest;
+                self.log.record(digest, mind.node.id(), window.to, event);
             }
         }
     }
@@ -146,8 +157,8 @@ impl Shard {
     pub fn route(&mut self, shared: &Shared, window: Window) {
         self.posted.clear();
         for (index, outgoing) in self.outbox.iter().enumerate() {
-            let sender = (outgoing.message.from.0 - self.first) as usize;
-            let digest = &mut self.minds[sender].digest;
+            let sender = (outgoing.datagram.message.from.0 - self.first) as usize;
+            let digest = &mut self.minds[sender].account.digest;
             radio::route(
                 shared,
                 window,

@@ -4,8 +4,9 @@ use super::grid::Grid;
 use super::inbox::Inboxes;
 use crate::scenario::{Scenario, SensorSuite};
 use starl_core::geometry::ObstacleIndex;
-use starl_core::motion::{Body, Obstacles};
-use starl_core::{Command, Duration, Point, Program, RobotId, Time};
+use starl_core::motion::Obstacles;
+use starl_core::{Command, Point, Program, RobotId, Time};
+use starl_host::Hardware;
 use starl_motion::{Disturbance, Model, Neighbour};
 use std::sync::Arc;
 
@@ -24,10 +25,9 @@ pub struct Kind {
     /// A fresh program.
     pub program: Box<dyn Program>,
     pub model: Arc<dyn Model>,
-    pub body: Body,
+    pub hardware: Hardware,
     /// What the body does when nobody commands it.
     pub at_a_loss: Command,
-    pub control_period: Duration,
     pub sensors: SensorSuite,
 }
 

@@ -2,11 +2,10 @@
 
 use super::fault;
 use super::inbox::Calendar;
-use super::mind::{Clock, Condition, Mind};
+use super::mind::{Account, Mind, Senses};
 use super::record::Tally;
 use super::shard::{SIZE, Shard};
 use super::shared::{Kind, Shared, Window};
-use super::timers::Timers;
 use super::{Stream, collide, radio, stream};
 use crate::scenario::{Fault, FaultKind, Group, Scenario};
 use starl_core::event::Hit;
@@ -14,7 +13,10 @@ use starl_core::geometry::ObstacleIndex;
 use starl_core::motion::Obstacles;
 use starl_core::{
     Agent, Command, Digest, Duration, Estimate, Event, Point, Program, Record, RobotId, Time, math,
+    random,
 };
+use starl_host::hardware::Drive;
+use starl_host::{Clock, Hardware, Node};
 use starl_motion::{Neighbour, State};
 use std::sync::Arc;
 
@@ -295,33 +297,31 @@ impl Simulation {
             let shard = &mut self.shards[robot.index() / SIZE];
             let mind = &mut shard.minds[robot.index() % SIZE];
             let event = Event::Fault(fault::name(kind).into());
-            shard.log.record(&mut mind.digest, robot, at, event);
-            self.impaired -= usize::from(mind.condition.is_impaired());
+            shard.log.record(&mut mind.account.digest, robot, at, event);
+            self.impaired -= usize::from(mind.is_impaired());
             match kind {
-                FaultKind::Crash(_) => crash(mind),
-                FaultKind::Restart(_) if mind.condition.down => {
+                FaultKind::Crash(_) => mind.crash(),
+                FaultKind::Restart(_) if mind.node.condition().down => {
                     let program = self.shared.kinds[mind.group as usize].program.clone();
                     let key = [u64::from(robot.0), at.0];
-                    mind.agent = Agent::new(program, stream(seed, Stream::Program, &key));
-                    mind.condition.down = false;
-                    mind.next_activation = at;
+                    let agent = Agent::new(program, stream(seed, Stream::Program, &key));
+                    mind.node.restart(at, agent);
                     mind.next_estimate = at;
                 }
-                FaultKind::StuckMotor(_) => mind.condition.motor_stuck = true,
-                FaultKind::FrozenSensor(_) => mind.condition.sensors_frozen = true,
+                FaultKind::StuckMotor(_) => mind.motor_stuck = true,
+                FaultKind::FrozenSensor(_) => mind.senses.are_frozen = true,
                 FaultKind::Repair(_) => {
-                    mind.condition.motor_stuck = false;
-                    mind.condition.sensors_frozen = false;
-                    mind.frozen = None;
+                    mind.motor_stuck = false;
+                    mind.repair_senses();
                 }
                 FaultKind::CorruptState(_) => {
                     let key = [u64::from(robot.0), at.0];
-                    mind.agent
+                    mind.node
                         .corrupt(&mut stream(seed, Stream::Corruption, &key));
                 }
                 _ => {}
             }
-            self.impaired += usize::from(mind.condition.is_impaired());
+            self.impaired += usize::from(mind.is_impaired());
         }
     }
 
@@ -374,7 +374,7 @@ impl Simulation {
     fn forget_vanished(&mut self) {
         let shared = &self.shared;
         for mind in self.shards.iter_mut().flat_map(|shard| &mut shard.minds) {
-            if let Some(knowledge) = &mut mind.knowledge {
+            if let Some(knowledge) = &mut mind.senses.knowledge {
                 let met = |index: &u32| shared.standing.binary_search(index).ok();
                 knowledge.met.retain(|index| met(index).is_some());
                 let extra = knowledge.met.iter().filter_map(met);
@@ -394,14 +394,14 @@ impl Simulation {
     pub fn digest(&self) -> Digest {
         let mut digest = self.world_digest;
         for mind in self.minds() {
-            digest.word(mind.digest.value());
+            digest.word(mind.account.digest.value());
         }
         digest
     }
 
     /// The hash of all that has happened to one robot, to find out where two runs part.
     pub fn robot_digest(&self, robot: RobotId) -> Digest {
-        self.mind(robot).digest
+        self.mind(robot).account.digest
     }
 
     /// Counts of what has happened so far.
@@ -417,7 +417,7 @@ impl Simulation {
     pub fn progress(&self) -> Progress {
         let mut progress = Progress::default();
         for mind in self.minds() {
-            let condition = &mind.condition;
+            let condition = mind.node.condition();
             if !condition.down {
                 progress.up += 1;
                 progress.finished += usize::from(condition.has_finished());
@@ -434,7 +434,7 @@ impl Simulation {
 
     /// What a robot believes of its state.
     pub fn estimate(&self, robot: RobotId) -> &Estimate {
-        &self.mind(robot).estimate
+        self.mind(robot).node.estimate()
     }
 
     /// The obstacles that stand and that all robots know of.
@@ -444,7 +444,7 @@ impl Simulation {
 
     /// What a robot runs.
     pub fn program(&self, robot: RobotId) -> &dyn Program {
-        self.mind(robot).agent.program()
+        self.mind(robot).node.program()
     }
 
     /// The group of a robot, by its place in the fleet.
@@ -454,12 +454,12 @@ impl Simulation {
 
     /// Whether a robot has not crashed, or has restarted since.
     pub fn is_up(&self, robot: RobotId) -> bool {
-        !self.mind(robot).condition.down
+        !self.mind(robot).node.condition().down
     }
 
     /// Whether a robot is up and its program has reached its goal.
     pub fn has_finished(&self, robot: RobotId) -> bool {
-        self.mind(robot).condition.has_finished()
+        self.mind(robot).node.condition().has_finished()
     }
 
     /// How far a robot has come along its path, metres.
@@ -469,7 +469,7 @@ impl Simulation {
 
     /// How many way-points a robot's ReachAvoid has reached.
     pub fn way_points(&self, robot: RobotId) -> u32 {
-        self.mind(robot).way_points
+        self.mind(robot).account.way_points
     }
 
     /// All robots.
@@ -496,10 +496,18 @@ fn kinds(scenario: &Scenario, programs: &Programs<'_>) -> Result<Vec<Kind>, Star
         let lands = model.accepts(&Command::Land);
         Ok(Kind {
             program,
-            body: model.body(),
+            hardware: Hardware {
+                body: model.body(),
+                control_period: group.control_period,
+                drive: Some(Drive {
+                    model: model.clone(),
+                    avoidance: scenario.motion.avoidance.clone(),
+                    position_error: scenario.positioning.position_noise,
+                    seed: random::hash_key(scenario.seed, &[Stream::Pilot as u64]),
+                }),
+            },
             at_a_loss: if lands { Command::Land } else { Command::Stop },
             model,
-            control_period: group.control_period,
             sensors: group.sensors,
         })
     };
@@ -522,8 +530,8 @@ fn populate(shared: &mut Shared) -> Vec<Shard> {
         let body = Neighbour {
             position: state.pose.position,
             velocity: Point::ZERO,
-            radius: kind.body.radius,
-            height: kind.body.height,
+            radius: kind.hardware.body.radius,
+            height: kind.hardware.body.height,
         };
         shared.bodies.push(body);
         if scenario.motion.avoidance.is_some() {
@@ -560,43 +568,20 @@ fn mind(scenario: &Scenario, id: RobotId, group: usize, kind: &Kind) -> Mind {
         rate: 1.0 + draw.between(-bounds.drift_ppm, bounds.drift_ppm) * 1e-6,
     };
     Mind {
-        id,
+        node: Node::new(
+            id,
+            clock,
+            Agent::new(kind.program.clone(), random),
+            Time::ZERO,
+        ),
+        senses: Senses::default(),
+        account: Account::default(),
         group: group as u32,
-        agent: Agent::new(kind.program.clone(), random),
-        estimate: Estimate::default(),
-        pilot: None,
-        command: Command::Stop,
-        timers: Timers::default(),
         next_estimate: Time::ZERO + scenario.positioning.period,
-        next_activation: Time::ZERO,
         next_pose_record: Time::ZERO + scenario.trace.pose_period,
-        clock,
-        sequence: 0,
-        radio_free: Time::ZERO,
-        plans: Vec::new(),
-        knowledge: None,
-        contact: None,
-        touching: None,
-        frozen: None,
-        condition: Condition::default(),
-        digest: Digest::default(),
+        motor_stuck: false,
         distance: 0.0,
-        way_points: 0,
     }
-}
-
-/// A crashed robot keeps its body, its clock and its history, and nothing else.
-fn crash(mind: &mut Mind) {
-    mind.condition = Condition {
-        down: true,
-        ..Condition::default()
-    };
-    mind.pilot = None;
-    mind.command = Command::Stop;
-    mind.timers.clear();
-    mind.plans.clear();
-    mind.knowledge = None;
-    mind.frozen = None;
 }
 
 /// The air's velocity.

@@ -3,7 +3,7 @@
 use smallvec::SmallVec;
 use starl_core::{Time, TimerKey};
 
-/// Timers by the simulator's time; those due first are last, ready to be taken. Most robots have one.
+/// Timers by the host's time; those due first are last, ready to be taken. Most robots have one.
 #[derive(Clone, Debug, Default)]
 pub struct Timers(SmallVec<[(Time, TimerKey); 1]>);
 
@@ -25,13 +25,18 @@ impl Timers {
         self.0.clear();
     }
 
-    /// When the next one is due.
+    /// When the next one is due; [`Time::NEVER`] if none is armed.
     pub fn next(&self) -> Time {
         self.0.last().map_or(Time::NEVER, |&(at, _)| at)
     }
 
-    /// Takes the one that is due next.
+    /// Takes the one that is due next: of those due at one moment, the one with the smallest key.
     pub fn take(&mut self) -> Option<TimerKey> {
         self.0.pop().map(|(_, key)| key)
+    }
+
+    /// All armed timers with the moments at which they are due, the next one first.
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = (Time, TimerKey)> {
+        self.0.iter().rev().copied()
     }
 }

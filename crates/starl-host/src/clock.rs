@@ -1,0 +1,40 @@
+//! A robot's own clock, which may be ahead of the host's and may run at another rate.
+
+use starl_core::{Duration, Time};
+
+/// Turns the host's time into the robot's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clock {
+    /// How far the clock was ahead when the host's showed 0.
+    pub offset: Duration,
+    /// Seconds it counts in a second of the host's clock.
+    pub rate: f64,
+}
+
+impl Default for Clock {
+    /// The host's clock itself.
+    fn default() -> Clock {
+        Clock {
+            offset: Duration::ZERO,
+            rate: 1.0,
+        }
+    }
+}
+
+impl Clock {
+    /// The time that the clock shows at a moment of the host's.
+    pub fn read(&self, now: Time) -> Time {
+        if self.rate == 1.0 {
+            return now + self.offset;
+        }
+        Time((now.0 as f64 * self.rate) as u64) + self.offset
+    }
+
+    /// How long a span of this clock takes by the host's.
+    pub fn real(&self, span: Duration) -> Duration {
+        if self.rate == 1.0 {
+            return span;
+        }
+        Duration((span.0 as f64 / self.rate) as u64)
+    }
+}

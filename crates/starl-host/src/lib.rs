@@ -1,0 +1,22 @@
+//! One robot's node: everything that a host does around a robot's software.
+//!
+//! A [`Node`] owns the robot's agent, timers, clock, condition, pilot, pending plans and sequence
+//! numbers. The host hands it what happens ([`Node::handle`]) and asks when it wants to be called next
+//! ([`Node::next_timeout`]); the node answers through an [`Outlet`]. It touches no clock, socket, thread
+//! or file, so the simulator, the state explorer, tests and real robots run the same node, and a robot
+//! behaves alike on all of them. The shape follows quinn-proto's `Connection`.
+
+#![no_std]
+extern crate alloc;
+
+pub mod clock;
+pub mod hardware;
+pub mod node;
+pub mod outlet;
+pub mod timers;
+
+pub use clock::Clock;
+pub use hardware::{Hardware, Snapshot};
+pub use node::{Condition, Happening, Node};
+pub use outlet::{Datagram, Outlet, PlanJob, Workspace};
+pub use timers::Timers;

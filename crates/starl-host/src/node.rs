@@ -1,0 +1,373 @@
+//! The node itself: what happens to a robot, and in which order its software hears of it.
+
+use crate::{Clock, Datagram, Outlet, Snapshot, Timers};
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use core::mem;
+use starl_core::event::DropReason;
+use starl_core::motion::Path;
+use starl_core::{
+    Agent, Command, Duration, Effect, Estimate, Event, Input, Message, Program, Random, RobotId,
+    Time, View,
+};
+use starl_motion::Pilot;
+
+mod driving;
+
+/// Timers are never shorter, so that a moment holds only so many of them.
+const SHORTEST_TIMER: Duration = Duration::from_millis(1);
+
+/// The node of one robot. A clone goes on exactly as the original would.
+#[derive(Clone)]
+pub struct Node {
+    id: RobotId,
+    agent: Agent,
+    clock: Clock,
+    condition: Condition,
+    /// Since when the robot is up, or when it is to start.
+    up_since: Time,
+    next_activation: Time,
+    timers: Timers,
+    estimate: Estimate,
+    command: Command,
+    pilot: Option<Box<Pilot>>,
+    /// Plans that are being made: the node's number of each, and the program's.
+    plans: Vec<(u32, u32)>,
+    next_job: u32,
+    /// Counts datagrams.
+    sequence: u32,
+}
+
+/// Whether a robot's software runs, and how far it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Condition {
+    /// It has been started in its present life.
+    pub started: bool,
+    /// It has crashed and has not restarted since.
+    pub down: bool,
+    /// Its program has reached its goal. It still answers.
+    pub finished: bool,
+    /// Its program cannot go on, and is not called any more.
+    pub failed: bool,
+}
+
+impl Condition {
+    /// Whether the robot is up and its program has reached its goal.
+    pub fn has_finished(&self) -> bool {
+        !self.down && self.finished && !self.failed
+    }
+}
+
+/// Something that happens to a robot.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Happening {
+    /// The robot's software starts. Due once in each life, at [`Node::next_timeout`].
+    Start,
+    /// The estimate given by [`Node::locate`] is new.
+    Located,
+    /// A datagram arrives.
+    Datagram {
+        /// The sender's number for it.
+        sequence: u32,
+        /// Sender, endpoint and content.
+        message: Message,
+    },
+    /// A [`crate::PlanJob`] is done.
+    Planned {
+        /// Which one. A job of an earlier life is ignored.
+        job: u32,
+        /// Way-points from the robot to the target; none where no path was found.
+        path: Option<Path>,
+    },
+    /// The time that [`Node::next_timeout`] gave has come.
+    Timeout,
+    /// An input that the host chooses itself, for hosts that try out orders: a timer fires early, the
+    /// program is activated, a robot is suspected.
+    Input(Input),
+}
+
+impl Node {
+    /// A node whose robot is up and starts at `at`.
+    pub fn new(id: RobotId, clock: Clock, agent: Agent, at: Time) -> Node {
+        Node {
+            id,
+            agent,
+            clock,
+            condition: Condition::default(),
+            up_since: at,
+            next_activation: at,
+            timers: Timers::default(),
+            estimate: Estimate::default(),
+            command: Command::Stop,
+            pilot: None,
+            plans: Vec::new(),
+            next_job: 0,
+            sequence: 0,
+        }
+    }
+
+    /// The robot's number.
+    pub fn id(&self) -> RobotId {
+        self.id
+    }
+
+    /// The robot's clock.
+    pub fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    /// Whether the robot's software runs.
+    pub fn condition(&self) -> Condition {
+        self.condition
+    }
+
+    /// Whether the robot is up and its program can go on.
+    pub fn runs(&self) -> bool {
+        !self.condition.down && !self.condition.failed
+    }
+
+    /// The program; of a robot that is down as it was at the crash.
+    pub fn program(&self) -> &dyn Program {
+        self.agent.program()
+    }
+
+    /// The robot's software.
+    pub fn agent(&self) -> &Agent {
+        &self.agent
+    }
+
+    /// The latest estimate, in the robot's own time.
+    pub fn estimate(&self) -> &Estimate {
+        &self.estimate
+    }
+
+    /// The command that the robot's model is to follow until the next call.
+    pub fn command(&self) -> Command {
+        self.command
+    }
+
+    /// The armed timers.
+    pub fn timers(&self) -> &Timers {
+        &self.timers
+    }
+
+    /// When the node wants to be called next: with [`Happening::Start`] if it has not started in this life,
+    /// else with [`Happening::Timeout`]. [`Time::NEVER`] if the robot is down or its program has failed.
+    pub fn next_timeout(&self) -> Time {
+        if !self.runs() {
+            Time::NEVER
+        } else if self.condition.started {
+            self.timers.next().min(self.next_activation)
+        } else {
+            self.up_since
+        }
+    }
+
+    /// When the program is activated next; [`Time::NEVER`] if it does not run.
+    pub fn next_activation(&self) -> Time {
+        if self.runs() {
+            self.next_activation
+        } else {
+            Time::NEVER
+        }
+    }
+
+    /// The robot crashes: it forgets everything but its number, its clock and how many datagrams it has sent.
+    pub fn crash(&mut self) {
+        self.condition = Condition {
+            down: true,
+            ..Condition::default()
+        };
+        self.pilot = None;
+        self.command = Command::Stop;
+        self.timers.clear();
+        self.plans.clear();
+    }
+
+    /// A robot that is down comes up again with fresh software, which is to start at `at`.
+    pub fn restart(&mut self, at: Time, agent: Agent) {
+        self.crash();
+        self.agent = agent;
+        self.condition.down = false;
+        self.up_since = at;
+        self.next_activation = at;
+    }
+
+    /// Overwrites the program's state at random: see [`Program::corrupt`].
+    pub fn corrupt(&mut self, random: &mut Random) {
+        self.agent.corrupt(random);
+    }
+
+    /// Gives the robot a new estimate of where it is; its time is that of the robot's own clock. The
+    /// software hears of it by [`Happening::Located`] or [`Happening::Start`].
+    pub fn locate(&mut self, at: Time, estimate: Estimate, outlet: &mut impl Outlet) {
+        self.estimate = Estimate {
+            at: self.clock.read(at),
+            ..estimate
+        };
+        outlet.record(at, Event::Estimated(estimate.pose));
+    }
+
+    /// Lets the robot's software take part in what happens at `at`. Calls come in the order of their times; of
+    /// those at one time a start comes first, then plans, locations, datagrams, timers and the activation.
+    pub fn handle(
+        &mut self,
+        at: Time,
+        happening: Happening,
+        snapshot: &Snapshot<'_>,
+        outlet: &mut impl Outlet,
+    ) {
+        match happening {
+            Happening::Start => {
+                if !self.condition.started && !self.condition.down {
+                    self.condition.started = true;
+                    self.feed(at, &Input::Start, snapshot, outlet);
+                }
+            }
+            Happening::Located => {
+                self.feed(at, &Input::Estimate, snapshot, outlet);
+                self.steer(at, snapshot, outlet);
+            }
+            Happening::Datagram { sequence, message } => {
+                self.receive(at, sequence, message, snapshot, outlet);
+            }
+            Happening::Planned { job, path } => {
+                if let Some(place) = self.plans.iter().position(|plan| plan.0 == job) {
+                    let (_, ticket) = self.plans.remove(place);
+                    self.feed(at, &Input::Planned { ticket, path }, snapshot, outlet);
+                }
+            }
+            Happening::Timeout => self.time_out(at, snapshot, outlet),
+            Happening::Input(input) => {
+                if let Input::Timer(key) = input {
+                    self.timers.cancel(key);
+                }
+                self.feed(at, &input, snapshot, outlet);
+            }
+        }
+    }
+
+    /// The timer that is due, or else the activation.
+    fn time_out(&mut self, at: Time, snapshot: &Snapshot<'_>, outlet: &mut impl Outlet) {
+        let timer = self.timers.next();
+        if timer <= at && timer <= self.next_activation {
+            if let Some(key) = self.timers.take() {
+                self.feed(at, &Input::Timer(key), snapshot, outlet);
+            }
+        } else if self.next_activation <= at {
+            let period = snapshot.hardware.control_period;
+            if period.is_zero() {
+                self.next_activation = Time::NEVER;
+                return;
+            }
+            // Activations that a host is late for by more than a period are left out.
+            let next = self.next_activation + period;
+            self.next_activation = if next > at { next } else { at + period };
+            self.feed(at, &Input::Activate, snapshot, outlet);
+        }
+    }
+
+    /// A datagram that comes before the robot is up is lost.
+    fn receive(
+        &mut self,
+        at: Time,
+        sequence: u32,
+        message: Message,
+        snapshot: &Snapshot<'_>,
+        outlet: &mut impl Outlet,
+    ) {
+        let from = message.from;
+        if self.condition.down || !self.condition.started || at < self.up_since {
+            let event = Event::Dropped {
+                from,
+                to: Some(self.id),
+                sequence,
+                reason: DropReason::Down,
+            };
+            return outlet.record(at, event);
+        }
+        outlet.record(at, Event::Delivered { from, sequence });
+        self.feed(at, &Input::Message(message), snapshot, outlet);
+    }
+
+    /// Hands an input to the robot's software and carries out what it asks for.
+    fn feed(&mut self, at: Time, input: &Input, snapshot: &Snapshot<'_>, outlet: &mut impl Outlet) {
+        if !self.runs() || !self.condition.started {
+            return;
+        }
+        let view = View {
+            id: self.id,
+            now: self.clock.read(at),
+            estimate: self.estimate,
+            body: snapshot.hardware.body,
+            sensors: snapshot.sensors,
+            fleet: snapshot.fleet,
+            way_points: snapshot.way_points,
+            obstacles: snapshot.obstacles,
+        };
+        let mut effects = mem::take(&mut outlet.workspace().effects);
+        self.agent.handle(input, &view, &mut effects);
+        outlet.observe(at, input, &view, &effects.list);
+        let mut list = mem::take(&mut effects.list);
+        outlet.workspace().effects = effects;
+        for effect in list.drain(..) {
+            self.carry_out(at, effect, snapshot, outlet);
+        }
+        outlet.workspace().effects.list = list;
+    }
+
+    fn carry_out(
+        &mut self,
+        at: Time,
+        effect: Effect,
+        snapshot: &Snapshot<'_>,
+        outlet: &mut impl Outlet,
+    ) {
+        match effect {
+            Effect::Transmit {
+                destination,
+                port,
+                payload,
+            } => {
+                let sequence = self.sequence;
+                self.sequence = sequence.wrapping_add(1);
+                let event = Event::Sent {
+                    sequence,
+                    destination,
+                    port,
+                    payload: payload.clone(),
+                };
+                outlet.record(at, event);
+                let message = Message {
+                    from: self.id,
+                    port,
+                    payload,
+                };
+                let datagram = Datagram {
+                    sequence,
+                    destination,
+                    message,
+                };
+                outlet.transmit(at, datagram);
+            }
+            Effect::SetTimer { key, after } => {
+                let after = self.clock.real(after).max(SHORTEST_TIMER);
+                self.timers.set(at + after, key);
+            }
+            Effect::CancelTimer(key) => self.timers.cancel(key),
+            Effect::Move(request) => self.request_motion(at, request, snapshot, outlet),
+            Effect::Record(event) => outlet.record(at, event),
+            Effect::Finish => {
+                if !mem::replace(&mut self.condition.finished, true) {
+                    outlet.record(at, Event::Finished);
+                }
+            }
+            Effect::Fail(reason) => {
+                self.condition.failed = true;
+                self.pilot = None;
+                self.command = Command::Stop;
+                outlet.record(at, Event::Failed(reason));
+            }
+        }
+    }
+}

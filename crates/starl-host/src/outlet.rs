@@ -1,0 +1,97 @@
+//! The host's side of a node: where datagrams, records and requests go.
+
+use crate::Hardware;
+use alloc::vec::Vec;
+use starl_core::effect::Effects;
+use starl_core::motion::{Path, PlanRequest};
+use starl_core::{Destination, Effect, Estimate, Event, Input, Message, MotionRequest, Time, View};
+use starl_motion::{Neighbour, planning};
+
+/// A datagram that a robot hands to the network.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Datagram {
+    /// Counts this robot's datagrams, over restarts too.
+    pub sequence: u32,
+    /// The receivers.
+    pub destination: Destination,
+    /// Sender, endpoint and content.
+    pub message: Message,
+}
+
+/// A path that a node wants. The host finds it, at once or later, and hands it back as
+/// [`crate::Happening::Planned`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanJob {
+    /// Names the job among all jobs of this node.
+    pub job: u32,
+    /// What the program asked for.
+    pub request: PlanRequest,
+    /// Where the robot is.
+    pub estimate: Estimate,
+}
+
+/// Planners that are to go round robots see those this near, metres.
+const SIGHT: f64 = 5.0;
+
+impl PlanJob {
+    /// The distance in metres within which [`PlanJob::run`] needs to be told of neighbours; 0 if it needs none.
+    pub fn sight(&self) -> f64 {
+        if self.request.around_robots {
+            SIGHT
+        } else {
+            0.0
+        }
+    }
+
+    /// Finds the path; none where there is none, or where the robot has no model to plan for.
+    pub fn run(&self, hardware: &Hardware, neighbours: &[Neighbour]) -> Option<Path> {
+        let drive = hardware.drive.as_ref()?;
+        planning::plan_with(
+            &planning::Options::with_accuracy(drive.position_error),
+            &*drive.model,
+            &self.estimate,
+            &self.request,
+            neighbours,
+        )
+    }
+}
+
+/// Memory that a node works in. A host may use one for many nodes; nothing in it makes a difference to
+/// what a node does.
+#[derive(Clone, Debug, Default)]
+pub struct Workspace {
+    /// What the robot's software asks for.
+    pub effects: Effects,
+    /// Robots near the one that acts.
+    pub neighbours: Vec<Neighbour>,
+}
+
+/// What a node asks of its host while it handles something.
+pub trait Outlet {
+    /// The memory to work in. A node takes it and puts it back.
+    fn workspace(&mut self) -> &mut Workspace;
+
+    /// Takes note of an event of this robot.
+    fn record(&mut self, at: Time, event: Event);
+
+    /// Sends a datagram. The node has recorded it as sent; the host records it as dropped if it cannot
+    /// be sent.
+    fn transmit(&mut self, at: Time, datagram: Datagram);
+
+    /// Finds a path for the robot.
+    fn plan(&mut self, at: Time, job: PlanJob);
+
+    /// Collects the robots perceived within `reach` metres of this one.
+    fn neighbours(&mut self, reach: f64, near: &mut Vec<Neighbour>);
+
+    /// Moves a robot that has no [`crate::hardware::Drive`] for the node's pilot. Planning is asked for by
+    /// [`Outlet::plan`].
+    fn request_motion(&mut self, at: Time, request: &MotionRequest) {
+        let _ = (at, request);
+    }
+
+    /// Is shown each input of the robot's software, what the robot knew, and what it asked for.
+    fn observe(&mut self, at: Time, input: &Input, view: &View<'_>, effects: &[Effect]) {
+        let _ = (at, input, view, effects);
+    }
+}

@@ -1,0 +1,105 @@
+//! The simulator's side of a robot's node: the network's entrance, the planner, and the record.
+
+use super::mind::{Account, Outgoing};
+use super::record::Log;
+use super::shared::{Kind, Shared};
+use starl_core::event::DropReason;
+use starl_core::{Duration, Event, RobotId, Time};
+use starl_host::{Datagram, Outlet, PlanJob, Workspace};
+use starl_motion::{Neighbour, State};
+
+/// Bytes that travel with a payload: addresses, port, sequence number and checksum, as in UDP over
+/// IP version 4 over Wi-Fi, rounded.
+const HEADER_BYTES: usize = 64;
+
+/// What one robot's node has to do with in its turn.
+pub struct Desk<'a> {
+    pub robot: RobotId,
+    pub shared: &'a Shared,
+    pub kind: &'a Kind,
+    pub state: &'a State,
+    pub account: &'a mut Account,
+    pub outbox: &'a mut Vec<Outgoing>,
+    pub log: &'a mut Log,
+    pub workspace: &'a mut Workspace,
+}
+
+impl Outlet for Desk<'_> {
+    fn workspace(&mut self) -> &mut Workspace {
+        self.workspace
+    }
+
+    fn record(&mut self, at: Time, event: Event) {
+        if let Event::Primitive {
+            primitive, name, ..
+        } = &event
+        {
+            self.account.way_points += u32::from(primitive == "reach_avoid" && name == "done");
+        }
+        self.log
+            .record(&mut self.account.digest, self.robot, at, event);
+    }
+
+    fn transmit(&mut self, at: Time, datagram: Datagram) {
+        match self.leaves(at, datagram.message.payload.len()) {
+            Ok(at) => self.outbox.push(Outgoing { at, datagram }),
+            Err(reason) => self.record(
+                at,
+                Event::Dropped {
+                    from: self.robot,
+                    to: None,
+                    sequence: datagram.sequence,
+                    reason,
+                },
+            ),
+        }
+    }
+
+    fn plan(&mut self, _: Time, job: PlanJob) {
+        let mut near = std::mem::take(&mut self.workspace.neighbours);
+        near.clear();
+        self.neighbours(job.sight(), &mut near);
+        let path = job.run(&self.kind.hardware, &near);
+        self.workspace.neighbours = near;
+        self.account.plans.push((job.job, path));
+    }
+
+    fn neighbours(&mut self, reach: f64, near: &mut Vec<Neighbour>) {
+        if reach <= 0.0 {
+            return;
+        }
+        let shared = self.shared;
+        let shown = if shared.perceived.is_empty() {
+            &shared.bodies
+        } else {
+            &shared.perceived
+        };
+        shared
+            .grid
+            .for_each_within(self.state.pose.position, reach, |entry| {
+                if entry.robot != self.robot.0 {
+                    near.push(shown[entry.robot as usize]);
+                }
+            });
+    }
+}
+
+impl Desk<'_> {
+    /// When a datagram with this payload leaves the radio, or why it never does.
+    fn leaves(&mut self, at: Time, bytes: usize) -> Result<Time, DropReason> {
+        let network = &self.shared.scenario.network;
+        if bytes > network.largest as usize {
+            return Err(DropReason::Size);
+        }
+        let Some(bandwidth) = network.bandwidth else {
+            return Ok(at);
+        };
+        let begins = self.account.radio_free.max(at);
+        if begins.since(at) > network.queue {
+            return Err(DropReason::Bandwidth);
+        }
+        let bits = ((bytes + HEADER_BYTES) * 8) as f64;
+        self.account.radio_free = begins + Duration::from_seconds_f64(bits / bandwidth);
+        Ok(self.account.radio_free)
+    }
+}
