@@ -43,6 +43,7 @@ impl Agent {
                 program.receive(&mut robot, message);
             }
             Input::Timer(key) if key.port == Port::PROGRAM => program.timer(&mut robot, *key),
+            Input::Order(order) => program.told(&mut robot, order),
             _ => {}
         }
         deliver(program, &mut robot);

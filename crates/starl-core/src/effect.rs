@@ -42,6 +42,11 @@ pub enum Effect {
     Move(MotionRequest),
     /// Write an event into the trace.
     Record(Event),
+    /// Take hold of a thing within reach, by its index among the world's things. Whether it worked shows in
+    /// [`crate::Sensors::holding`].
+    Take(u32),
+    /// Put down what the robot holds.
+    PutDown,
     /// The program has reached its goal. It still answers messages.
     Finish,
     /// The program cannot go on; the text says why. It is not called again.

@@ -110,6 +110,8 @@ pub enum Event {
         /// How.
         text: Name,
     },
+    /// The run is steered from outside. Faults of a schedule are told of by [`Event::Fault`] alone.
+    Intervention(Box<crate::Intervention>),
 }
 
 /// Why a datagram was not delivered.

@@ -1,7 +1,7 @@
 //! The contract of every primitive.
 
 use crate::motion::Path;
-use crate::{Message, Port, Robot, RobotId, TimerKey};
+use crate::{Message, Order, Port, Robot, RobotId, TimerKey};
 use serde::{Deserialize, Serialize};
 
 /// All that can happen to a state machine. What a robot knows at that moment is in its
@@ -31,6 +31,9 @@ pub enum Input {
     Suspected(RobotId),
     /// The program's failure detector trusts a robot again.
     Trusted(RobotId),
+    /// An operator tells the program something, or its way-points have changed
+    /// ([`Order::WAY_POINTS`]).
+    Order(Order),
 }
 
 /// A building block of programs: a pure state machine that answers inputs with effects.

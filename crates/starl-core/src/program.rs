@@ -1,6 +1,6 @@
 //! The contract of a robot's program.
 
-use crate::{Message, Primitive, Random, Robot, TimerKey};
+use crate::{Message, Order, Primitive, Random, Robot, TimerKey};
 use core::any::Any;
 use core::fmt;
 use dyn_clone::DynClone;
@@ -43,6 +43,12 @@ pub trait Program: DynClone + Send + Sync {
     /// Handles a timer that the program armed on [`crate::Port::PROGRAM`].
     fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
         let _ = (robot, key);
+    }
+
+    /// Handles what an operator says, and hears that the way-points have changed
+    /// ([`Order::WAY_POINTS`]).
+    fn told(&mut self, robot: &mut Robot<'_>, order: &Order) {
+        let _ = (robot, order);
     }
 
     /// Shows each primitive that the program owns to `visit`, always in the same order.

@@ -233,6 +233,16 @@ impl<'a> Robot<'a> {
         })));
     }
 
+    /// Takes hold of a thing: [`Effect::Take`].
+    pub fn take(&mut self, thing: u32) {
+        self.push(Effect::Take(thing));
+    }
+
+    /// Puts down what the robot holds.
+    pub fn put_down(&mut self) {
+        self.push(Effect::PutDown);
+    }
+
     /// Says that the program has reached its goal.
     pub fn finish(&mut self) {
         self.push(Effect::Finish);

@@ -1,5 +1,6 @@
 //! What a robot senses, behind one typed interface.
 
+use crate::event::Name;
 use crate::{Point, RobotId};
 
 /// Where something touches the robot's body.
@@ -63,4 +64,8 @@ pub struct Sensors<'a> {
     pub proximity: &'a [Ray],
     /// Things and robots in sight, nearest first.
     pub detections: &'a [Detection],
+    /// The thing that the robot holds, by its index among the world's things.
+    pub holding: Option<u32>,
+    /// The names of the world's things, by index; empty for one that is gone.
+    pub thing_names: &'a [Name],
 }

@@ -357,6 +357,8 @@ impl Node {
             Effect::CancelTimer(key) => self.timers.cancel(key),
             Effect::Move(request) => self.request_motion(at, request, snapshot, outlet),
             Effect::Record(event) => outlet.record(at, event),
+            Effect::Take(thing) => outlet.take(at, thing),
+            Effect::PutDown => outlet.put_down(at),
             Effect::Finish => {
                 if !mem::replace(&mut self.condition.finished, true) {
                     outlet.record(at, Event::Finished);

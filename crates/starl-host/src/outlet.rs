@@ -90,6 +90,16 @@ pub trait Outlet {
         let _ = (at, request);
     }
 
+    /// Takes hold of a thing within the robot's reach, if there is one of this index and nobody holds it.
+    fn take(&mut self, at: Time, thing: u32) {
+        let _ = (at, thing);
+    }
+
+    /// Puts down what the robot holds.
+    fn put_down(&mut self, at: Time) {
+        let _ = at;
+    }
+
     /// Is shown each input of the robot's software, what the robot knew, and what it asked for.
     fn observe(&mut self, at: Time, input: &Input, view: &View<'_>, effects: &[Effect]) {
         let _ = (at, input, view, effects);

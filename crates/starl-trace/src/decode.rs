@@ -9,7 +9,7 @@ use crate::json::from_base64;
 use crate::wire;
 use serde::Deserialize;
 use starl_core::event::{DropReason, Hit, Level, Mark, Name};
-use starl_core::{Destination, Event, Payload, Port, Pose, RobotId};
+use starl_core::{Destination, Event, Intervention, Payload, Port, Pose, RobotId};
 
 /// A decoded message: on which robot, and what happened. The error says what is wrong with it.
 type Decoded = Result<(Option<RobotId>, Event), String>;
@@ -32,6 +32,7 @@ pub(crate) fn event(topic: Topic, text: &[u8]) -> Decoded {
         Topic::Discovered => discovered(text),
         Topic::Status => status(text),
         Topic::Violation => violation(text),
+        Topic::Intervention => intervention(text),
         Topic::Summary => Err("a summary is not an event".into()),
     }
 }
@@ -271,6 +272,22 @@ fn status(text: &[u8]) -> Decoded {
         _ => return Err("needs the status `finished`, or `failed` and a reason".into()),
     };
     Ok((message.robot, event))
+}
+
+fn intervention(text: &[u8]) -> Decoded {
+    #[derive(Deserialize)]
+    struct Message {
+        robot: Option<RobotId>,
+        intervention: Box<Intervention>,
+    }
+    let Message {
+        robot,
+        intervention,
+    } = parse(text)?;
+    if !intervention.is_valid() {
+        return Err("the intervention has a place or shape that no world can have".into());
+    }
+    Ok((robot, Event::Intervention(intervention)))
 }
 
 fn violation(text: &[u8]) -> Decoded {

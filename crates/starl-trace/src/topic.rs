@@ -38,13 +38,15 @@ pub enum Topic {
     Status,
     /// [`Event::Violated`].
     Violation,
+    /// [`Event::Intervention`].
+    Intervention,
     /// How the run ended: [`crate::Summary`], the last record of a whole trace.
     Summary,
 }
 
 impl Topic {
     /// All topics, in the order in which the writer numbers its channels.
-    pub const ALL: [Topic; 16] = [
+    pub const ALL: [Topic; 17] = [
         Topic::Pose,
         Topic::Estimate,
         Topic::Sent,
@@ -60,6 +62,7 @@ impl Topic {
         Topic::Discovered,
         Topic::Status,
         Topic::Violation,
+        Topic::Intervention,
         Topic::Summary,
     ];
 
@@ -81,6 +84,7 @@ impl Topic {
             Topic::Discovered => "/starl/discovered",
             Topic::Status => "/starl/status",
             Topic::Violation => "/starl/violation",
+            Topic::Intervention => "/starl/intervention",
             Topic::Summary => "/starl/summary",
         }
     }
@@ -108,6 +112,7 @@ impl Topic {
             Event::Discovered(_) => Topic::Discovered,
             Event::Finished | Event::Failed(_) => Topic::Status,
             Event::Violated { .. } => Topic::Violation,
+            Event::Intervention(_) => Topic::Intervention,
         }
     }
 }

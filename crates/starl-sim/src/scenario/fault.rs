@@ -1,6 +1,6 @@
 //! What breaks, and when.
 
-use starl_core::{Duration, RobotId, Time};
+use starl_core::{Duration, FaultKind, Time};
 
 /// Faults on a schedule and at random.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,27 +18,6 @@ pub struct Fault {
     pub at: Time,
     /// What it is.
     pub kind: FaultKind,
-}
-
-/// What can break, and what mends it.
-#[derive(Clone, Debug, PartialEq)]
-pub enum FaultKind {
-    /// The robots stop computing, receiving and moving, and lose all state.
-    Crash(Vec<RobotId>),
-    /// Crashed robots start afresh, their programs from the beginning.
-    Restart(Vec<RobotId>),
-    /// Robots in different groups do not hear each other; robots in no group form one more.
-    Partition(Vec<Vec<RobotId>>),
-    /// All partitions end.
-    Heal,
-    /// The motors act as if told to stop, whatever the program commands.
-    StuckMotor(Vec<RobotId>),
-    /// Sensors and positioning repeat their last readings.
-    FrozenSensor(Vec<RobotId>),
-    /// Ends stuck motors and frozen sensors.
-    Repair(Vec<RobotId>),
-    /// The programs' variables are overwritten at random, within their types.
-    CorruptState(Vec<RobotId>),
 }
 
 /// Faults at random, as events per robot and second (partitions: per second); each drawn from the

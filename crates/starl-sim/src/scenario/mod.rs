@@ -8,9 +8,11 @@ mod fleet;
 mod network;
 mod world;
 
-pub use fault::{Fault, FaultKind, FaultRates, Faults};
+pub use fault::{Fault, FaultRates, Faults};
 pub use fleet::{Clock, Detector, Fleet, Group, Parameter, Proximity, SensorSuite};
-pub use network::{DelayDistribution, Link, LinkOverride, Network};
+pub use network::{Link, LinkOverride, Network};
+pub use starl_core::FaultKind;
+pub use starl_core::intervention::DelayDistribution;
 pub use world::{Bounds, Thing, World, WorldObstacle};
 
 use starl_core::{Duration, Point};

@@ -1,5 +1,6 @@
 //! How messages travel.
 
+use starl_core::intervention::DelayDistribution;
 use starl_core::{Duration, RobotId};
 
 /// The simulated network. A datagram is sent once; every robot it could reach receives it, or not,
@@ -39,20 +40,6 @@ pub struct Link {
     pub reordering: f64,
     /// How long it is held back then, on top of its delay; default 50 ms.
     pub reordering_delay: Duration,
-}
-
-/// How delays are distributed around their mean; never below zero.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum DelayDistribution {
-    /// Always the mean; the jitter counts for nothing.
-    Constant,
-    /// Evenly over the mean plus and minus the square root of three times the jitter.
-    Uniform,
-    /// Normal, cut off at zero.
-    #[default]
-    Normal,
-    /// The mean less the jitter, plus an exponential part whose mean is the jitter.
-    Exponential,
 }
 
 /// A set of links that differ from the rest.

@@ -96,6 +96,12 @@ pub(crate) fn event(json: &mut Json, robot: Option<RobotId>, event: &Event) {
             json.key("status").string("failed");
             json.key("reason").string(reason);
         }
+        Event::Intervention(what) => {
+            // Interventions are rare, so that their JSON need not be made in place.
+            let text = serde_json::to_string(what);
+            let text = text.unwrap_or_else(|error| unreachable!("plain data: {error}"));
+            json.key("intervention").raw(&text);
+        }
         Event::Violated { property, text } => {
             json.key("property").string(property);
             json.key("text").string(text);

@@ -23,6 +23,7 @@ pub(crate) fn name(topic: Topic) -> &'static str {
         Topic::Discovered => "starl.Discovered",
         Topic::Status => "starl.Status",
         Topic::Violation => "starl.Violation",
+        Topic::Intervention => "starl.Intervention",
         Topic::Summary => "starl.Summary",
     }
 }
@@ -60,6 +61,7 @@ fn description(topic: Topic) -> &'static str {
         Topic::Discovered => "The robot met an obstacle that it did not know",
         Topic::Status => "The program has reached its goal, or cannot go on",
         Topic::Violation => "A property does not hold",
+        Topic::Intervention => "The run is steered from outside",
         Topic::Summary => "How the run ended; the last message of a whole trace",
     }
 }
@@ -153,6 +155,10 @@ fn own_members(topic: Topic) -> Vec<Member<'static>> {
             always("property", string("which property")),
             always("text", string("how it is violated")),
         ],
+        Topic::Intervention => vec![always(
+            "intervention",
+            described("object", "the kind of intervention, with its details"),
+        )],
         Topic::Summary => vec![
             always("outcome", string("how the run ended")),
             always("digest", string("hash of all that happened, hexadecimal")),
