@@ -241,6 +241,7 @@ impl World {
                     bumper: node.bumper,
                     proximity: &node.rays,
                     detections: &node.detections,
+                    ..Sensors::default()
                 },
                 fleet: &self.fleet,
                 way_points: &self.way_points,
@@ -276,6 +277,7 @@ impl World {
             Effect::Move(MotionRequest::Track { target, .. }) => node.position = target,
             Effect::Move(MotionRequest::Halt) => node.halts += 1,
             Effect::Move(MotionRequest::Drive(_)) => {}
+            Effect::Take(_) | Effect::PutDown => {}
             Effect::Record(event) => self.records.push((self.now, RobotId(robot as u32), event)),
             Effect::Finish => node.finished = true,
             Effect::Fail(reason) => node.failed = Some(reason.into()),
