@@ -112,6 +112,15 @@ pub enum Event {
     },
     /// The run is steered from outside. Faults of a schedule are told of by [`Event::Fault`] alone.
     Intervention(Box<crate::Intervention>),
+    /// The robot took hold of a thing, by its index among the world's things.
+    Took(u32),
+    /// The robot put a thing down.
+    PutDown {
+        /// Which thing.
+        thing: u32,
+        /// Where it lies now, metres.
+        position: Point,
+    },
 }
 
 /// Why a datagram was not delivered.

@@ -9,7 +9,7 @@ use crate::json::from_base64;
 use crate::wire;
 use serde::Deserialize;
 use starl_core::event::{DropReason, Hit, Level, Mark, Name};
-use starl_core::{Destination, Event, Intervention, Payload, Port, Pose, RobotId};
+use starl_core::{Destination, Event, Intervention, Payload, Point, Port, Pose, RobotId};
 
 /// A decoded message: on which robot, and what happened. The error says what is wrong with it.
 type Decoded = Result<(Option<RobotId>, Event), String>;
@@ -32,6 +32,7 @@ pub(crate) fn event(topic: Topic, text: &[u8]) -> Decoded {
         Topic::Discovered => discovered(text),
         Topic::Status => status(text),
         Topic::Violation => violation(text),
+        Topic::Thing => thing(text),
         Topic::Intervention => intervention(text),
         Topic::Summary => Err("a summary is not an event".into()),
     }
@@ -272,6 +273,25 @@ fn status(text: &[u8]) -> Decoded {
         _ => return Err("needs the status `finished`, or `failed` and a reason".into()),
     };
     Ok((message.robot, event))
+}
+
+fn thing(text: &[u8]) -> Decoded {
+    #[derive(Deserialize)]
+    struct Message {
+        robot: Option<RobotId>,
+        thing: u32,
+        put_down: Option<Point>,
+    }
+    let Message {
+        robot,
+        thing,
+        put_down,
+    } = parse(text)?;
+    let event = match put_down {
+        None => Event::Took(thing),
+        Some(position) => Event::PutDown { thing, position },
+    };
+    Ok((robot, event))
 }
 
 fn intervention(text: &[u8]) -> Decoded {

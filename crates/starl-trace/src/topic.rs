@@ -38,6 +38,8 @@ pub enum Topic {
     Status,
     /// [`Event::Violated`].
     Violation,
+    /// [`Event::Took`] and [`Event::PutDown`].
+    Thing,
     /// [`Event::Intervention`].
     Intervention,
     /// How the run ended: [`crate::Summary`], the last record of a whole trace.
@@ -46,7 +48,7 @@ pub enum Topic {
 
 impl Topic {
     /// All topics, in the order in which the writer numbers its channels.
-    pub const ALL: [Topic; 17] = [
+    pub const ALL: [Topic; 18] = [
         Topic::Pose,
         Topic::Estimate,
         Topic::Sent,
@@ -62,6 +64,7 @@ impl Topic {
         Topic::Discovered,
         Topic::Status,
         Topic::Violation,
+        Topic::Thing,
         Topic::Intervention,
         Topic::Summary,
     ];
@@ -84,6 +87,7 @@ impl Topic {
             Topic::Discovered => "/starl/discovered",
             Topic::Status => "/starl/status",
             Topic::Violation => "/starl/violation",
+            Topic::Thing => "/starl/thing",
             Topic::Intervention => "/starl/intervention",
             Topic::Summary => "/starl/summary",
         }
@@ -112,6 +116,7 @@ impl Topic {
             Event::Discovered(_) => Topic::Discovered,
             Event::Finished | Event::Failed(_) => Topic::Status,
             Event::Violated { .. } => Topic::Violation,
+            Event::Took(_) | Event::PutDown { .. } => Topic::Thing,
             Event::Intervention(_) => Topic::Intervention,
         }
     }

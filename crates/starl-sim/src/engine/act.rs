@@ -6,7 +6,7 @@ use super::outlet::Desk;
 use super::sense::Readings;
 use super::shared::Window;
 use super::{discover, position};
-use starl_core::{Event, Message, Payload, Sensors, Time};
+use starl_core::{Event, Input, Message, Payload, Sensors, Time};
 use starl_host::{Happening, Node, Outlet, Snapshot};
 
 /// All that one robot's turn touches.
@@ -52,7 +52,8 @@ impl Turn<'_> {
         }
     }
 
-    /// What happens, by time; at equal times estimates come before messages, then what the node waits for.
+    /// What happens, by time; at equal times estimates come before messages, then orders, then what the
+    /// node waits for.
     fn take_in_order(&mut self, arrivals: &[Delivery]) {
         let is_down = self.node.condition().down;
         let mut arrivals = arrivals.iter().peekable();
@@ -63,7 +64,12 @@ impl Turn<'_> {
                 *self.next_estimate
             };
             let message = arrivals.peek().map_or(Time::NEVER, |delivery| delivery.at);
-            let at = estimate.min(message).min(self.node.next_timeout());
+            let order = self.desk.account.orders.first();
+            let order = order.map_or(Time::NEVER, |order| order.0);
+            let at = estimate
+                .min(message)
+                .min(order)
+                .min(self.node.next_timeout());
             if at >= self.window.to {
                 return;
             }
@@ -75,6 +81,9 @@ impl Turn<'_> {
                 if let Some(delivery) = arrivals.next() {
                     self.receive(delivery);
                 }
+            } else if at == order {
+                let (_, order) = self.desk.account.orders.remove(0);
+                self.handle(at, Happening::Input(Input::Order(order)));
             } else {
                 self.handle(at, Happening::Timeout);
             }
@@ -149,6 +158,8 @@ impl Turn<'_> {
                 Some(frozen) => frozen.bumper,
                 None => self.senses.contact.filter(|_| kind.sensors.bumper),
             },
+            holding: self.senses.holding,
+            thing_names: &shared.things.names,
             ..Sensors::default()
         };
         if self.sensed {
@@ -159,7 +170,7 @@ impl Turn<'_> {
             hardware: &kind.hardware,
             sensors,
             fleet: &shared.fleet,
-            way_points: &shared.scenario.world.way_points,
+            way_points: &shared.way_points,
             obstacles: match &self.senses.knowledge {
                 Some(knowledge) => &knowledge.obstacles,
                 None => &shared.known,

@@ -42,17 +42,18 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Indexes robots where they are now.
-    pub fn rebuild(&mut self, bodies: &[Neighbour]) {
+    /// Indexes robots where they are now, but for those that are `gone` (none is if that is empty).
+    pub fn rebuild(&mut self, bodies: &[Neighbour], gone: &[bool]) {
+        let is_gone = |robot: usize| gone.get(robot).copied().unwrap_or(false);
         self.lay_out(bodies);
         let cells = self.columns * self.rows;
         self.starts.clear();
         self.starts.resize(cells + 1, 0);
         self.cells.clear();
-        for body in bodies {
+        for (robot, body) in bodies.iter().enumerate() {
             let cell = self.cell(body.position);
             self.cells.push(cell as u32);
-            self.starts[cell + 1] += 1;
+            self.starts[cell + 1] += u32::from(!is_gone(robot));
         }
         for cell in 0..cells {
             self.starts[cell + 1] += self.starts[cell];
@@ -63,9 +64,13 @@ impl Grid {
             robot: 0,
             radius: 0.0,
         };
-        self.entries.resize(bodies.len(), blank);
+        let present = self.starts[cells];
+        self.entries.resize(present as usize, blank);
         // Filled from the back, so that the counts end up as each cell's start.
         for (robot, body) in bodies.iter().enumerate().rev() {
+            if is_gone(robot) {
+                continue;
+            }
             let end = &mut self.starts[self.cells[robot] as usize + 1];
             *end -= 1;
             self.entries[*end as usize] = Entry {
@@ -76,7 +81,7 @@ impl Grid {
             };
         }
         self.starts.remove(0);
-        self.starts.push(bodies.len() as u32);
+        self.starts.push(present);
     }
 
     fn lay_out(&mut self, bodies: &[Neighbour]) {
@@ -170,7 +175,7 @@ mod tests {
                 })
                 .collect();
             let mut grid = Grid::default();
-            grid.rebuild(&bodies);
+            grid.rebuild(&bodies, &[]);
             for _ in 0..20 {
                 let center = Point::planar(random.between(-9.0, 60.0), random.between(0.0, 20.0));
                 let reach = random.between(0.0, 9.0);

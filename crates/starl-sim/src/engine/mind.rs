@@ -3,7 +3,7 @@
 use starl_core::event::Hit;
 use starl_core::motion::{Obstacles, Path};
 use starl_core::sensor::Contact;
-use starl_core::{Digest, RobotId, Time};
+use starl_core::{Digest, Order, RobotId, Time};
 use starl_host::{Datagram, Node};
 use starl_motion::Neighbour;
 
@@ -17,6 +17,8 @@ pub struct Mind {
     pub next_estimate: Time,
     pub next_pose_record: Time,
     pub motor_stuck: bool,
+    /// It has left the fleet, and its body the world.
+    pub is_gone: bool,
     pub distance: f64,
 }
 
@@ -35,6 +37,7 @@ impl Mind {
     pub fn crash(&mut self) {
         self.node.crash();
         self.account.plans.clear();
+        self.account.orders.clear();
         self.motor_stuck = false;
         self.senses.knowledge = None;
         self.repair_senses();
@@ -68,6 +71,8 @@ pub struct Senses {
     pub knowledge: Option<Box<Knowledge>>,
     pub contact: Option<Contact>,
     pub touching: Option<Hit>,
+    /// The thing in its gripper.
+    pub holding: Option<u32>,
     /// Whether sensors and positioning repeat their last readings.
     pub are_frozen: bool,
     /// These readings, once they have been taken.
@@ -82,6 +87,8 @@ pub struct Account {
     pub radio_free: Time,
     /// Jobs of planning that are done, to be handed over at the next step.
     pub plans: Vec<(u32, Option<Path>)>,
+    /// What operators have told it and it has not heard yet, by time.
+    pub orders: Vec<(Time, Order)>,
     /// How many way-points ReachAvoid has reached.
     pub way_points: u32,
 }

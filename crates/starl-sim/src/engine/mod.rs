@@ -1,13 +1,17 @@
 //! The engine: robots in shards that step independently, and what is settled between steps.
 
 mod act;
+mod agenda;
 mod collide;
 mod discover;
 mod fault;
 mod grid;
 mod inbox;
+mod intervene;
 mod mind;
+mod obstacles;
 mod outlet;
+mod populate;
 mod position;
 mod radio;
 mod record;
@@ -15,6 +19,7 @@ mod sense;
 mod shard;
 mod shared;
 mod simulation;
+mod things;
 
 pub use fault::timeline;
 pub use record::Tally;
@@ -33,6 +38,7 @@ enum Stream {
     Pilot,
     Faults,
     Corruption,
+    Events,
 }
 
 fn stream(seed: u64, purpose: Stream, key: &[u64]) -> Random {

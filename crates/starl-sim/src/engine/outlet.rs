@@ -3,6 +3,7 @@
 use super::mind::{Account, Outgoing};
 use super::record::Log;
 use super::shared::{Kind, Shared};
+use super::things::Grip;
 use starl_core::event::DropReason;
 use starl_core::{Duration, Event, RobotId, Time};
 use starl_host::{Datagram, Outlet, PlanJob, Workspace};
@@ -20,6 +21,7 @@ pub struct Desk<'a> {
     pub state: &'a State,
     pub account: &'a mut Account,
     pub outbox: &'a mut Vec<Outgoing>,
+    pub grips: &'a mut Vec<Grip>,
     pub log: &'a mut Log,
     pub workspace: &'a mut Workspace,
 }
@@ -55,6 +57,16 @@ impl Outlet for Desk<'_> {
         }
     }
 
+    fn take(&mut self, at: Time, thing: u32) {
+        let (robot, thing) = (self.robot, Some(thing));
+        self.grips.push(Grip { at, robot, thing });
+    }
+
+    fn put_down(&mut self, at: Time) {
+        let (robot, thing) = (self.robot, None);
+        self.grips.push(Grip { at, robot, thing });
+    }
+
     fn plan(&mut self, _: Time, job: PlanJob) {
         let mut near = std::mem::take(&mut self.workspace.neighbours);
         near.clear();
@@ -87,7 +99,7 @@ impl Outlet for Desk<'_> {
 impl Desk<'_> {
     /// When a datagram with this payload leaves the radio, or why it never does.
     fn leaves(&mut self, at: Time, bytes: usize) -> Result<Time, DropReason> {
-        let network = &self.shared.scenario.network;
+        let network = &self.shared.network;
         if bytes > network.largest as usize {
             return Err(DropReason::Size);
         }

@@ -32,7 +32,7 @@ pub fn route(
     log: &mut Log,
     posted: &mut Vec<Posted>,
 ) {
-    let network = &shared.scenario.network;
+    let network = &shared.network;
     let Outgoing { at, datagram } = outgoing;
     let from = datagram.message.from;
     let mut lost = |to, reason| {

@@ -94,15 +94,12 @@ impl Readings {
         self.detections.clear();
         let body = &shared.bodies[robot.index()];
         let eye = body.position;
-        for (index, thing) in shared.scenario.world.things.iter().enumerate() {
-            if thing.position.planar_distance(eye) <= sensor.range
-                && !shared.map.blocks_segment(eye, thing.position, 0.0)
+        for (index, position) in shared.things.lying() {
+            if position.planar_distance(eye) <= sensor.range
+                && !shared.map.blocks_segment(eye, position, 0.0)
             {
-                let what = Detected::Thing(index as u32);
-                self.detections.push(Detection {
-                    what,
-                    position: thing.position,
-                });
+                let what = Detected::Thing(index);
+                self.detections.push(Detection { what, position });
             }
         }
         shared.grid.for_each_within(eye, sensor.range, |entry| {

@@ -11,6 +11,7 @@ use super::radio::{self, Posted};
 use super::record::Log;
 use super::sense::Readings;
 use super::shared::{Shared, Window};
+use super::things::Grip;
 use starl_core::event::Hit;
 use starl_core::sensor::Contact;
 use starl_core::{Command, Event, Point, RobotId, math};
@@ -28,6 +29,8 @@ pub struct Shard {
     pub states: Vec<State>,
     pub predicted: Vec<State>,
     pub outbox: Vec<Outgoing>,
+    /// What robots ask of their grippers in this step.
+    pub grips: Vec<Grip>,
     pub posted: Vec<Posted>,
     pub log: Log,
     scratch: Scratch,
@@ -57,6 +60,11 @@ impl Shard {
         for (index, mind) in self.minds.iter_mut().enumerate() {
             let kind = &shared.kinds[mind.group as usize];
             let state = &self.states[index];
+            if mind.is_gone {
+                next[index] = state.pose.position;
+                self.predicted[index] = *state;
+                continue;
+            }
             let scratch = &mut self.scratch;
             let desk = Desk {
                 robot: mind.id(),
@@ -65,6 +73,7 @@ impl Shard {
                 state,
                 account: &mut mind.account,
                 outbox: &mut self.outbox,
+                grips: &mut self.grips,
                 log: &mut self.log,
                 workspace: &mut scratch.workspace,
             };
@@ -102,7 +111,11 @@ impl Shard {
         hits: &mut [Option<Hit>],
     ) {
         for (index, hit) in hits.iter_mut().enumerate() {
-            *hit = collide::first_hit(shared, RobotId(self.first + index as u32), next, reach);
+            let robot = RobotId(self.first + index as u32);
+            *hit = match self.minds[index].is_gone {
+                true => None,
+                false => collide::first_hit(shared, robot, next, reach),
+            };
         }
     }
 
@@ -144,7 +157,7 @@ impl Shard {
                     self.log.tally.collisions += u64::from(!counted_there);
                 }
             }
-            if mind.next_pose_record <= window.to {
+            if mind.next_pose_record <= window.to && !mind.is_gone {
                 mind.next_pose_record += shared.scenario.trace.pose_period;
                 let event = Event::Moved(state.pose);
                 let digest = &mut mind.account.digest;

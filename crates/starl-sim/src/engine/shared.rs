@@ -2,10 +2,11 @@
 
 use super::grid::Grid;
 use super::inbox::Inboxes;
-use crate::scenario::{Scenario, SensorSuite};
+use super::things::Things;
+use crate::scenario::{Network, Scenario, SensorSuite, WorldObstacle};
 use starl_core::geometry::ObstacleIndex;
 use starl_core::motion::Obstacles;
-use starl_core::{Command, Point, Program, RobotId, Time};
+use starl_core::{Command, Point, Program, RobotId, Time, WayPoint};
 use starl_host::Hardware;
 use starl_motion::{Disturbance, Model, Neighbour};
 use std::sync::Arc;
@@ -54,6 +55,13 @@ pub struct Shared {
     /// Each robot's part of a partitioned network; empty while there is none.
     pub parts: Vec<u32>,
     pub wind: Point,
+    /// As the scenario has it, or as it has been changed since.
+    pub network: Network,
+    pub obstacles: Vec<WorldObstacle>,
+    pub way_points: Vec<WayPoint>,
+    pub things: Things,
+    /// The robots that have left; empty while none has.
+    pub gone: Vec<bool>,
 }
 
 impl Shared {

@@ -1,49 +1,51 @@
 //! A run: the world, the robots, and the order in which a step happens.
 
-use super::fault;
+use super::agenda::Agenda;
 use super::inbox::Calendar;
-use super::mind::{Account, Mind, Senses};
+use super::mind::Mind;
 use super::record::Tally;
 use super::shard::{SIZE, Shard};
-use super::shared::{Kind, Shared, Window};
-use super::{Stream, collide, radio, stream};
-use crate::scenario::{Fault, FaultKind, Group, Scenario};
-use starl_core::event::Hit;
+use super::shared::{Shared, Window};
+use super::things::Things;
+use super::{collide, populate, radio};
+use crate::scenario::{Group, Scenario};
+use starl_core::event::{Hit, Name};
 use starl_core::geometry::ObstacleIndex;
 use starl_core::motion::Obstacles;
 use starl_core::{
-    Agent, Command, Digest, Duration, Estimate, Event, Point, Program, Record, RobotId, Time, math,
-    random,
+    Digest, Duration, Estimate, Point, Program, Record, RobotId, Time, WayPoint, math,
 };
-use starl_host::hardware::Drive;
-use starl_host::{Clock, Hardware, Node};
+use starl_host::Node;
 use starl_motion::{Neighbour, State};
 use std::sync::Arc;
 
 /// A scenario under way. A clone goes on exactly as the original would.
 #[derive(Clone)]
 pub struct Simulation {
-    now: Time,
-    shared: Shared,
-    shards: Vec<Shard>,
+    pub(super) now: Time,
+    /// The scenario as it was at the start.
+    pub(super) origin: Arc<Scenario>,
+    pub(super) shared: Shared,
+    pub(super) shards: Vec<Shard>,
     calendar: Calendar,
     /// Where bodies would be after the step if nothing were in the way.
-    next: Vec<Point>,
+    pub(super) next: Vec<Point>,
     /// Where bodies are after the step; changes places with the shared ones at its end.
-    bodies: Vec<Neighbour>,
+    pub(super) bodies: Vec<Neighbour>,
     hits: Vec<Option<Hit>>,
-    faults: Vec<Fault>,
-    faults_done: usize,
+    pub(super) agenda: Agenda,
+    /// Whether robots have come or gone since the spatial index was built.
+    pub(super) have_changed: bool,
     /// When the last fault came.
-    disturbed: Time,
+    pub(super) disturbed: Time,
     /// When the last one came that overwrote the state of robots.
-    corrupted: Time,
+    pub(super) corrupted: Time,
     /// How many robots have a motor that is stuck, or sensors that are frozen.
-    impaired: usize,
+    pub(super) impaired: usize,
     /// When the next obstacle vanishes.
-    next_expiry: Time,
-    world_digest: Digest,
-    world_records: Vec<Record>,
+    pub(super) next_expiry: Time,
+    pub(super) world_digest: Digest,
+    pub(super) world_records: Vec<Record>,
     records: Vec<Record>,
     parallel: bool,
 }
@@ -75,7 +77,9 @@ impl Simulation {
     /// Sets up a run. `programs` makes a fresh program for a group of robots, or says what is wrong
     /// with its name or parameters.
     pub fn new(scenario: Scenario, programs: &Programs<'_>) -> Result<Simulation, StartError> {
-        let kinds = kinds(&scenario, programs)?;
+        let kinds = populate::kinds(&scenario, programs)?;
+        let origin = Arc::new(scenario);
+        let scenario = &origin;
         let fleet: Arc<[RobotId]> = (0..scenario.fleet.len() as u32).map(RobotId).collect();
         let mut shared = Shared {
             fleet,
@@ -90,19 +94,25 @@ impl Simulation {
             inboxes: Default::default(),
             parts: Vec::new(),
             wind: Point::ZERO,
-            scenario: Arc::new(scenario),
+            network: scenario.network.clone(),
+            obstacles: scenario.world.obstacles.clone(),
+            way_points: scenario.world.way_points.clone(),
+            things: Things::new(&scenario.world.things),
+            gone: Vec::new(),
+            scenario: origin.clone(),
         };
-        let shards = populate(&mut shared);
+        let shards = populate::populate(&mut shared);
         let mut simulation = Simulation {
             now: Time::ZERO,
             next: vec![Point::ZERO; shared.bodies.len()],
             bodies: shared.bodies.clone(),
             hits: Vec::new(),
-            faults: fault::timeline(&shared.scenario),
+            agenda: Agenda::new(&origin),
+            have_changed: false,
+            origin,
             shared,
             shards,
             calendar: Calendar::default(),
-            faults_done: 0,
             disturbed: Time::ZERO,
             corrupted: Time::ZERO,
             impaired: 0,
@@ -161,17 +171,22 @@ impl Simulation {
             from: self.now,
             to: self.now + step,
         };
-        self.bring_faults(window);
+        self.intervene(window);
         if window.from >= self.next_expiry {
             self.raise_obstacles();
         }
         self.shared.wind = wind(&self.shared.scenario, window.from);
         if self.have_moved() {
-            self.shared.grid.rebuild(&self.shared.bodies);
+            self.have_changed = false;
+            let Shared {
+                grid, bodies, gone, ..
+            } = &mut self.shared;
+            grid.rebuild(bodies, gone);
         }
         self.calendar
             .turn(self.shared.bodies.len(), &mut self.shared.inboxes);
         self.act(window);
+        self.grip();
         self.collide();
         self.settle(window);
         self.route(window, step);
@@ -182,7 +197,9 @@ impl Simulation {
     /// Whether some body is not where the spatial index has it: where it was a step ago.
     fn have_moved(&self) -> bool {
         let mut places = self.shared.bodies.iter().zip(&self.bodies);
-        self.now == Time::ZERO || places.any(|(now, before)| now.position != before.position)
+        self.now == Time::ZERO
+            || self.have_changed
+            || places.any(|(now, before)| now.position != before.position)
     }
 
     fn act(&mut self, window: Window) {
@@ -259,131 +276,6 @@ impl Simulation {
         self.records.sort_by_key(|record| (record.at, record.robot));
     }
 
-    fn bring_faults(&mut self, window: Window) {
-        while let Some(fault) = self
-            .faults
-            .get(self.faults_done)
-            .filter(|f| f.at < window.to)
-        {
-            let (at, kind) = (fault.at.max(window.from), fault.kind.clone());
-            self.faults_done += 1;
-            self.bring_fault(at, &kind);
-        }
-    }
-
-    fn bring_fault(&mut self, at: Time, kind: &FaultKind) {
-        self.disturbed = at;
-        if matches!(kind, FaultKind::CorruptState(_)) {
-            self.corrupted = at;
-        }
-        let robots = match kind {
-            FaultKind::Partition(groups) => {
-                self.shared.parts = fault::parts(groups, self.shared.bodies.len());
-                return self.note(at, Event::Fault(fault::name(kind).into()));
-            }
-            FaultKind::Heal => {
-                self.shared.parts.clear();
-                return self.note(at, Event::Fault(fault::name(kind).into()));
-            }
-            FaultKind::Crash(robots)
-            | FaultKind::Restart(robots)
-            | FaultKind::StuckMotor(robots)
-            | FaultKind::FrozenSensor(robots)
-            | FaultKind::Repair(robots)
-            | FaultKind::CorruptState(robots) => robots,
-        };
-        for &robot in robots {
-            let seed = self.shared.scenario.seed;
-            let shard = &mut self.shards[robot.index() / SIZE];
-            let mind = &mut shard.minds[robot.index() % SIZE];
-            let event = Event::Fault(fault::name(kind).into());
-            shard.log.record(&mut mind.account.digest, robot, at, event);
-            self.impaired -= usize::from(mind.is_impaired());
-            match kind {
-                FaultKind::Crash(_) => mind.crash(),
-                FaultKind::Restart(_) if mind.node.condition().down => {
-                    let program = self.shared.kinds[mind.group as usize].program.clone();
-                    let key = [u64::from(robot.0), at.0];
-                    let agent = Agent::new(program, stream(seed, Stream::Program, &key));
-                    mind.node.restart(at, agent);
-                    mind.next_estimate = at;
-                }
-                FaultKind::StuckMotor(_) => mind.motor_stuck = true,
-                FaultKind::FrozenSensor(_) => mind.senses.are_frozen = true,
-                FaultKind::Repair(_) => {
-                    mind.motor_stuck = false;
-                    mind.repair_senses();
-                }
-                FaultKind::CorruptState(_) => {
-                    let key = [u64::from(robot.0), at.0];
-                    mind.node
-                        .corrupt(&mut stream(seed, Stream::Corruption, &key));
-                }
-                _ => {}
-            }
-            self.impaired += usize::from(mind.is_impaired());
-        }
-    }
-
-    fn note(&mut self, at: Time, event: Event) {
-        self.world_digest.event(at, &event);
-        self.world_records.push(Record {
-            at,
-            robot: None,
-            event,
-        });
-    }
-
-    /// Makes the map of the obstacles that stand now, and of what is known of them.
-    fn raise_obstacles(&mut self) {
-        let now = self.now;
-        let world = &self.shared.scenario.world;
-        let mut standing = Vec::new();
-        let mut obstacles = Vec::new();
-        let mut known = Vec::new();
-        let mut hidden = Vec::new();
-        self.next_expiry = Time::NEVER;
-        for (index, entry) in world.obstacles.iter().enumerate() {
-            if entry.expires <= now {
-                continue;
-            }
-            self.next_expiry = self.next_expiry.min(entry.expires);
-            if entry.hidden {
-                hidden.push(obstacles.len() as u32);
-            } else {
-                known.push(entry.obstacle.clone());
-            }
-            standing.push(index as u32);
-            obstacles.push(entry.obstacle.clone());
-        }
-        if let Some(bounds) = &world.bounds {
-            for (side, wall) in bounds.walls().into_iter().enumerate() {
-                known.push(wall.clone());
-                standing.push((world.obstacles.len() + side) as u32);
-                obstacles.push(wall);
-            }
-        }
-        self.shared.map = ObstacleIndex::new(&obstacles);
-        self.shared.standing = standing;
-        self.shared.hidden = hidden;
-        self.shared.known = known.into();
-        self.forget_vanished();
-    }
-
-    /// Brings what single robots know up to date with the obstacles that stand.
-    fn forget_vanished(&mut self) {
-        let shared = &self.shared;
-        for mind in self.shards.iter_mut().flat_map(|shard| &mut shard.minds) {
-            if let Some(knowledge) = &mut mind.senses.knowledge {
-                let met = |index: &u32| shared.standing.binary_search(index).ok();
-                knowledge.met.retain(|index| met(index).is_some());
-                let extra = knowledge.met.iter().filter_map(met);
-                let extra = extra.map(|index| shared.map.obstacles()[index].clone());
-                knowledge.obstacles = shared.known.iter().cloned().chain(extra).collect();
-            }
-        }
-    }
-
     /// What happened in the last step, ordered by time and robot; empty unless recording, but for
     /// what concerns the world as a whole.
     pub fn records(&self) -> &[Record] {
@@ -442,6 +334,35 @@ impl Simulation {
         self.shared.known.clone()
     }
 
+    /// The things in the world by index: name, place, and the robot that holds it. One that has vanished has
+    /// no name.
+    pub fn things(&self) -> impl Iterator<Item = (&Name, Point, Option<RobotId>)> {
+        let things = &self.shared.things;
+        (0..).zip(&things.names).map(|(thing, name)| {
+            let holder = things.holder(thing);
+            let place = match holder {
+                Some(robot) => self.state(robot).pose.position,
+                None => things.position(thing).unwrap_or_default(),
+            };
+            (name, place, holder)
+        })
+    }
+
+    /// The application's way-points.
+    pub fn places(&self) -> &[WayPoint] {
+        &self.shared.way_points
+    }
+
+    /// The robot's node: its software, timers, clock and condition.
+    pub fn node(&self, robot: RobotId) -> &Node {
+        &self.mind(robot).node
+    }
+
+    /// Whether a robot has left the fleet.
+    pub fn has_left(&self, robot: RobotId) -> bool {
+        self.mind(robot).is_gone
+    }
+
     /// What a robot runs.
     pub fn program(&self, robot: RobotId) -> &dyn Program {
         self.mind(robot).node.program()
@@ -477,110 +398,12 @@ impl Simulation {
         &self.shared.fleet
     }
 
-    fn mind(&self, robot: RobotId) -> &Mind {
+    pub(super) fn mind(&self, robot: RobotId) -> &Mind {
         &self.shards[robot.index() / SIZE].minds[robot.index() % SIZE]
     }
 
     fn minds(&self) -> impl Iterator<Item = &Mind> {
         self.shards.iter().flat_map(|shard| &shard.minds)
-    }
-}
-
-fn kinds(scenario: &Scenario, programs: &Programs<'_>) -> Result<Vec<Kind>, StartError> {
-    let kind = |(index, group): (usize, &Group)| {
-        let program = programs(group).map_err(|message| StartError {
-            group: index,
-            message,
-        })?;
-        let model = group.model.clone();
-        let lands = model.accepts(&Command::Land);
-        Ok(Kind {
-            program,
-            hardware: Hardware {
-                body: model.body(),
-                control_period: group.control_period,
-                drive: Some(Drive {
-                    model: model.clone(),
-                    avoidance: scenario.motion.avoidance.clone(),
-                    position_error: scenario.positioning.position_noise,
-                    seed: random::hash_key(scenario.seed, &[Stream::Pilot as u64]),
-                }),
-            },
-            at_a_loss: if lands { Command::Land } else { Command::Stop },
-            model,
-            sensors: group.sensors,
-        })
-    };
-    scenario.fleet.groups.iter().enumerate().map(kind).collect()
-}
-
-/// Puts the robots in their places.
-fn populate(shared: &mut Shared) -> Vec<Shard> {
-    let scenario = shared.scenario.clone();
-    let mut shards: Vec<Shard> = Vec::new();
-    let starts = scenario
-        .fleet
-        .groups
-        .iter()
-        .enumerate()
-        .flat_map(|(group, members)| members.starts.iter().map(move |start| (group, start)));
-    for (index, (group, start)) in starts.enumerate() {
-        let kind = &shared.kinds[group];
-        let state = kind.model.at_rest(*start);
-        let body = Neighbour {
-            position: state.pose.position,
-            velocity: Point::ZERO,
-            radius: kind.hardware.body.radius,
-            height: kind.hardware.body.height,
-        };
-        shared.bodies.push(body);
-        if scenario.motion.avoidance.is_some() {
-            shared.perceived.push(body);
-        }
-        if index % SIZE == 0 {
-            shards.push(Shard::starting_at(index as u32));
-        }
-        if let Some(shard) = shards.last_mut() {
-            let robot = RobotId(index as u32);
-            shard.minds.push(mind(&scenario, robot, group, kind));
-            shard.states.push(state);
-            shard.predicted.push(state);
-        }
-    }
-    for list in [&mut shared.bodies, &mut shared.perceived] {
-        list.shrink_to_fit();
-    }
-    for shard in &mut shards {
-        shard.minds.shrink_to_fit();
-        shard.states.shrink_to_fit();
-        shard.predicted.shrink_to_fit();
-    }
-    shards
-}
-
-fn mind(scenario: &Scenario, id: RobotId, group: usize, kind: &Kind) -> Mind {
-    let key = [u64::from(id.0)];
-    let random = stream(scenario.seed, Stream::Program, &key);
-    let bounds = &scenario.fleet.groups[group].clock;
-    let mut draw = stream(scenario.seed, Stream::Clock, &key);
-    let clock = Clock {
-        offset: Duration::from_seconds_f64(draw.between(0.0, bounds.offset.seconds())),
-        rate: 1.0 + draw.between(-bounds.drift_ppm, bounds.drift_ppm) * 1e-6,
-    };
-    Mind {
-        node: Node::new(
-            id,
-            clock,
-            Agent::new(kind.program.clone(), random),
-            Time::ZERO,
-        ),
-        senses: Senses::default(),
-        account: Account::default(),
-        group: group as u32,
-        next_estimate: Time::ZERO + scenario.positioning.period,
-        next_pose_record: Time::ZERO + scenario.trace.pose_period,
-        motor_stuck: false,
-        distance: 0.0,
     }
 }
 

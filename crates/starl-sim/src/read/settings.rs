@@ -54,6 +54,7 @@ pub(super) fn read(root: Section<'_>, request: &Request, files: &Recorder<'_>) -
         wind,
         network,
         faults,
+        events: Vec::new(),
         properties,
         trace,
     };

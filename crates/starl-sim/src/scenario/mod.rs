@@ -3,11 +3,13 @@
 //! Every knob is documented here with its unit and default; a scenario file sets them by the same
 //! names (see `read`).
 
+mod event;
 mod fault;
 mod fleet;
 mod network;
 mod world;
 
+pub use event::{Occasion, ScenarioEvent};
 pub use fault::{Fault, FaultRates, Faults};
 pub use fleet::{Clock, Detector, Fleet, Group, Parameter, Proximity, SensorSuite};
 pub use network::{Link, LinkOverride, Network};
@@ -45,6 +47,8 @@ pub struct Scenario {
     pub network: Network,
     /// What breaks, and when.
     pub faults: Faults,
+    /// What happens besides, and when.
+    pub events: Vec<ScenarioEvent>,
     /// What is checked while it runs.
     pub properties: Properties,
     /// What is recorded.
@@ -281,6 +285,7 @@ impl Default for Scenario {
             },
             network: Network::default(),
             faults: Faults::default(),
+            events: Vec::new(),
             properties: Properties::default(),
             trace: Trace::default(),
         }

@@ -15,6 +15,16 @@ pub struct World {
     pub things: Vec<Thing>,
 }
 
+impl World {
+    /// Calls `raise` with the index, the shape and the visibility of each wall around the world.
+    pub(crate) fn raise_walls(&self, raise: &mut impl FnMut(usize, &Obstacle, bool)) {
+        let walls = self.bounds.map(|bounds| bounds.walls()).unwrap_or_default();
+        for (side, wall) in walls.iter().enumerate() {
+            raise(self.obstacles.len() + side, wall, false);
+        }
+    }
+}
+
 /// A rectangle in the floor plane that no body leaves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {

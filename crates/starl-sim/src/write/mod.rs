@@ -35,6 +35,7 @@ pub fn scenario(scenario: &Scenario) -> String {
         wind,
         network,
         faults,
+        events: _,
         properties,
         trace,
     } = scenario;

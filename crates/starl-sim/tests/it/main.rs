@@ -4,6 +4,7 @@ mod broken;
 mod engine_bodies;
 mod engine_determinism;
 mod engine_faults;
+mod engine_interventions;
 mod engine_landing_on_others;
 mod engine_network;
 mod engine_positioning;

@@ -96,6 +96,13 @@ pub(crate) fn event(json: &mut Json, robot: Option<RobotId>, event: &Event) {
             json.key("status").string("failed");
             json.key("reason").string(reason);
         }
+        Event::Took(thing) => {
+            json.key("thing").integer(*thing);
+        }
+        Event::PutDown { thing, position } => {
+            json.key("thing").integer(*thing);
+            json.key("put_down").point(*position);
+        }
         Event::Intervention(what) => {
             // Interventions are rare, so that their JSON need not be made in place.
             let text = serde_json::to_string(what);

@@ -23,6 +23,7 @@ pub(crate) fn name(topic: Topic) -> &'static str {
         Topic::Discovered => "starl.Discovered",
         Topic::Status => "starl.Status",
         Topic::Violation => "starl.Violation",
+        Topic::Thing => "starl.Thing",
         Topic::Intervention => "starl.Intervention",
         Topic::Summary => "starl.Summary",
     }
@@ -61,6 +62,7 @@ fn description(topic: Topic) -> &'static str {
         Topic::Discovered => "The robot met an obstacle that it did not know",
         Topic::Status => "The program has reached its goal, or cannot go on",
         Topic::Violation => "A property does not hold",
+        Topic::Thing => "The robot took hold of a thing, or put it down",
         Topic::Intervention => "The run is steered from outside",
         Topic::Summary => "How the run ended; the last message of a whole trace",
     }
@@ -154,6 +156,10 @@ fn own_members(topic: Topic) -> Vec<Member<'static>> {
         Topic::Violation => vec![
             always("property", string("which property")),
             always("text", string("how it is violated")),
+        ],
+        Topic::Thing => vec![
+            always("thing", count("index of the thing in the world")),
+            maybe("put_down", point()),
         ],
         Topic::Intervention => vec![always(
             "intervention",

@@ -507,6 +507,7 @@ impl World {
                 );
             }
             Effect::Move(_) => self.nodes[robot].head_for(None),
+            Effect::Take(_) | Effect::PutDown => {}
             Effect::Record(event) => self.records.push((self.now, RobotId(robot as u32), event)),
             Effect::Finish => {
                 self.records

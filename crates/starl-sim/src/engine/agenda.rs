@@ -1,0 +1,110 @@
+//! What steers a run, and when: faults and events of the scenario, and what is applied while it runs.
+
+use super::{Stream, fault, stream};
+use crate::scenario::{Occasion, Scenario};
+use starl_core::{Duration, Intervention, Point, Time};
+
+/// One intervention that is due.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Due {
+    pub at: Time,
+    pub what: Intervention,
+    /// Whether it is recorded as an intervention, and not only by what it does to robots.
+    pub told: bool,
+}
+
+/// All interventions of a run in the order in which they take place.
+#[derive(Clone, Debug)]
+pub struct Agenda {
+    list: Vec<Due>,
+    done: usize,
+    /// What has been applied from outside.
+    applied: Vec<(Time, Intervention)>,
+}
+
+impl Agenda {
+    /// The faults and events that a scenario has on schedule or at random. At equal times faults come first.
+    pub fn new(scenario: &Scenario) -> Agenda {
+        let faults = fault::timeline(scenario).into_iter().map(|fault| Due {
+            at: fault.at,
+            what: Intervention::Fault(fault.kind),
+            told: false,
+        });
+        let mut list: Vec<Due> = faults.collect();
+        for (index, event) in scenario.events.iter().enumerate() {
+            match event.occasion {
+                Occasion::At(at) => list.push(Due {
+                    at,
+                    what: event.what.clone(),
+                    told: true,
+                }),
+                Occasion::Rate { .. } => at_random(scenario, index, &mut list),
+            }
+        }
+        list.sort_by_key(|due| due.at);
+        Agenda {
+            list,
+            done: 0,
+            applied: Vec::new(),
+        }
+    }
+
+    /// Adds an intervention behind all that are due at the same time or before.
+    pub fn apply(&mut self, at: Time, what: Intervention) {
+        self.applied.push((at, what.clone()));
+        let later = self.list[self.done..].partition_point(|due| due.at <= at);
+        let told = true;
+        self.list.insert(self.done + later, Due { at, what, told });
+    }
+
+    /// What has been applied, in that order.
+    pub fn applied(&self) -> &[(Time, Intervention)] {
+        &self.applied
+    }
+
+    /// Takes the next one that is due before `end`.
+    pub fn next(&mut self, end: Time) -> Option<Due> {
+        let due = self.list.get(self.done).filter(|due| due.at < end)?;
+        self.done += 1;
+        Some(due.clone())
+    }
+}
+
+/// Draws the times and places of an event that comes at a rate, as a Poisson process.
+fn at_random(scenario: &Scenario, index: usize, list: &mut Vec<Due>) {
+    let event = &scenario.events[index];
+    let Occasion::Rate { per_second, within } = event.occasion else {
+        return;
+    };
+    if per_second <= 0.0 {
+        return;
+    }
+    let mut random = stream(scenario.seed, Stream::Events, &[index as u64]);
+    let mut at = Time::ZERO;
+    for count in 0u32.. {
+        at += Duration::from_seconds_f64(random.exponential(1.0 / per_second));
+        if at >= Time::ZERO + scenario.duration {
+            return;
+        }
+        let mut what = event.what.clone();
+        let place = within.map(|bounds| {
+            Point::planar(
+                random.between(bounds.low.x, bounds.high.x),
+                random.between(bounds.low.y, bounds.high.y),
+            )
+        });
+        match &mut what {
+            Intervention::SetThing { name, position } => {
+                name.push_str(&count.to_string());
+                *position = place.unwrap_or(*position);
+            }
+            Intervention::SetWayPoint(way_point) => {
+                way_point.name.push_str(&count.to_string());
+                way_point.position = place.unwrap_or(way_point.position);
+            }
+            _ => {}
+        }
+        let told = true;
+        list.push(Due { at, what, told });
+    }
+}

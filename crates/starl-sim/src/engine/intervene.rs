@@ -1,0 +1,420 @@
+//! Carries out what steers a run: faults, changes of the world and of the network, operators.
+
+use super::agenda::Due;
+use super::mind::Mind;
+use super::shard::SIZE;
+use super::shared::Window;
+use super::{Simulation, Stream, fault, populate, stream};
+use crate::scenario::{Group, Network, Occasion, Scenario, ScenarioEvent};
+use starl_core::event::Level;
+use starl_core::intervention::NetworkKnob;
+use starl_core::{
+    Agent, Event, FaultKind, Intervention, Order, Point, Pose, Record, RobotId, Time, WayPoint,
+};
+use std::sync::Arc;
+
+/// A push is tried in so many parts until nothing is in the way.
+const PARTS: u32 = 16;
+
+impl Simulation {
+    /// Has something happen at a time, now if that has passed. It is recorded, belongs to the digest, and
+    /// takes place before anything else that robots do in that step. A clone of the simulation that is given
+    /// the same goes on alike.
+    ///
+    /// # Errors
+    /// What is wrong with the intervention: numbers that make no sense, robots that there are not, and, if it
+    /// is to happen now, names and indices of nothing in the world.
+    pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), String> {
+        if !what.is_valid() {
+            return Err("a number in it is not finite, or out of its range".into());
+        }
+        let count = self.shared.bodies.len();
+        if let Some(robot) = robots_of(&what).find(|robot| robot.index() >= count) {
+            return Err(format!("there is no robot {robot}; the fleet has {count}"));
+        }
+        let at = at.max(self.now);
+        if at == self.now {
+            self.find_object(&what)?;
+        }
+        self.agenda.apply(at, what);
+        Ok(())
+    }
+
+    /// The scenario with all that has been applied to this run as events on schedule: run from the start, it
+    /// goes as this run went.
+    pub fn as_scenario(&self) -> Scenario {
+        let mut scenario = Scenario::clone(&self.origin);
+        let applied = self.agenda.applied().iter().cloned();
+        scenario
+            .events
+            .extend(applied.map(|(at, what)| ScenarioEvent {
+                occasion: Occasion::At(at),
+                what,
+            }));
+        scenario
+    }
+
+    /// Carries out what is due in this step.
+    pub(super) fn intervene(&mut self, window: Window) {
+        while let Some(Due { at, what, told }) = self.agenda.next(window.to) {
+            let at = at.max(window.from);
+            if told {
+                self.note(at, Event::Intervention(Box::new(what.clone())));
+            }
+            if let Err(text) = self.find_object(&what) {
+                let (level, text) = (Level::Warning, text.into());
+                self.note(at, Event::Log { level, text });
+                continue;
+            }
+            self.carry_out(at, what);
+        }
+    }
+
+    /// Whether the object that an intervention changes is there.
+    fn find_object(&mut self, what: &Intervention) -> Result<(), String> {
+        let name = match what {
+            Intervention::MoveObstacle { index, .. } | Intervention::RemoveObstacle { index } => {
+                let found = self.obstacle(*index).map(|_| ());
+                return found.ok_or(format!("no obstacle {index} stands"));
+            }
+            Intervention::RemoveWayPoint { name } => {
+                let mut known = self.shared.way_points.iter();
+                known
+                    .all(|point| point.name != *name)
+                    .then_some(("way-point", name))
+            }
+            Intervention::RemoveThing { name } => {
+                let mut known = self.shared.things.names.iter();
+                known.all(|known| known != name).then_some(("thing", name))
+            }
+            Intervention::Join { pose, like, .. } => {
+                let body = self.shared.bodies[like.index()];
+                return match self.is_free(None, pose.position, body.radius, body.height) {
+                    true => Ok(()),
+                    false => Err("something stands where the robot is to join".into()),
+                };
+            }
+            _ => None,
+        };
+        match name {
+            Some((kind, name)) => Err(format!("there is no {kind} {name}")),
+            None => Ok(()),
+        }
+    }
+
+    fn carry_out(&mut self, at: Time, what: Intervention) {
+        match what {
+            Intervention::Fault(kind) => return self.bring_fault(at, &kind),
+            Intervention::Push { robot, by } => self.push(at, robot, by),
+            Intervention::Network(knobs) => {
+                let turn = |knob: &NetworkKnob| turn(&mut self.shared.network, *knob);
+                knobs.iter().for_each(turn);
+            }
+            Intervention::AddObstacle { obstacle, hidden } => {
+                self.add_obstacle(obstacle, hidden);
+                self.raise_obstacles();
+            }
+            Intervention::MoveObstacle { index, obstacle } => {
+                if let Some(entry) = self.obstacle(index) {
+                    entry.obstacle = obstacle;
+                }
+                self.raise_obstacles();
+            }
+            Intervention::RemoveObstacle { index } => {
+                let now = self.now;
+                if let Some(entry) = self.obstacle(index) {
+                    entry.expires = now;
+                }
+                self.raise_obstacles();
+            }
+            Intervention::SetWayPoint(way_point) => return self.set_way_point(at, way_point),
+            Intervention::RemoveWayPoint { name } => {
+                self.shared.way_points.retain(|point| point.name != name);
+                return self.tell_way_points(at);
+            }
+            Intervention::SetThing { name, position } => {
+                let holder = self.shared.things.set(&name, position);
+                return self.empty_hands(holder);
+            }
+            Intervention::RemoveThing { name } => {
+                let holder = self.shared.things.remove(&name).unwrap_or_default();
+                return self.empty_hands(holder);
+            }
+            Intervention::Tell { robots, order } => return self.tell(at, &robots, &order),
+            Intervention::Join { like, name, pose } => self.join(at, like, name, pose),
+            Intervention::Leave(robots) => self.leave(&robots),
+        }
+        self.disturbed = at;
+    }
+
+    fn bring_fault(&mut self, at: Time, kind: &FaultKind) {
+        self.disturbed = at;
+        if matches!(kind, FaultKind::CorruptState(_)) {
+            self.corrupted = at;
+        }
+        let robots = match kind {
+            FaultKind::Partition(groups) => {
+                self.shared.parts = fault::parts(groups, self.shared.bodies.len());
+                return self.note(at, Event::Fault(fault::name(kind).into()));
+            }
+            FaultKind::Heal => {
+                self.shared.parts.clear();
+                return self.note(at, Event::Fault(fault::name(kind).into()));
+            }
+            FaultKind::Crash(robots)
+            | FaultKind::Restart(robots)
+            | FaultKind::StuckMotor(robots)
+            | FaultKind::FrozenSensor(robots)
+            | FaultKind::Repair(robots)
+            | FaultKind::CorruptState(robots) => robots,
+        };
+        for &robot in robots {
+            let seed = self.shared.scenario.seed;
+            let shard = &mut self.shards[robot.index() / SIZE];
+            let mind = &mut shard.minds[robot.index() % SIZE];
+            if mind.is_gone {
+                continue;
+            }
+            let event = Event::Fault(fault::name(kind).into());
+            shard.log.record(&mut mind.account.digest, robot, at, event);
+            self.impaired -= usize::from(mind.is_impaired());
+            match kind {
+                FaultKind::Crash(_) => mind.crash(),
+                FaultKind::Restart(_) if mind.node.condition().down => {
+                    let program = self.shared.kinds[mind.group as usize].program.clone();
+                    let key = [u64::from(robot.0), at.0];
+                    let agent = Agent::new(program, stream(seed, Stream::Program, &key));
+                    mind.node.restart(at, agent);
+                    mind.next_estimate = at;
+                }
+                FaultKind::StuckMotor(_) => mind.motor_stuck = true,
+                FaultKind::FrozenSensor(_) => mind.senses.are_frozen = true,
+                FaultKind::Repair(_) => {
+                    mind.motor_stuck = false;
+                    mind.repair_senses();
+                }
+                FaultKind::CorruptState(_) => {
+                    let key = [u64::from(robot.0), at.0];
+                    mind.node
+                        .corrupt(&mut stream(seed, Stream::Corruption, &key));
+                }
+                _ => {}
+            }
+            self.impaired += usize::from(mind.is_impaired());
+        }
+    }
+
+    /// Moves a body as far as nothing is in the way.
+    fn push(&mut self, at: Time, robot: RobotId, by: Point) {
+        let body = self.shared.bodies[robot.index()];
+        let is_free = |part: &u32| {
+            let place = body.position + by * (f64::from(*part) / f64::from(PARTS));
+            self.is_free(Some(robot), place, body.radius, body.height)
+        };
+        let free = (1..=PARTS).take_while(is_free).last().unwrap_or(0);
+        let place = body.position + by * (f64::from(free) / f64::from(PARTS));
+        let shard = &mut self.shards[robot.index() / SIZE];
+        let state = &mut shard.states[robot.index() % SIZE];
+        let mind = &mut shard.minds[robot.index() % SIZE];
+        if mind.is_gone {
+            return;
+        }
+        state.pose.position = place;
+        self.shared.bodies[robot.index()].position = place;
+        let event = Event::Moved(state.pose);
+        shard.log.record(&mut mind.account.digest, robot, at, event);
+    }
+
+    /// Whether a body would touch nothing there, apart from `robot`'s own.
+    fn is_free(&self, robot: Option<RobotId>, place: Point, radius: f64, height: f64) -> bool {
+        let obstacles = self.shared.map.obstacles().iter();
+        let mut bodies = (0..).map(RobotId).zip(&self.shared.bodies);
+        bodies.all(|(other, body)| {
+            Some(other) == robot
+                || self.mind(other).is_gone
+                || place.z >= body.position.z + body.height
+                || body.position.z >= place.z + height
+                || place.planar_distance(body.position) >= radius + body.radius
+        }) && obstacles
+            .map(|obstacle| obstacle.body_gap(place, radius, height))
+            .all(|gap| gap >= 0.0)
+    }
+
+    fn set_way_point(&mut self, at: Time, way_point: WayPoint) {
+        let way_points = &mut self.shared.way_points;
+        match way_points
+            .iter_mut()
+            .find(|known| known.name == way_point.name)
+        {
+            Some(known) => *known = way_point,
+            None => way_points.push(way_point),
+        }
+        self.tell_way_points(at);
+    }
+
+    fn tell_way_points(&mut self, at: Time) {
+        let order = Order {
+            name: Order::WAY_POINTS.into(),
+            fields: Default::default(),
+        };
+        self.tell(at, &[], &order);
+    }
+
+    /// Robots hear an order in the course of the step; those that are down do not.
+    fn tell(&mut self, at: Time, robots: &[RobotId], order: &Order) {
+        let minds = self.shards.iter_mut().flat_map(|shard| &mut shard.minds);
+        let is_meant = |mind: &&mut Mind| {
+            let is_named = robots.is_empty() || robots.contains(&mind.id());
+            is_named && !mind.node.condition().down
+        };
+        for mind in minds.filter(is_meant) {
+            mind.account.orders.push((at, order.clone()));
+        }
+    }
+
+    fn empty_hands(&mut self, holder: Option<RobotId>) {
+        if let Some(robot) = holder {
+            self.mind_mut(robot).senses.holding = None;
+        }
+    }
+
+    /// One more robot of the kind of another.
+    fn join(&mut self, at: Time, like: RobotId, name: String, pose: Pose) {
+        let group = self.mind(like).group as usize;
+        let scenario = Arc::make_mut(&mut self.shared.scenario);
+        let kind = self.shared.kinds[group].clone();
+        let group = Group {
+            name,
+            numbered: false,
+            starts: vec![pose],
+            ..scenario.fleet.groups[group].clone()
+        };
+        scenario.fleet.groups.push(group);
+        self.shared.kinds.push(kind);
+        let group = self.shared.kinds.len() - 1;
+        let recording = self.shards.first().is_some_and(|shard| shard.log.recording);
+        populate::add(&mut self.shared, &mut self.shards, group, pose, at);
+        self.set_recording(recording);
+        let robot = RobotId(self.shared.bodies.len() as u32 - 1);
+        let fleet = self.shared.fleet.iter().copied();
+        self.shared.fleet = fleet.chain([robot]).collect();
+        if !self.shared.parts.is_empty() {
+            self.shared.parts.push(0);
+        }
+        self.next.push(pose.position);
+        self.bodies.push(self.shared.bodies[robot.index()]);
+        self.have_changed = true;
+        let state = *self.state(robot);
+        let shard = &mut self.shards[robot.index() / SIZE];
+        let digest = &mut shard.minds[robot.index() % SIZE].account.digest;
+        shard
+            .log
+            .record(digest, robot, at, Event::Moved(state.pose));
+    }
+
+    /// Robots go for good. What they hold stays where they were.
+    fn leave(&mut self, robots: &[RobotId]) {
+        self.have_changed = true;
+        self.shared.gone.resize(self.shared.bodies.len(), false);
+        for &robot in robots {
+            self.shared.gone[robot.index()] = true;
+            let position = self.shared.bodies[robot.index()].position;
+            let mind = self.mind_mut(robot);
+            let was_impaired = mind.is_impaired();
+            mind.crash();
+            mind.is_gone = true;
+            let held = mind.senses.holding.take();
+            self.impaired -= usize::from(was_impaired);
+            if let Some(thing) = held {
+                self.shared.things.put_down(thing, position);
+            }
+        }
+    }
+
+    fn mind_mut(&mut self, robot: RobotId) -> &mut Mind {
+        &mut self.shards[robot.index() / SIZE].minds[robot.index() % SIZE]
+    }
+
+    /// Carries out what robots have asked of their grippers, in the order of time and robots.
+    pub(super) fn grip(&mut self) {
+        let mut grips = Vec::new();
+        for shard in &mut self.shards {
+            grips.append(&mut shard.grips);
+        }
+        grips.sort_by_key(|grip| (grip.at, grip.robot));
+        for grip in grips {
+            let body = self.shared.bodies[grip.robot.index()];
+            let held = self.mind(grip.robot).senses.holding;
+            let things = &mut self.shared.things;
+            let event = match (grip.thing, held) {
+                (Some(thing), None)
+                    if things.take(thing, grip.robot, body.position, body.radius) =>
+                {
+                    self.mind_mut(grip.robot).senses.holding = Some(thing);
+                    Event::Took(thing)
+                }
+                (None, Some(thing)) => {
+                    things.put_down(thing, body.position);
+                    self.mind_mut(grip.robot).senses.holding = None;
+                    Event::PutDown {
+                        thing,
+                        position: body.position,
+                    }
+                }
+                _ => continue,
+            };
+            let shard = &mut self.shards[grip.robot.index() / SIZE];
+            let digest = &mut shard.minds[grip.robot.index() % SIZE].account.digest;
+            shard.log.record(digest, grip.robot, grip.at, event);
+        }
+    }
+
+    fn note(&mut self, at: Time, event: Event) {
+        self.world_digest.event(at, &event);
+        self.world_records.push(Record {
+            at,
+            robot: None,
+            event,
+        });
+    }
+}
+
+/// The robots that an intervention names.
+fn robots_of(what: &Intervention) -> impl Iterator<Item = RobotId> {
+    let robots: Vec<RobotId> = match what {
+        Intervention::Fault(kind) => match kind {
+            FaultKind::Partition(groups) => groups.iter().flatten().copied().collect(),
+            FaultKind::Heal => Vec::new(),
+            FaultKind::Crash(robots)
+            | FaultKind::Restart(robots)
+            | FaultKind::StuckMotor(robots)
+            | FaultKind::FrozenSensor(robots)
+            | FaultKind::Repair(robots)
+            | FaultKind::CorruptState(robots) => robots.clone(),
+        },
+        Intervention::Push { robot, .. } => vec![*robot],
+        Intervention::Join { like, .. } => vec![*like],
+        Intervention::Leave(robots) | Intervention::Tell { robots, .. } => robots.clone(),
+        _ => Vec::new(),
+    };
+    robots.into_iter()
+}
+
+/// Turns one knob.
+fn turn(network: &mut Network, knob: NetworkKnob) {
+    let link = &mut network.link;
+    match knob {
+        NetworkKnob::Delay(delay) => link.delay = delay,
+        NetworkKnob::Jitter(jitter) => link.jitter = jitter,
+        NetworkKnob::Distribution(distribution) => link.distribution = distribution,
+        NetworkKnob::Loss(loss) => link.loss = loss,
+        NetworkKnob::Duplication(duplication) => link.duplication = duplication,
+        NetworkKnob::Reordering(reordering) => link.reordering = reordering,
+        NetworkKnob::ReorderingDelay(delay) => link.reordering_delay = delay,
+        NetworkKnob::Range(range) => network.range = range,
+        NetworkKnob::LineOfSight(is_needed) => network.line_of_sight = is_needed,
+        NetworkKnob::Bandwidth(bandwidth) => network.bandwidth = bandwidth,
+        NetworkKnob::Queue(queue) => network.queue = queue,
+        NetworkKnob::Largest(largest) => network.largest = largest,
+    }
+}

@@ -1,0 +1,111 @@
+//! Puts robots into a simulation: those of the scenario at the start, and those that join later.
+
+use super::mind::{Account, Mind, Senses};
+use super::shard::{SIZE, Shard};
+use super::shared::{Kind, Shared};
+use super::simulation::{Programs, StartError};
+use super::{Stream, stream};
+use crate::scenario::{Group, Scenario};
+use starl_core::{Agent, Command, Duration, Point, Pose, RobotId, Time, random};
+use starl_host::hardware::Drive;
+use starl_host::{Clock, Hardware, Node};
+use starl_motion::Neighbour;
+
+/// What the robots of each group have in common.
+pub fn kinds(scenario: &Scenario, programs: &Programs<'_>) -> Result<Vec<Kind>, StartError> {
+    let kind = |(index, group): (usize, &Group)| {
+        let program = programs(group).map_err(|message| StartError {
+            group: index,
+            message,
+        })?;
+        let model = group.model.clone();
+        let lands = model.accepts(&Command::Land);
+        Ok(Kind {
+            program,
+            hardware: Hardware {
+                body: model.body(),
+                control_period: group.control_period,
+                drive: Some(Drive {
+                    model: model.clone(),
+                    avoidance: scenario.motion.avoidance.clone(),
+                    position_error: scenario.positioning.position_noise,
+                    seed: random::hash_key(scenario.seed, &[Stream::Pilot as u64]),
+                }),
+            },
+            at_a_loss: if lands { Command::Land } else { Command::Stop },
+            model,
+            sensors: group.sensors,
+        })
+    };
+    scenario.fleet.groups.iter().enumerate().map(kind).collect()
+}
+
+/// Puts the robots of the scenario in their places.
+pub fn populate(shared: &mut Shared) -> Vec<Shard> {
+    let scenario = shared.scenario.clone();
+    let mut shards: Vec<Shard> = Vec::new();
+    for (group, members) in scenario.fleet.groups.iter().enumerate() {
+        for start in &members.starts {
+            add(shared, &mut shards, group, *start, Time::ZERO);
+        }
+    }
+    for list in [&mut shared.bodies, &mut shared.perceived] {
+        list.shrink_to_fit();
+    }
+    for shard in &mut shards {
+        shard.minds.shrink_to_fit();
+        shard.states.shrink_to_fit();
+        shard.predicted.shrink_to_fit();
+    }
+    shards
+}
+
+/// Puts one more robot of a group behind all there are; it starts at `at`.
+pub fn add(shared: &mut Shared, shards: &mut Vec<Shard>, group: usize, start: Pose, at: Time) {
+    let index = shared.bodies.len();
+    let kind = &shared.kinds[group];
+    let state = kind.model.at_rest(start);
+    let body = Neighbour {
+        position: state.pose.position,
+        velocity: Point::ZERO,
+        radius: kind.hardware.body.radius,
+        height: kind.hardware.body.height,
+    };
+    shared.bodies.push(body);
+    if shared.scenario.motion.avoidance.is_some() {
+        shared.perceived.push(body);
+    }
+    if index.is_multiple_of(SIZE) {
+        shards.push(Shard::starting_at(index as u32));
+    }
+    if let Some(shard) = shards.last_mut() {
+        let robot = RobotId(index as u32);
+        shard
+            .minds
+            .push(mind(&shared.scenario, robot, group, kind, at));
+        shard.states.push(state);
+        shard.predicted.push(state);
+    }
+}
+
+fn mind(scenario: &Scenario, id: RobotId, group: usize, kind: &Kind, at: Time) -> Mind {
+    let key = [u64::from(id.0)];
+    let random = stream(scenario.seed, Stream::Program, &key);
+    let bounds = &scenario.fleet.groups[group].clock;
+    let mut draw = stream(scenario.seed, Stream::Clock, &key);
+    let clock = Clock {
+        offset: Duration::from_seconds_f64(draw.between(0.0, bounds.offset.seconds())),
+        rate: 1.0 + draw.between(-bounds.drift_ppm, bounds.drift_ppm) * 1e-6,
+    };
+    Mind {
+        node: Node::new(id, clock, Agent::new(kind.program.clone(), random), at),
+        senses: Senses::default(),
+        account: Account::default(),
+        group: group as u32,
+        next_estimate: at + scenario.positioning.period,
+        next_pose_record: at + scenario.trace.pose_period,
+        motor_stuck: false,
+        is_gone: false,
+        distance: 0.0,
+    }
+}
