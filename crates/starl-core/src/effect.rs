@@ -1,7 +1,7 @@
 //! What a state machine asks of its host.
 
 use crate::event::{Event, Name};
-use crate::{MotionRequest, Payload, Port, RobotId, time::Duration};
+use crate::{MotionRequest, Payload, Port, RobotId, TimerKey, time::Duration};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::any::Any;
@@ -15,17 +15,6 @@ pub enum Destination {
     All,
     /// One robot.
     Robot(RobotId),
-}
-
-/// Names a timer of one robot. Arming a key that is armed already moves it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct TimerKey {
-    /// Whose timer it is.
-    pub port: Port,
-    /// What for: each owner numbers its kinds.
-    pub kind: u16,
-    /// Which of that kind, e.g. a message's sequence number.
-    pub number: u32,
 }
 
 /// One effect.

@@ -27,10 +27,11 @@ pub mod random;
 pub mod robot;
 pub mod sensor;
 pub mod time;
+pub mod timer;
 
 pub use agent::Agent;
 pub use digest::Digest;
-pub use effect::{Destination, Effect, TimerKey};
+pub use effect::{Destination, Effect};
 pub use event::{Event, Fields, Record, Value};
 pub use geometry::{Area, ConvexPolygon, Obstacle, Point, Pose, Shape, Twist};
 pub use id::{Port, RobotId};
@@ -42,3 +43,4 @@ pub use random::Random;
 pub use robot::{Robot, View, WayPoint};
 pub use sensor::Sensors;
 pub use time::{Duration, Time};
+pub use timer::{Timer, TimerKey};

@@ -107,11 +107,7 @@ impl fmt::Display for Step {
         match self {
             Step::Activate(robot) => write!(f, "robot {robot} is activated"),
             Step::Timer(robot, key) => {
-                let TimerKey { kind, number, .. } = key;
-                write!(
-                    f,
-                    "a timer of robot {robot} fires (kind {kind}, number {number})"
-                )
+                write!(f, "timer {} of robot {robot} fires", key.token)
             }
             Step::Deliver(Datagram { from, to, .. }) => {
                 write!(f, "a datagram from robot {from} reaches robot {to}")

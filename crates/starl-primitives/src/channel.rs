@@ -5,9 +5,6 @@ use alloc::collections::VecDeque;
 use alloc::vec::Vec;
 use starl_core::{Input, Payload, Port, Robot, RobotId};
 
-/// The one kind of timer: a message is to be sent again.
-const RETRY_TIMER: u16 = 0;
-
 /// Failures that nobody asks for are kept up to this number, the latest.
 const MOST_FAILURES: usize = 64;
 
@@ -33,7 +30,7 @@ pub(crate) struct Channel {
 impl Channel {
     pub fn new(primitive: &'static str, name: &str, options: Options) -> Channel {
         let port = Port::named(name);
-        let reliable = Reliable::new(port, RETRY_TIMER, options);
+        let reliable = Reliable::new(port, options);
         Channel {
             reliable,
             port,

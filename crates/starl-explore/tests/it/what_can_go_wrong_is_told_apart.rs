@@ -2,7 +2,7 @@
 //! program that keeps something to itself.
 
 use crate::support::{search, setup};
-use starl_core::{Destination, Duration, Message, Port, Program, Robot, RobotId, TimerKey};
+use starl_core::{Destination, Duration, Message, Port, Program, Robot, RobotId, TimerKey, timers};
 use starl_explore::{Bounds, Clocks, End, FAILED, STUCK, Step};
 use std::fmt::Write;
 
@@ -15,17 +15,22 @@ struct Greeter {
     is_done: bool,
 }
 
-const TIMER: TimerKey = TimerKey {
-    port: Port::PROGRAM,
-    kind: 0,
-    number: 0,
-};
+timers! {
+    enum Alarm {
+        Early,
+        Late,
+    }
+}
+
+fn alarm(alarm: Alarm) -> TimerKey {
+    TimerKey::new(Port::PROGRAM, alarm)
+}
 
 impl Greeter {
     fn greet(&self, robot: &mut Robot<'_>) {
         robot.transmit(Destination::Robot(RobotId(1)), Port::PROGRAM, &7u8);
         if let Some(patience) = self.patience {
-            robot.set_timer(TIMER, patience);
+            robot.set_timer(alarm(Alarm::Early), patience);
         }
     }
 }
@@ -198,24 +203,22 @@ fn a_program_that_claims_nothing_is_told_apart_by_its_past() {
 /// Finishes when two of its timers have fired, and fails if the later one comes first.
 #[derive(Clone, Debug, Default)]
 struct Timed {
-    fired: Vec<u16>,
+    fired: Vec<Alarm>,
 }
 
 impl Program for Timed {
     fn start(&mut self, robot: &mut Robot<'_>) {
-        for (kind, millis) in [(1, 900), (0, 300)] {
-            let after = Duration::from_millis(millis);
-            robot.set_timer(TimerKey { kind, ..TIMER }, after);
-        }
+        robot.set_timer(alarm(Alarm::Late), Duration::from_millis(900));
+        robot.set_timer(alarm(Alarm::Early), Duration::from_millis(300));
     }
 
     fn activate(&mut self, _: &mut Robot<'_>) {}
 
     fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
-        self.fired.push(key.kind);
+        self.fired.extend(key.read::<Alarm>());
         match (&self.fired[..], robot.now().seconds()) {
-            ([0], now) if (0.3..0.9).contains(&now) => {}
-            ([0, 1], now) if now >= 0.9 => robot.finish(),
+            ([Alarm::Early], now) if (0.3..0.9).contains(&now) => {}
+            ([Alarm::Early, Alarm::Late], now) if now >= 0.9 => robot.finish(),
             other => robot.fail(format!("{other:?}")),
         }
     }

@@ -43,12 +43,19 @@ pub use options::Options;
 use crate::incarnation::Incarnation;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
-use starl_core::{Input, Port, Primitive, Robot, RobotId, Time, TimerKey};
+use starl_core::{Input, Port, Primitive, Robot, RobotId, Time, TimerKey, timers};
 
 const KIND: &str = "barrier";
 
 /// Greater numbers are none that robots could have counted to.
 const GREATEST: u64 = 1 << 62;
+
+timers! {
+    enum Alarm {
+        /// The robot is to say again how far it is.
+        Repeat,
+    }
+}
 
 /// A point that all come to before anyone goes on. See the [module](self).
 #[derive(Clone, Debug)]
@@ -170,11 +177,7 @@ impl Barrier {
     }
 
     fn timer(&self) -> TimerKey {
-        TimerKey {
-            port: self.port,
-            kind: 0,
-            number: 0,
-        }
+        TimerKey::new(self.port, Alarm::Repeat)
     }
 }
 

@@ -3,7 +3,14 @@
 use super::epoch::Epoch;
 use super::rules::{Leadership, Rules, Scene};
 use super::{Algorithm, Change, KIND, LeaderElection, MOST_CHANGES};
-use starl_core::{Duration, Robot, RobotId, Time, TimerKey};
+use starl_core::{Duration, Robot, RobotId, Time, TimerKey, timers};
+
+timers! {
+    enum Alarm {
+        /// The algorithm has something to do.
+        Look,
+    }
+}
 
 impl LeaderElection {
     pub(super) fn begin(&mut self, robot: &mut Robot<'_>) {
@@ -144,10 +151,6 @@ impl LeaderElection {
     }
 
     pub(super) fn timer(&self) -> TimerKey {
-        TimerKey {
-            port: self.port,
-            kind: 0,
-            number: 0,
-        }
+        TimerKey::new(self.port, Alarm::Look)
     }
 }

@@ -31,9 +31,17 @@ use serde::{Deserialize, Serialize};
 use starl_core::random::hash_key;
 use starl_core::{
     Destination, Duration, Input, Message, Port, Primitive, Random, Robot, RobotId, TimerKey,
+    timers,
 };
 
 const KIND: &str = "failure_detector";
+
+timers! {
+    enum Alarm {
+        /// A heartbeat is due.
+        Beat,
+    }
+}
 
 /// What heartbeats say.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -210,11 +218,7 @@ impl FailureDetector {
     }
 
     fn timer(&self) -> TimerKey {
-        TimerKey {
-            port: self.port,
-            kind: 0,
-            number: 0,
-        }
+        TimerKey::new(self.port, Alarm::Beat)
     }
 }
 

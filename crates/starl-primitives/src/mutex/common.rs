@@ -7,12 +7,21 @@ use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 use starl_core::event::Name;
-use starl_core::{Port, Random, Robot, RobotId, TimerKey, Value};
+use starl_core::{Port, Random, Robot, RobotId, TimerKey, Value, timers};
 
 const KIND: &str = "mutex";
 
 /// A clock this far ahead is none that robots' requests could have driven it to.
 const FURTHEST: u64 = 1 << 45;
+
+timers! {
+    pub(super) enum Alarm {
+        /// A robot's request is due to be repeated, or what it holds to be renewed.
+        Repeat,
+        /// Unanswered questions of an arbiter that is not ready are to be repeated.
+        Recall,
+    }
+}
 
 /// Names a request among all that its robot ever makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -100,12 +109,8 @@ impl Common {
         others
     }
 
-    pub fn timer(&self, kind: u16) -> TimerKey {
-        TimerKey {
-            port: self.port,
-            kind,
-            number: 0,
-        }
+    pub fn timer(&self, alarm: Alarm) -> TimerKey {
+        TimerKey::new(self.port, alarm)
     }
 
     pub fn report(&self, robot: &mut Robot<'_>, event: &'static str, resources: &Resources) {

@@ -225,7 +225,9 @@ impl Primitive for Mutex {
                 each!(&mut self.protocol, state => state.receive(common, robot, message));
             }
             Input::Timer(key) if key.port == common.port => {
-                each!(&mut self.protocol, state => state.time_out(common, robot, *key));
+                if let Some(alarm) = key.read() {
+                    each!(&mut self.protocol, state => state.time_out(common, robot, alarm));
+                }
             }
             Input::Suspected(peer) => {
                 common.suspects.insert(*peer);

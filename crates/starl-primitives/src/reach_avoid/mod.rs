@@ -23,9 +23,16 @@ pub use options::Options;
 
 use route::Route;
 use starl_core::motion::Obstacles;
-use starl_core::{Input, Point, Port, Primitive, Robot, Time, TimerKey, Value};
+use starl_core::{Input, Point, Port, Primitive, Robot, Time, TimerKey, Value, timers};
 
 const KIND: &str = "reach_avoid";
+
+timers! {
+    enum Alarm {
+        /// The phase of the command has lasted long enough.
+        TimeOut,
+    }
+}
 
 /// Drives the robot to targets, around unsafe sets.
 #[derive(Clone, Debug)]
@@ -218,13 +225,8 @@ impl ReachAvoid {
         robot.emit_primitive(KIND, self.port, name, fields);
     }
 
-    /// The one timer: what it is for depends on the phase.
     fn timer(&self) -> TimerKey {
-        TimerKey {
-            port: self.port,
-            kind: 0,
-            number: 0,
-        }
+        TimerKey::new(self.port, Alarm::TimeOut)
     }
 }
 

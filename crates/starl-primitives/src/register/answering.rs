@@ -7,7 +7,7 @@ use super::operation::{Answer, Kind, Phase};
 use super::packet::{Entry, QuestionId};
 use super::tag::Tag;
 use super::version::Version;
-use super::{OPERATION_TIMER, Register};
+use super::{Alarm, Register};
 use starl_core::{Robot, RobotId};
 
 /// What a participant says to a question.
@@ -204,6 +204,6 @@ impl Register {
         };
         let after = longest.seconds() * robot.random().between(0.0, 1.0);
         let after = starl_core::Duration::from_seconds_f64(after);
-        robot.set_timer(self.timer(OPERATION_TIMER, number), after);
+        robot.set_timer(self.timer(Alarm::Operation(number)), after);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::operation::{Kind, Phase};
 use super::packet::{Content, Entry, QuestionId};
-use super::{OPERATION_TIMER, OperationId, Register, report};
+use super::{Alarm, OperationId, Register, report};
 use alloc::vec::Vec;
 use starl_core::{Destination, Robot, RobotId};
 
@@ -52,7 +52,7 @@ impl Register {
         let after = self.options.timeout(operation.repetitions);
         operation.repetitions = operation.repetitions.saturating_add(1);
         self.send_each(robot, &missing, &question);
-        robot.set_timer(self.timer(OPERATION_TIMER, number), after);
+        robot.set_timer(self.timer(Alarm::Operation(number)), after);
     }
 
     /// The time for answers is over.

@@ -7,7 +7,7 @@
 
 use super::packet::{Content, Entry};
 use super::tag::Tag;
-use super::{GOSSIP_TIMER, Register};
+use super::{Alarm, Register};
 use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -57,7 +57,7 @@ impl Register {
         self.gossip.compared = false;
         let after = interval.seconds() * robot.random().between(0.5, 1.0);
         let after = Duration::from_seconds_f64(after);
-        robot.set_timer(self.timer(GOSSIP_TIMER, 0), after);
+        robot.set_timer(self.timer(Alarm::Gossip), after);
     }
 
     /// Announces the copies, if not enough others have announced the same.

@@ -71,12 +71,20 @@ use lives::Lives;
 use operation::Operation;
 use packet::{Content, Datagram};
 use replica::Replica;
-use starl_core::{Destination, Input, Message, Payload, Port, Primitive, Robot, RobotId, TimerKey};
+use starl_core::{
+    Destination, Input, Message, Payload, Port, Primitive, Robot, RobotId, TimerKey, timers,
+};
 
-/// What the timers are for.
-const OPERATION_TIMER: u16 = 0;
-const ENTER_TIMER: u16 = 1;
-const GOSSIP_TIMER: u16 = 2;
+timers! {
+    enum Alarm {
+        /// An operation is to be asked about again, by its number.
+        Operation(u32),
+        /// A robot that has restarted is to ask again how to enter.
+        Enter,
+        /// The registers are to be announced.
+        Gossip,
+    }
+}
 
 /// Longer names of registers are refused, bytes.
 const LONGEST_NAME: usize = 255;
@@ -267,12 +275,8 @@ impl Register {
         }
     }
 
-    fn timer(&self, kind: u16, number: u32) -> TimerKey {
-        TimerKey {
-            port: self.port,
-            kind,
-            number,
-        }
+    fn timer(&self, alarm: Alarm) -> TimerKey {
+        TimerKey::new(self.port, alarm)
     }
 
     /// Takes a datagram. What is not one of ours is ignored.
@@ -337,11 +341,11 @@ impl Primitive for Register {
     fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
         match input {
             Input::Message(message) if message.port == self.port => self.receive(robot, message),
-            Input::Timer(key) if key.port == self.port => match key.kind {
-                OPERATION_TIMER => self.ask_again(robot, key.number),
-                ENTER_TIMER => self.enter_again(robot),
-                GOSSIP_TIMER => self.announce(robot),
-                _ => {}
+            Input::Timer(key) if key.port == self.port => match key.read() {
+                Some(Alarm::Operation(number)) => self.ask_again(robot, number),
+                Some(Alarm::Enter) => self.enter_again(robot),
+                Some(Alarm::Gossip) => self.announce(robot),
+                None => {}
             },
             Input::Suspected(peer) => self.suspect(robot, *peer),
             Input::Trusted(peer) => self.trust(robot, *peer),

@@ -3,8 +3,7 @@
 use super::operation::{Kind, Operation, Phase};
 use super::packet::Entry;
 use super::{
-    LONGEST_NAME, MOST_RESULTS, OPERATION_TIMER, OperationError, OperationId, Register, Status,
-    report,
+    Alarm, LONGEST_NAME, MOST_RESULTS, OperationError, OperationId, Register, Status, report,
 };
 use alloc::collections::{BTreeMap, BTreeSet};
 use starl_core::{Payload, Robot};
@@ -48,7 +47,7 @@ impl Register {
     pub fn withdraw(&mut self, robot: &mut Robot<'_>, operation: OperationId) {
         self.results.remove(&operation.0);
         if let Some(withdrawn) = self.operations.remove(&operation.0) {
-            robot.cancel_timer(self.timer(OPERATION_TIMER, operation.0));
+            robot.cancel_timer(self.timer(Alarm::Operation(operation.0)));
             let register = &withdrawn.register;
             report::operation(robot, self.port, "withdraw", operation, register, None);
         }
@@ -114,7 +113,7 @@ impl Register {
         let Some(operation) = self.operations.remove(&number) else {
             return;
         };
-        robot.cancel_timer(self.timer(OPERATION_TIMER, number));
+        robot.cancel_timer(self.timer(Alarm::Operation(number)));
         let register = &*operation.register;
         if let Phase::Claim(ballot) = operation.phase {
             self.keep_claimed(register, ballot, operation.latest.clone());

@@ -14,7 +14,7 @@
 use super::entering::{Heard, Standing};
 use super::lives::FIRST;
 use super::packet::{Content, Page, QuestionId};
-use super::{ENTER_TIMER, Register, report};
+use super::{Alarm, Register, report};
 use alloc::string::String;
 use alloc::vec::Vec;
 use starl_core::{Destination, Robot, RobotId};
@@ -157,7 +157,7 @@ impl Register {
                 Some(life) if life >= known => {
                     self.standing = Standing::Up(life);
                     self.lives.learn(me, life);
-                    robot.cancel_timer(self.timer(ENTER_TIMER, 0));
+                    robot.cancel_timer(self.timer(Alarm::Enter));
                     report::up(robot, self.port, life);
                     return self.answer_all_own(robot);
                 }
@@ -238,7 +238,7 @@ impl Register {
         if !unheard.is_empty() {
             self.say_hello_to(robot, &unheard, None);
         }
-        robot.set_timer(self.timer(ENTER_TIMER, 0), after);
+        robot.set_timer(self.timer(Alarm::Enter), after);
     }
 
     fn say_hello_to(&mut self, robot: &mut Robot<'_>, peers: &[RobotId], after: Option<String>) {

@@ -56,7 +56,7 @@ use packet::NO_VIEW;
 use roster::{Peer, Shunned};
 use stage::{Leaving, Own, Stage};
 use starl_core::random::hash_key;
-use starl_core::{Area, Duration, Input, Port, Primitive, Robot, RobotId, Time, TimerKey};
+use starl_core::{Area, Duration, Input, Port, Primitive, Robot, RobotId, Time, TimerKey, timers};
 
 const KIND: &str = "registration";
 
@@ -94,12 +94,15 @@ pub struct Registration {
     failed: bool,
 }
 
-/// What timers are for.
-#[derive(Clone, Copy, Debug)]
-enum Alarm {
-    Agreement,
-    Announcement,
-    Patience,
+timers! {
+    enum Alarm {
+        /// Something is to be done for the agreement.
+        Agreement,
+        /// The robot is to announce itself again.
+        Announcement,
+        /// There has been no list for long.
+        Patience,
+    }
 }
 
 impl Registration {
@@ -224,11 +227,7 @@ impl Registration {
     }
 
     fn timer(&self, alarm: Alarm) -> TimerKey {
-        TimerKey {
-            port: self.port,
-            kind: alarm as u16,
-            number: 0,
-        }
+        TimerKey::new(self.port, alarm)
     }
 
     fn set(&self, robot: &mut Robot<'_>, alarm: Alarm, after: Duration) {
@@ -279,11 +278,12 @@ impl Primitive for Registration {
     fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
         match input {
             Input::Message(message) if message.port == self.port => self.receive(robot, message),
-            Input::Timer(key) if *key == self.timer(Alarm::Agreement) => self.act(robot),
-            Input::Timer(key) if *key == self.timer(Alarm::Announcement) => {
-                self.announce_again(robot);
-            }
-            Input::Timer(key) if *key == self.timer(Alarm::Patience) => self.fail(robot),
+            Input::Timer(key) if key.port == self.port => match key.read() {
+                Some(Alarm::Agreement) => self.act(robot),
+                Some(Alarm::Announcement) => self.announce_again(robot),
+                Some(Alarm::Patience) => self.fail(robot),
+                None => {}
+            },
             Input::Activate => self.set_right(robot),
             Input::Suspected(peer) => {
                 self.suspects.insert(*peer);

@@ -35,13 +35,22 @@ use alloc::vec::Vec;
 use inbox::{Inbox, Taken};
 use outbox::Outbox;
 use packet::{Key, Packet, Stream};
-use starl_core::{Destination, Input, Payload, Port, Robot, RobotId, TimerKey, message};
+use starl_core::{Destination, Input, Payload, Port, Robot, RobotId, TimerKey, message, timers};
+
+timers! {
+    /// The timers of a port that carries the protocol.
+    pub(crate) enum Alarm {
+        /// A message may have to be sent again, by its ticket.
+        Resend(u32),
+        /// What an ordered broadcast above the protocol holds back is to be looked at.
+        Look,
+    }
+}
 
 /// One end of the protocol, the same on every robot that carries `port`.
 #[derive(Clone, Debug)]
 pub struct Reliable {
     port: Port,
-    timer_kind: u16,
     options: Options,
     incarnation: Incarnation,
     /// The number of the last message to all.
@@ -54,12 +63,10 @@ pub struct Reliable {
 }
 
 impl Reliable {
-    /// An end at the owner's port, whose timers are those of `timer_kind`: the owner hands both its
-    /// messages and these timers to [`Reliable::handle`].
-    pub fn new(port: Port, timer_kind: u16, options: Options) -> Reliable {
+    /// An end at the owner's port: the owner hands its messages and timers to [`Reliable::handle`].
+    pub fn new(port: Port, options: Options) -> Reliable {
         Reliable {
             port,
-            timer_kind,
             options,
             incarnation: Incarnation::default(),
             last_multicast: 0,
@@ -136,8 +143,7 @@ impl Reliable {
         self.dispatch(robot, message, pending, content)
     }
 
-    /// Takes an input of the robot: messages to the owner's port and timers of its `timer_kind`;
-    /// others are ignored.
+    /// Takes an input of the robot: messages to the owner's port and its own timers; others are ignored.
     #[must_use]
     pub fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) -> Notices {
         match input {
@@ -168,9 +174,10 @@ impl Reliable {
                     None => Notices::new(),
                 }
             }
-            Input::Timer(key) if key.port == self.port && key.kind == self.timer_kind => {
-                self.timed_out(robot, key.number)
-            }
+            Input::Timer(key) if key.port == self.port => match key.read() {
+                Some(Alarm::Resend(ticket)) => self.timed_out(robot, ticket),
+                _ => Notices::new(),
+            },
             _ => Notices::new(),
         }
     }
@@ -278,11 +285,7 @@ impl Reliable {
     }
 
     fn timer(&self, ticket: u32) -> TimerKey {
-        TimerKey {
-            port: self.port,
-            kind: self.timer_kind,
-            number: ticket,
-        }
+        TimerKey::new(self.port, Alarm::Resend(ticket))
     }
 }
 

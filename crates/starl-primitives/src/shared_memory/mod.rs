@@ -46,13 +46,19 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use causality::Held;
 use gossip::Gossip;
 use stamp::HybridClock;
-use starl_core::{Input, Payload, Port, Primitive, Robot, RobotId, Time, TimerKey};
+use starl_core::{Input, Payload, Port, Primitive, Robot, RobotId, Time, TimerKey, timers};
 use store::Store;
 
-/// What the timers are for.
-const FLUSH_TIMER: u16 = 0;
-const GOSSIP_TIMER: u16 = 1;
-const REPAIR_TIMER: u16 = 2;
+timers! {
+    enum Alarm {
+        /// What was written is to be sent; any input does this.
+        Flush,
+        /// The memory is to be announced.
+        Gossip,
+        /// What other robots lack is to be sent again.
+        Repair,
+    }
+}
 
 /// Longer names of variables are refused, bytes.
 const LONGEST_NAME: usize = 255;
@@ -190,12 +196,8 @@ impl SharedMemory {
         &self.options
     }
 
-    fn timer(&self, kind: u16) -> TimerKey {
-        TimerKey {
-            port: self.port,
-            kind,
-            number: 0,
-        }
+    fn timer(&self, alarm: Alarm) -> TimerKey {
+        TimerKey::new(self.port, alarm)
     }
 }
 
@@ -209,8 +211,11 @@ impl Primitive for SharedMemory {
         self.flush(robot);
         match input {
             Input::Message(message) if message.port == self.port => self.receive(robot, message),
-            Input::Timer(key) if *key == self.timer(GOSSIP_TIMER) => self.announce(robot),
-            Input::Timer(key) if *key == self.timer(REPAIR_TIMER) => self.repair(robot),
+            Input::Timer(key) if key.port == self.port => match key.read() {
+                Some(Alarm::Gossip) => self.announce(robot),
+                Some(Alarm::Repair) => self.repair(robot),
+                Some(Alarm::Flush) | None => {}
+            },
             _ => {}
         }
         self.keep_time(robot);

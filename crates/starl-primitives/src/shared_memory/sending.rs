@@ -8,7 +8,7 @@
 use super::compare;
 use super::packet::{Announcement, Content, Datagram, FRAME_BYTES, KEY_BYTES, Part, Range, Write};
 use super::store::Element;
-use super::{GOSSIP_TIMER, REPAIR_TIMER, SharedMemory, report};
+use super::{Alarm, SharedMemory, report};
 use alloc::borrow::ToOwned;
 use alloc::vec::Vec;
 use starl_core::{Destination, Duration, Robot, RobotId};
@@ -80,7 +80,7 @@ impl SharedMemory {
             }
         }
         let after = self.gossip.next(&self.options, robot.random());
-        robot.set_timer(self.timer(GOSSIP_TIMER), after);
+        robot.set_timer(self.timer(Alarm::Gossip), after);
     }
 
     /// Sends some of what others lack.
@@ -119,7 +119,7 @@ impl SharedMemory {
         let pending = |due| due <= now + REPAIR_PAUSE && due + REPAIR_PAUSE >= now;
         if !self.repairs.is_empty() && !self.repair_due.is_some_and(pending) {
             self.repair_due = Some(now + REPAIR_PAUSE);
-            robot.set_timer(self.timer(REPAIR_TIMER), REPAIR_PAUSE);
+            robot.set_timer(self.timer(Alarm::Repair), REPAIR_PAUSE);
         }
     }
 
@@ -159,7 +159,7 @@ impl SharedMemory {
     /// Compares memories soon.
     pub(super) fn hurry(&mut self, robot: &mut Robot<'_>) {
         let after = self.gossip.begin(&self.options, robot.random());
-        robot.set_timer(self.timer(GOSSIP_TIMER), after);
+        robot.set_timer(self.timer(Alarm::Gossip), after);
     }
 
     /// Whether nothing has changed for so long that no write should be on its way.

@@ -2,7 +2,7 @@
 
 use super::stamp::HybridClock;
 use super::store::{self, Address, Element};
-use super::{FLUSH_TIMER, LONGEST_NAME, SharedMemory, Stamp, WriteError, report};
+use super::{Alarm, LONGEST_NAME, SharedMemory, Stamp, WriteError, report};
 use starl_core::{Duration, Payload, Robot, RobotId};
 
 impl SharedMemory {
@@ -75,7 +75,7 @@ impl SharedMemory {
         self.note_change(robot);
         self.store.put(element);
         self.unsent.insert(key);
-        robot.set_timer(self.timer(FLUSH_TIMER), Duration::ZERO);
+        robot.set_timer(self.timer(Alarm::Flush), Duration::ZERO);
         stamp
     }
 }

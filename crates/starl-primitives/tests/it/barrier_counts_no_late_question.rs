@@ -3,7 +3,7 @@
 
 use crate::harness::crosser::{Crosser, arrive, barrier, crossings};
 use crate::harness::{Wire, World};
-use starl_core::{Duration, Input, Message, Port, RobotId, TimerKey};
+use starl_core::{Duration, Input, Message, Port, RobotId};
 
 const SECOND: Duration = Duration::from_seconds(1);
 
@@ -34,8 +34,7 @@ fn a_late_question_of_an_earlier_life_is_no_arrival() {
     world.payloads.clear();
     world.keep_payloads = true;
     let port = Port::named("gate");
-    let (kind, number) = (0, 0);
-    world.input(2, &Input::Timer(TimerKey { port, kind, number }));
+    world.time_out(2, port);
     world.keep_payloads = false;
     let late = std::mem::take(&mut world.payloads);
     assert!(!late.is_empty() && barrier(&world, 2).is_waiting());

@@ -63,13 +63,12 @@ fn gaps_and_messages_held_back_are_limited() {
         let mut random = Random::keyed(1, &[]);
         let mut sender = Reliable::new(
             PORT,
-            0,
             Options {
                 most_outstanding: 5000,
                 ..options
             },
         );
-        let mut receiver = Reliable::new(PORT, 0, options);
+        let mut receiver = Reliable::new(PORT, options);
         let mut after_100 = 0;
         let mut taken = 0;
         for number in 0..4000 {
@@ -105,8 +104,8 @@ fn gaps_and_messages_held_back_are_limited() {
 #[test]
 fn settled_messages_leave_nothing_behind() {
     let mut random = Random::keyed(1, &[]);
-    let mut sender = Reliable::new(PORT, 0, Options::default());
-    let mut receiver = Reliable::new(PORT, 0, Options::default());
+    let mut sender = Reliable::new(PORT, Options::default());
+    let mut receiver = Reliable::new(PORT, Options::default());
     let mut after_10 = (0, 0);
     for number in 1..=3000 {
         let content = Payload::from_slice(&[7; 20]);
@@ -135,9 +134,9 @@ fn settled_messages_leave_nothing_behind() {
 #[test]
 fn garbage_does_no_harm() {
     let mut random = Random::keyed(1, &[]);
-    let mut receiver = Reliable::new(PORT, 0, Options::default());
+    let mut receiver = Reliable::new(PORT, Options::default());
     let mut garbage = Random::keyed(2, &[]);
-    let mut sender = Reliable::new(PORT, 0, Options::default());
+    let mut sender = Reliable::new(PORT, Options::default());
     let content = Payload::from_slice(b"content");
     let (_, genuine) = with(0, &mut random, |robot| {
         sender.send_to_all(robot, FLEET, content)

@@ -23,7 +23,7 @@ fn chatter(seed: u64, options: Options) -> World {
             let at = robot as usize;
             world.command(at, broadcast(message));
             world.command(at, geocast(1000 + message));
-            world.command(at, unicast(((robot + 1) % ROBOTS) as u16, 2000 + message));
+            world.command(at, unicast(((robot + 1) % ROBOTS) as u8, 2000 + message));
         }
         world.run_for(Duration::from_millis(70));
     }

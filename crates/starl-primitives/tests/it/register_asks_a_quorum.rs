@@ -15,7 +15,7 @@ fn idle(count: usize) -> World {
 
 /// How many datagrams about registers are sent in the first milliseconds after a command, in which nothing
 /// else is.
-fn sent(world: &mut World, robot: usize, command: starl_core::TimerKey) -> usize {
+fn sent(world: &mut World, robot: usize, command: impl starl_core::Timer) -> usize {
     // Heartbeats are sent by timers that fire at other times than this.
     world.run_for(Duration::from_millis(20));
     let before = world.sent;

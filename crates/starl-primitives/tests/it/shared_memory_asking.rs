@@ -2,7 +2,7 @@
 
 use crate::harness;
 use starl_core::{
-    Destination, Effect, Input, Message, Payload, Port, Primitive, RobotId, TimerKey,
+    Destination, Effect, Input, Message, Payload, Port, Primitive, RobotId, TimerKey, timers,
 };
 use starl_primitives::SharedMemory;
 use starl_primitives::shared_memory::Options;
@@ -31,12 +31,17 @@ fn arrives(from: u32, payload: &Payload) -> Input {
     })
 }
 
-fn timer(kind: u16) -> Input {
-    Input::Timer(TimerKey {
-        port: PORT,
-        kind,
-        number: 0,
-    })
+timers! {
+    /// The timers of a memory.
+    enum Alarm {
+        Flush,
+        Gossip,
+        Repair,
+    }
+}
+
+fn fires(alarm: Alarm) -> Input {
+    Input::Timer(TimerKey::new(PORT, alarm))
 }
 
 #[test]
@@ -46,15 +51,15 @@ fn it_asks_for_what_it_lacks_and_gets_it() {
     harness::alone(0, |robot| {
         knowing.write(robot, "x", [5].as_slice().into()).unwrap();
     });
-    handle(0, &mut knowing, &timer(0)); // and this is lost
+    handle(0, &mut knowing, &fires(Alarm::Flush)); // and this is lost
 
     // Each announces its memory; the one that knows hears that the other differs.
-    let announced = handle(1, &mut lacking, &timer(1));
+    let announced = handle(1, &mut lacking, &fires(Alarm::Gossip));
     let [(Destination::All, announced)] = &announced[..] else {
         panic!("{announced:?}");
     };
     assert_eq!(handle(0, &mut knowing, &arrives(1, announced)), []);
-    let told = handle(0, &mut knowing, &timer(1));
+    let told = handle(0, &mut knowing, &fires(Alarm::Gossip));
     let [
         (Destination::All, _),
         (Destination::Robot(RobotId(1)), list),
@@ -68,7 +73,7 @@ fn it_asks_for_what_it_lacks_and_gets_it() {
         panic!("{asked:?}");
     };
     assert_eq!(handle(0, &mut knowing, &arrives(1, asked)), []);
-    let repaired = handle(0, &mut knowing, &timer(2));
+    let repaired = handle(0, &mut knowing, &fires(Alarm::Repair));
     let [(Destination::All, repaired)] = &repaired[..] else {
         panic!("{repaired:?}");
     };

@@ -156,7 +156,7 @@ fn nothing_is_shown_too_early_whatever_the_network_does() {
         let mut crashes = Vec::new();
         for round in 0..200 {
             let who = random.below(4) as usize;
-            let variable = random.below(4) as u16;
+            let variable = random.below(4) as u8;
             let command = match random.chance(0.5) {
                 true => write(variable, round),
                 false => write_own(variable, round),

@@ -113,7 +113,7 @@ fn a_write_after_a_corruption_is_later_than_what_it_replaces() {
             // No clock of ours shows more than 146 years.
             let is_possible = before.is_none_or(|stamp| stamp.time.0 <= u64::MAX >> 2);
             assert!(!is_possible || before < after, "seed {seed}");
-            assert_eq!(read(&world, 0, variable), Some(77));
+            assert_eq!(read(&world, 0, variable.into()), Some(77));
         }
     }
 }

@@ -86,7 +86,7 @@ fn copies_become_equal_over_a_network_that_loses_repeats_and_reorders() {
         for _ in 0..40 {
             value += 1;
             let robot = random.below(5) as usize;
-            let variable = random.below(4) as u16;
+            let variable = random.below(4) as u8;
             world.command(robot, write(variable, value));
             world.command(robot, write_own(variable, value));
             world.run_for(Duration::from_millis(u64::from(random.below(300))));

@@ -19,7 +19,7 @@ mod vector;
 
 use super::{Gap, Gaps, KIND};
 use crate::channel::{Channel, report_arrival};
-use crate::reliable::{Arrival, MessageId, Notice, encode};
+use crate::reliable::{Alarm, Arrival, MessageId, Notice, encode};
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 use asking::Doubt;
@@ -28,10 +28,7 @@ use serde::{Deserialize, Serialize};
 use starl_core::{Duration, Input, Payload, Random, Robot, RobotId, TimerKey, message};
 use vector::{After, Process, Vector};
 
-/// The kind of timer on which what is held back is looked at; the protocol below has kind 0.
-const LOOK_TIMER: u16 = 1;
-
-/// How often that is.
+/// What is held back is looked at this often.
 const LOOK: Duration = Duration::from_millis(250);
 
 /// A suspected sender's messages are waited for at least this many looks.
@@ -228,11 +225,7 @@ impl Causal {
     }
 
     fn timer(&self) -> TimerKey {
-        TimerKey {
-            port: self.channel.port,
-            kind: LOOK_TIMER,
-            number: 0,
-        }
+        TimerKey::new(self.channel.port, Alarm::Look)
     }
 }
 

@@ -46,7 +46,7 @@ use member::{Member, Role};
 use packet::{Body, Generation, Life, Said};
 use proposing::Proposal;
 use starl_core::random::hash_key;
-use starl_core::{Destination, Duration, Input, Port, Random, Robot, TimerKey, Value};
+use starl_core::{Destination, Duration, Input, Port, Random, Robot, TimerKey, Value, timers};
 
 /// A log with this many entries or bytes is long: it is no longer kept for those who are away. Besides,
 /// it may hold as much that is not decided.
@@ -61,6 +61,13 @@ const FURTHEST: u32 = 1 << 20;
 
 /// After this many ticks without a leader a robot says that it has failed.
 const SILENCE: u32 = 12;
+
+timers! {
+    enum Alarm {
+        /// A tick has passed.
+        Tick,
+    }
+}
 
 /// One end of a totally ordered broadcast.
 #[derive(Clone, Debug)]
@@ -270,10 +277,6 @@ impl Total {
     }
 
     fn timer(&self) -> TimerKey {
-        TimerKey {
-            port: self.port,
-            kind: 0,
-            number: 0,
-        }
+        TimerKey::new(self.port, Alarm::Tick)
     }
 }

@@ -1,12 +1,12 @@
 //! A robot asks, repeats, enters, renews what it holds and gives it back.
 
 use super::super::Resources;
-use super::super::common::Common;
+use super::super::common::{Alarm, Common};
 use super::super::quorum::quorum;
 use super::enough::Enough;
 use super::packet::Packet;
 use super::request::Request;
-use super::{Arbitration, Post, REPEAT, is_lease};
+use super::{Arbitration, Post, is_lease};
 use crate::incarnation::Incarnation;
 use alloc::collections::BTreeSet;
 use starl_core::{Duration, Robot};
@@ -99,7 +99,7 @@ impl Arbitration {
         request.yield_if_it_must(request.repetitions > 0, common, &mut post);
         request.ask(now, enough, common, &mut post);
         request.repetitions = request.repetitions.saturating_add(1);
-        robot.set_timer(common.timer(REPEAT), after);
+        robot.set_timer(common.timer(Alarm::Repeat), after);
         self.deliver(common, robot, post);
     }
 
@@ -107,7 +107,7 @@ impl Arbitration {
     pub(super) fn give_back(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         let mut post = Post::default();
         if let Some(request) = self.request.take() {
-            robot.cancel_timer(common.timer(REPEAT));
+            robot.cancel_timer(common.timer(Alarm::Repeat));
             for arbiter in request.arbiters() {
                 let (id, left) = (request.id, Resources::new());
                 post.send(arbiter, Packet::Release { id, left });
@@ -133,14 +133,14 @@ impl Arbitration {
         common.held = request.resources.clone();
         match enough {
             Enough::All => {
-                robot.cancel_timer(common.timer(REPEAT));
+                robot.cancel_timer(common.timer(Alarm::Repeat));
                 common.report(robot, "enter", &common.held);
             }
             Enough::Majority(_, belief) => {
                 let after = (belief / RENEWALS)
                     .min(until.since(now + MARGIN) / 2)
                     .max(MARGIN);
-                robot.set_timer(common.timer(REPEAT), after);
+                robot.set_timer(common.timer(Alarm::Repeat), after);
                 common.report_numbered(robot, number);
             }
         }

@@ -17,7 +17,7 @@ mod request;
 mod standing;
 
 use super::Resources;
-use super::common::Common;
+use super::common::{Alarm, Common};
 use super::lease::belief;
 use super::options::Algorithm;
 
@@ -30,12 +30,7 @@ use post::Post;
 use recovery::Recovery;
 use request::Request;
 
-use starl_core::{Destination, Duration, Message, Random, Robot, RobotId, TimerKey};
-
-/// A robot's request is due to be repeated, or what it holds to be renewed.
-const REPEAT: u16 = 0;
-/// Unanswered questions of an arbiter that is not ready are to be repeated.
-const RECALL: u16 = 1;
+use starl_core::{Destination, Duration, Message, Random, Robot, RobotId};
 
 /// Messages that a robot may send itself for one input; more would mean that it talks in a circle.
 const MOST_LOCAL: usize = 256;
@@ -108,12 +103,11 @@ impl Arbitration {
         }
     }
 
-    pub fn time_out(&mut self, common: &mut Common, robot: &mut Robot<'_>, key: TimerKey) {
+    pub fn time_out(&mut self, common: &mut Common, robot: &mut Robot<'_>, alarm: Alarm) {
         self.look(common, robot);
-        match key.kind {
-            REPEAT => self.repeat(common, robot),
-            RECALL => self.recall(common, robot),
-            _ => {}
+        match alarm {
+            Alarm::Repeat => self.repeat(common, robot),
+            Alarm::Recall => self.recall(common, robot),
         }
     }
 

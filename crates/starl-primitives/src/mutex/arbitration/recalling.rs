@@ -1,10 +1,10 @@
 //! An arbiter that remembers nothing asks, and robots answer: see [`super::recovery`].
 
-use super::super::common::Common;
+use super::super::common::{Alarm, Common};
 use super::super::lease::number_at;
 use super::packet::Packet;
 use super::recovery::Outlook;
-use super::{Arbitration, Post, RECALL, lease};
+use super::{Arbitration, Post, lease};
 use alloc::vec::Vec;
 use starl_core::random::hash_key;
 use starl_core::{Robot, RobotId, Time};
@@ -72,7 +72,7 @@ impl Arbitration {
         let timeout = common.options.timeout(begun.repetitions);
         let timeout = until_more.map_or(timeout, |more| timeout.min(more));
         begun.repetitions = begun.repetitions.saturating_add(1);
-        robot.set_timer(common.timer(RECALL), timeout);
+        robot.set_timer(common.timer(Alarm::Recall), timeout);
     }
 
     /// Looks whether enough has been heard to be an arbiter; whether others are to be asked at once.

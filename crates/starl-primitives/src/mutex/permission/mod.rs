@@ -14,13 +14,11 @@
 mod packet;
 
 use super::Resources;
-use super::common::Common;
+use super::common::{Alarm, Common};
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 use packet::{Packet, Wish};
-use starl_core::{Destination, Message, Random, Robot, RobotId, TimerKey};
-
-const REPEAT: u16 = 0;
+use starl_core::{Destination, Message, Random, Robot, RobotId};
 
 /// The state of the algorithm.
 #[derive(Clone, Debug, Default)]
@@ -104,7 +102,7 @@ impl Permission {
     /// Forgets the request that is under way.
     pub fn withdraw(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         if self.waiting.take().is_some() {
-            robot.cancel_timer(common.timer(REPEAT));
+            robot.cancel_timer(common.timer(Alarm::Repeat));
             self.permit_deferred(common, robot);
         }
     }
@@ -144,8 +142,8 @@ impl Permission {
     }
 
     /// Sends the request once more.
-    pub fn time_out(&mut self, common: &mut Common, robot: &mut Robot<'_>, key: TimerKey) {
-        if key != common.timer(REPEAT) {
+    pub fn time_out(&mut self, common: &mut Common, robot: &mut Robot<'_>, alarm: Alarm) {
+        if alarm != Alarm::Repeat {
             return;
         }
         if self.waiting.is_some() && !common.held.is_empty() {
@@ -247,7 +245,7 @@ impl Permission {
         let is_permitted = |waiting: &mut Waiting| waiting.missing.is_empty();
         if let Some(waiting) = self.waiting.take_if(is_permitted) {
             common.held = waiting.wish.resources;
-            robot.cancel_timer(common.timer(REPEAT));
+            robot.cancel_timer(common.timer(Alarm::Repeat));
             common.report(robot, "enter", &common.held);
         }
     }
@@ -267,7 +265,7 @@ impl Permission {
             }
         }
         let timeout = common.options.timeout(waiting.repetitions);
-        robot.set_timer(common.timer(REPEAT), timeout);
+        robot.set_timer(common.timer(Alarm::Repeat), timeout);
         waiting.repetitions = waiting.repetitions.saturating_add(1);
     }
 }

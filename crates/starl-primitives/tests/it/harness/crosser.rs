@@ -1,9 +1,9 @@
 //! A program that comes to a barrier, on command or by itself again and again; and what its events say of
 //! who passed what when.
 
-use super::{World, command};
+use super::World;
 use starl_core::{
-    Duration, Event, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value,
+    Duration, Event, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value, timers,
 };
 use starl_primitives::barrier::Options;
 use starl_primitives::{Barrier, FailureDetector, failure_detector};
@@ -55,9 +55,15 @@ impl Crosser {
     }
 }
 
+timers! {
+    pub enum Command {
+        Arrive,
+    }
+}
+
 /// Tells a robot to come to the barrier.
-pub fn arrive() -> TimerKey {
-    command(0, 0)
+pub fn arrive() -> Command {
+    Command::Arrive
 }
 
 impl Program for Crosser {
@@ -77,7 +83,8 @@ impl Program for Crosser {
         }
     }
 
-    fn timer(&mut self, robot: &mut Robot<'_>, _: TimerKey) {
+    fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
+        assert_eq!(key.read(), Some(Command::Arrive));
         self.barrier.arrive(robot);
     }
 

@@ -1,8 +1,8 @@
 //! A program that elects as a test tells it to; and what its events say of who led when.
 
-use super::{World, command, int, robot};
+use super::{World, int, robot};
 use starl_core::event::Value;
-use starl_core::{Event, Primitive, Program, Random, Robot, RobotId, TimerKey};
+use starl_core::{Event, Primitive, Program, Random, Robot, RobotId, TimerKey, timers};
 use starl_primitives::election::{Algorithm, Options};
 use starl_primitives::{FailureDetector, LeaderElection, failure_detector};
 use std::any::Any;
@@ -51,11 +51,18 @@ pub fn by(algorithm: Algorithm) -> Options {
 /// All algorithms.
 pub const ALGORITHMS: [Algorithm; 3] = [Algorithm::Leases, Algorithm::Ballots, Algorithm::Bully];
 
+timers! {
+    pub enum Command {
+        Elect,
+        Resign,
+    }
+}
+
 /// Tells a robot to stand for election.
-pub const ELECT: TimerKey = command(0, 0);
+pub const ELECT: Command = Command::Elect;
 
 /// Tells a robot to resign.
-pub const RESIGN: TimerKey = command(1, 0);
+pub const RESIGN: Command = Command::Resign;
 
 impl Program for Elector {
     fn start(&mut self, robot: &mut Robot<'_>) {
@@ -67,9 +74,9 @@ impl Program for Elector {
     fn activate(&mut self, _: &mut Robot<'_>) {}
 
     fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
-        match key {
-            ELECT => self.election.elect(robot),
-            _ => self.election.resign(robot),
+        match key.read().expect("a command") {
+            Command::Elect => self.election.elect(robot),
+            Command::Resign => self.election.resign(robot),
         }
     }
 

@@ -1,9 +1,9 @@
 //! A program that reads and writes registers at random, or as a test tells it to; and whether what its
 //! events say is linearizable.
 
-use super::{World, command, int};
+use super::{World, int};
 use starl_core::{
-    Duration, Event, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value,
+    Duration, Event, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value, timers,
 };
 use starl_primitives::register::{OperationId, Options, Status};
 use starl_primitives::{FailureDetector, Register, failure_detector};
@@ -41,35 +41,39 @@ impl Keeper {
     }
 }
 
-const READ: u16 = 0;
-const WRITE: u16 = 1;
-const WITHDRAW: u16 = 2;
-const CLAIM: u16 = 3;
-const UPDATE: u16 = 4;
+timers! {
+    pub enum Command {
+        Read,
+        Write(u32),
+        Claim,
+        Update(u32),
+        Withdraw,
+    }
+}
 
 /// Tells a robot to read `x`.
-pub fn read() -> TimerKey {
-    command(READ, 0)
+pub fn read() -> Command {
+    Command::Read
 }
 
 /// Tells a robot to write a number to `x`.
-pub fn write(value: u32) -> TimerKey {
-    command(WRITE, value)
+pub fn write(value: u32) -> Command {
+    Command::Write(value)
 }
 
 /// Tells a robot to claim `x`.
-pub fn claim() -> TimerKey {
-    command(CLAIM, 0)
+pub fn claim() -> Command {
+    Command::Claim
 }
 
 /// Tells a robot to write a number to `x`, which it has claimed.
-pub fn update(value: u32) -> TimerKey {
-    command(UPDATE, value)
+pub fn update(value: u32) -> Command {
+    Command::Update(value)
 }
 
 /// Tells a robot to withdraw what it began last.
-pub fn withdraw() -> TimerKey {
-    command(WITHDRAW, 0)
+pub fn withdraw() -> Command {
+    Command::Withdraw
 }
 
 impl Program for Keeper {
@@ -92,13 +96,13 @@ impl Program for Keeper {
     }
 
     fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
-        let value = key.number.to_le_bytes().as_slice().into();
-        let begun = match key.kind {
-            READ => self.register.read(robot, "x"),
-            WRITE => self.register.write(robot, "x", value),
-            CLAIM => self.register.claim(robot, "x"),
-            UPDATE => self.register.write_claimed(robot, "x", value),
-            _ => {
+        let content = |value: u32| value.to_le_bytes().as_slice().into();
+        let begun = match key.read().expect("a command") {
+            Command::Read => self.register.read(robot, "x"),
+            Command::Write(value) => self.register.write(robot, "x", content(value)),
+            Command::Claim => self.register.claim(robot, "x"),
+            Command::Update(value) => self.register.write_claimed(robot, "x", content(value)),
+            Command::Withdraw => {
                 if let Some(last) = self.last.take() {
                     self.register.withdraw(robot, last);
                 }

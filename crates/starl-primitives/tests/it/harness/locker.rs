@@ -1,10 +1,10 @@
 //! A program that asks for resources, uses them for a while and gives them back, again and again; and
 //! what its events say of who held what when.
 
-use super::{World, command};
+use super::World;
 use starl_core::event::Name;
 use starl_core::{
-    Duration, Event, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value,
+    Duration, Event, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value, timers,
 };
 use starl_primitives::mutex::{Algorithm, Options, Resources};
 use starl_primitives::{FailureDetector, Mutex, failure_detector};
@@ -76,31 +76,33 @@ fn numbered(bits: u32) -> Resources {
     chosen.map(|(_, &resource)| resource.into()).collect()
 }
 
-const ACQUIRE: u16 = 0;
-const RELEASE: u16 = 1;
-const ASK_ONLY: u16 = 2;
+timers! {
+    /// Sets are the bits of numbers.
+    pub enum Command {
+        Acquire(u32),
+        Release(u32),
+        AskOnly(u32),
+    }
+}
 
-fn about(kind: u16, resources: &[&str]) -> TimerKey {
+fn bits(resources: &[&str]) -> u32 {
     let bit = |resource: &&str| RESOURCES.iter().position(|name| name == resource);
-    command(
-        kind,
-        resources.iter().filter_map(bit).map(|bit| 1 << bit).sum(),
-    )
+    resources.iter().filter_map(bit).map(|bit| 1 << bit).sum()
 }
 
 /// Tells a robot to ask for these.
-pub fn acquire(resources: &[&str]) -> TimerKey {
-    about(ACQUIRE, resources)
+pub fn acquire(resources: &[&str]) -> Command {
+    Command::Acquire(bits(resources))
 }
 
 /// Tells a robot to give these back.
-pub fn release(resources: &[&str]) -> TimerKey {
-    about(RELEASE, resources)
+pub fn release(resources: &[&str]) -> Command {
+    Command::Release(bits(resources))
 }
 
 /// Tells a robot whom to ask from its next request on.
-pub fn ask_only(robots: &[u32]) -> TimerKey {
-    command(ASK_ONLY, robots.iter().map(|robot| 1 << robot).sum())
+pub fn ask_only(robots: &[u32]) -> Command {
+    Command::AskOnly(robots.iter().map(|robot| 1 << robot).sum())
 }
 
 fn pause(random: &mut Random) -> Duration {
@@ -133,15 +135,14 @@ impl Program for Locker {
     }
 
     fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
-        let resources = numbered(key.number);
-        match key.kind {
-            ACQUIRE => self
-                .mutex
-                .acquire(robot, resources)
-                .expect("it holds nothing"),
-            RELEASE => self.mutex.release(robot, &resources),
-            _ => {
-                let robots = (0..32).filter(|robot| key.number >> robot & 1 == 1);
+        match key.read().expect("a command") {
+            Command::Acquire(bits) => {
+                let acquired = self.mutex.acquire(robot, numbered(bits));
+                acquired.expect("it holds nothing");
+            }
+            Command::Release(bits) => self.mutex.release(robot, &numbered(bits)),
+            Command::AskOnly(bits) => {
+                let robots = (0..32).filter(|robot| bits >> robot & 1 == 1);
                 let participants = robots.map(RobotId).collect();
                 self.mutex.set_participants(Some(participants));
             }

@@ -18,7 +18,8 @@ use starl_core::event::{Name, Value};
 use starl_core::motion::{Body, Obstacles, Workspace};
 use starl_core::{
     Agent, Destination, Duration, Effect, Estimate, Event, Input, Message, MotionRequest, Payload,
-    Point, Port, Pose, Program, Random, Robot, RobotId, Sensors, Time, TimerKey, View, WayPoint,
+    Point, Port, Pose, Program, Random, Robot, RobotId, Sensors, Time, Timer, TimerKey, View,
+    WayPoint,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -305,7 +306,16 @@ impl World {
     }
 
     /// Tells the program of a robot to do something: see [`Talker`].
-    pub fn command(&mut self, robot: usize, key: TimerKey) {
+    pub fn command(&mut self, robot: usize, command: impl Timer) {
+        let key = TimerKey::new(Port::PROGRAM, command);
+        self.input(robot, &Input::Timer(key));
+    }
+
+    /// The first armed timer of a primitive fires now.
+    pub fn time_out(&mut self, robot: usize, port: Port) {
+        let mut armed = self.nodes[robot].timers.keys();
+        let key = *armed.find(|key| key.port == port).expect("one is armed");
+        self.nodes[robot].timers.remove(&key);
         self.input(robot, &Input::Timer(key));
     }
 
@@ -528,15 +538,6 @@ impl World {
     fn queue(&mut self, after: Duration, occasion: Occasion) {
         self.queued += 1;
         self.queue.insert((self.now + after, self.queued), occasion);
-    }
-}
-
-/// What tells a program to do something, see [`World::command`]: what, and with which number.
-pub const fn command(kind: u16, number: u32) -> TimerKey {
-    TimerKey {
-        port: Port::PROGRAM,
-        kind,
-        number,
     }
 }
 

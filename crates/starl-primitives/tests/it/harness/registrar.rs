@@ -1,9 +1,9 @@
 //! A program that registers and leaves, on command or at random again and again; and what its events say
 //! of who showed what when.
 
-use super::{World, command};
+use super::World;
 use starl_core::{
-    Area, Duration, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value,
+    Area, Duration, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value, timers,
 };
 use starl_primitives::registration::Options;
 use starl_primitives::{FailureDetector, Registration, failure_detector};
@@ -44,21 +44,26 @@ impl Registrar {
     }
 }
 
-const REGISTER: u16 = 0;
-const UNREGISTER: u16 = 1;
+timers! {
+    pub enum Command {
+        Register,
+        RegisterWithin(u32),
+        Unregister,
+    }
+}
 
 /// Tells a robot to register with the whole fleet.
-pub fn register() -> TimerKey {
-    command(REGISTER, 0)
+pub fn register() -> Command {
+    Command::Register
 }
 
 /// Tells a robot to register with those this near to it, metres.
-pub fn register_within(radius: u32) -> TimerKey {
-    command(REGISTER, radius)
+pub fn register_within(radius: u32) -> Command {
+    Command::RegisterWithin(radius)
 }
 
-pub fn unregister() -> TimerKey {
-    command(UNREGISTER, 0)
+pub fn unregister() -> Command {
+    Command::Unregister
 }
 
 impl Program for Registrar {
@@ -77,15 +82,16 @@ impl Program for Registrar {
     }
 
     fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
-        match key.kind {
-            REGISTER => {
-                let area = (key.number > 0).then_some(Area::Circle {
+        match key.read().expect("a command") {
+            Command::Register => self.registration.register(robot, None),
+            Command::RegisterWithin(radius) => {
+                let area = Area::Circle {
                     center: robot.position(),
-                    radius: f64::from(key.number),
-                });
-                self.registration.register(robot, area);
+                    radius: f64::from(radius),
+                };
+                self.registration.register(robot, Some(area));
             }
-            _ => self.registration.unregister(robot),
+            Command::Unregister => self.registration.unregister(robot),
         }
     }
 

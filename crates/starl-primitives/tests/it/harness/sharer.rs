@@ -1,6 +1,7 @@
 //! A program that writes shared memory as a test tells it to.
 
-use super::{Wire, World, command};
+use super::{Wire, World};
+use starl_core::timer::{Timer, Token};
 use starl_core::{Duration, Primitive, Program, Random, Robot, RobotId, TimerKey};
 use starl_primitives::SharedMemory;
 use starl_primitives::shared_memory::Options;
@@ -27,17 +28,47 @@ impl Sharer {
     }
 }
 
-const OWN: u16 = 1 << 15;
-const LONG: u16 = 1 << 14;
+#[derive(Clone, Copy, Debug)]
+pub enum Command {
+    Write(u8, u32),
+    WriteOwn(u8, u32),
+    WriteMany(u32),
+}
+
+impl Timer for Command {
+    fn token(self) -> Token {
+        let (what, place, value) = match self {
+            Command::Write(variable, value) => (0, variable, value),
+            Command::WriteOwn(array, value) => (1, array, value),
+            Command::WriteMany(count) => (2, 0, count),
+        };
+        Token::new(u16::from_be_bytes([what, place]), value)
+    }
+
+    fn from_token(token: Token) -> Option<Command> {
+        let (kind, value) = token.parts();
+        match kind.to_be_bytes() {
+            [0, variable] => Some(Command::Write(variable, value)),
+            [1, array] => Some(Command::WriteOwn(array, value)),
+            [2, 0] => Some(Command::WriteMany(value)),
+            _ => None,
+        }
+    }
+}
 
 /// Tells a sharer to write a value to the variable `x0`, `x1`, ...
-pub fn write(variable: u16, value: u32) -> TimerKey {
-    command(variable, value)
+pub fn write(variable: u8, value: u32) -> Command {
+    Command::Write(variable, value)
 }
 
 /// Tells a sharer to write a value to its element of the array `x0`, `x1`, ...
-pub fn write_own(array: u16, value: u32) -> TimerKey {
-    write(array | OWN, value)
+pub fn write_own(array: u8, value: u32) -> Command {
+    Command::WriteOwn(array, value)
+}
+
+/// Tells a sharer to write this many variables, `x0`, `x1`, ..., each with its number as value.
+pub fn write_many(count: u32) -> Command {
+    Command::WriteMany(count)
 }
 
 /// Four robots with activations at this period, each of which has written each of eight variables and its element
@@ -54,11 +85,6 @@ pub fn busy_world(seed: u64, wire: Wire, period: Duration) -> World {
     world
 }
 
-/// Tells a sharer to write this many variables, `x0`, `x1`, ..., each with its number as value.
-pub fn write_many(count: u32) -> TimerKey {
-    write(LONG, count)
-}
-
 impl Program for Sharer {
     fn start(&mut self, robot: &mut Robot<'_>) {
         for variable in 0..self.causal {
@@ -69,24 +95,20 @@ impl Program for Sharer {
     fn activate(&mut self, _: &mut Robot<'_>) {}
 
     fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
-        if key.kind == LONG {
-            for variable in 0..key.number {
-                let value = variable.to_le_bytes();
-                let name = format!("x{variable}");
-                self.memory
-                    .write(robot, &name, value.as_slice().into())
-                    .unwrap();
-            }
-            return;
-        }
-        let name = format!("x{}", key.kind & !OWN);
-        let value = key.number.to_le_bytes().as_slice().into();
-        let written = if key.kind & OWN == 0 {
-            self.memory.write(robot, &name, value)
-        } else {
-            self.memory.write_own(robot, &name, value)
+        let content = |value: u32| value.to_le_bytes().as_slice().into();
+        let mut write = |variable: u32, value| {
+            let name = format!("x{variable}");
+            self.memory.write(robot, &name, content(value)).unwrap();
         };
-        written.unwrap();
+        match key.read().expect("a command") {
+            Command::Write(variable, value) => write(variable.into(), value),
+            Command::WriteMany(count) => (0..count).for_each(|variable| write(variable, variable)),
+            Command::WriteOwn(array, value) => {
+                let name = format!("x{array}");
+                let written = self.memory.write_own(robot, &name, content(value));
+                written.unwrap();
+            }
+        }
     }
 
     fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {

@@ -1,6 +1,6 @@
 //! A program that sends what a test tells it to, and reports what it receives.
 
-use super::command;
+use starl_core::timer::{Timer, Token};
 use starl_core::{Area, Message, Point, Primitive, Program, Robot, RobotId, TimerKey, message};
 use starl_primitives::reliable::Options;
 use starl_primitives::{Broadcast, Geocast, Unicast};
@@ -32,37 +32,64 @@ impl Talker {
     }
 }
 
-const BROADCAST: u16 = 0;
-const GEOCAST: u16 = 1;
-const UNICAST: u16 = 2;
+#[derive(Clone, Copy, Debug)]
+pub enum Command {
+    Broadcast(u32),
+    Geocast(u32),
+    Unicast(u8, u32),
+}
+
+impl Timer for Command {
+    fn token(self) -> Token {
+        let (what, to, value) = match self {
+            Command::Broadcast(value) => (0, 0, value),
+            Command::Geocast(value) => (1, 0, value),
+            Command::Unicast(to, value) => (2, to, value),
+        };
+        Token::new(u16::from_be_bytes([what, to]), value)
+    }
+
+    fn from_token(token: Token) -> Option<Command> {
+        let (kind, value) = token.parts();
+        match kind.to_be_bytes() {
+            [0, 0] => Some(Command::Broadcast(value)),
+            [1, 0] => Some(Command::Geocast(value)),
+            [2, to] => Some(Command::Unicast(to, value)),
+            _ => None,
+        }
+    }
+}
 
 /// Tells a talker to broadcast a value; a value above 1,000,000 is sent in a long message.
-pub fn broadcast(value: u32) -> TimerKey {
-    command(BROADCAST, value)
+pub fn broadcast(value: u32) -> Command {
+    Command::Broadcast(value)
 }
 
 /// Tells a talker to geocast a value to [`AREA`].
-pub fn geocast(value: u32) -> TimerKey {
-    command(GEOCAST, value)
+pub fn geocast(value: u32) -> Command {
+    Command::Geocast(value)
 }
 
 /// Tells a talker to send a value to one robot.
-pub fn unicast(to: u16, value: u32) -> TimerKey {
-    command(UNICAST + to, value)
+pub fn unicast(to: u8, value: u32) -> Command {
+    Command::Unicast(to, value)
 }
 
 impl Program for Talker {
     fn activate(&mut self, _: &mut Robot<'_>) {}
 
     fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
-        let padding = if key.number > 1_000_000 { 200 } else { 0 };
-        let content = (key.number, vec![0u8; padding]);
-        match key.kind {
-            BROADCAST => self.broadcast.broadcast(robot, &content),
-            GEOCAST => self.geocast.geocast(robot, &content, &AREA),
-            kind => self
-                .unicast
-                .send(robot, RobotId(u32::from(kind - UNICAST)), &content),
+        let content = |value: u32| {
+            let padding = if value > 1_000_000 { 200 } else { 0 };
+            (value, vec![0u8; padding])
+        };
+        match key.read().expect("a command") {
+            Command::Broadcast(value) => self.broadcast.broadcast(robot, &content(value)),
+            Command::Geocast(value) => self.geocast.geocast(robot, &content(value), &AREA),
+            Command::Unicast(to, value) => {
+                self.unicast
+                    .send(robot, RobotId(to.into()), &content(value))
+            }
         };
     }
 

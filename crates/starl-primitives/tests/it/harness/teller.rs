@@ -1,10 +1,11 @@
 //! A program that broadcasts in some order, by itself and when told to; and judges of what its events say
 //! of who was handed what when.
 
-use super::{World, command, int, robot};
+use super::{World, int, robot};
 use starl_core::event::Value;
 use starl_core::{
     Duration, Event, Message, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, message,
+    timers,
 };
 use starl_primitives::broadcast::Order;
 use starl_primitives::reliable::Options;
@@ -36,9 +37,15 @@ impl Teller {
     }
 }
 
+timers! {
+    pub enum Command {
+        Tell(u32),
+    }
+}
+
 /// Tells a robot to broadcast a number.
-pub fn tell(value: u32) -> TimerKey {
-    command(0, value)
+pub fn tell(value: u32) -> Command {
+    Command::Tell(value)
 }
 
 impl Program for Teller {
@@ -59,7 +66,8 @@ impl Program for Teller {
     }
 
     fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
-        self.broadcast.broadcast(robot, &key.number);
+        let Command::Tell(value) = key.read().expect("a command");
+        self.broadcast.broadcast(robot, &value);
     }
 
     fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
