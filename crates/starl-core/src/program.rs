@@ -1,6 +1,6 @@
 //! The contract of a robot's program.
 
-use crate::{Message, Primitive, Random, Robot, TimerKey};
+use crate::{Message, Primitives, Random, Robot, TimerKey};
 use core::any::Any;
 use core::fmt;
 use dyn_clone::DynClone;
@@ -19,12 +19,12 @@ pub enum Status {
     Failed,
 }
 
-/// A robot's program: a pure state machine that owns its primitives.
+/// A robot's program: a pure state machine that owns its primitives, and shows them by [`Primitives`].
 ///
 /// The host calls [`Program::start`] once, then [`Program::activate`] every control period: one pass
 /// over the guarded actions in the order written, each enabled action firing once (thesis, section
 /// 2.2). [`Program::receive`] runs when a message arrives.
-pub trait Program: DynClone + Send + Sync {
+pub trait Program: Primitives + DynClone + Send + Sync {
     /// Runs once, before anything else, and again when the robot restarts after a crash (on a fresh
     /// copy of the program).
     fn start(&mut self, robot: &mut Robot<'_>) {
@@ -43,11 +43,6 @@ pub trait Program: DynClone + Send + Sync {
     /// Handles a timer that the program armed on [`crate::Port::PROGRAM`].
     fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
         let _ = (robot, key);
-    }
-
-    /// Shows each primitive that the program owns to `visit`, always in the same order.
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        let _ = visit;
     }
 
     /// Overwrites the program's variables at random, within their types, as a transient fault would
