@@ -3,7 +3,7 @@
 
 use crate::engine_support::weather::{calm, chaotic, fleet, judge, lossy};
 use starl_core::{
-    Destination, Duration, Message, Port, Primitive, Program, Robot, RobotId, Time, message,
+    Destination, Duration, Message, Port, Primitives, Program, Robot, RobotId, Time, message,
 };
 use starl_primitives::Broadcast;
 use starl_primitives::broadcast::Order;
@@ -11,7 +11,7 @@ use starl_primitives::reliable::Options;
 use std::collections::BTreeMap;
 
 /// Broadcasts now and then for a minute and a half.
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct Teller {
     broadcast: Broadcast,
     begun: Option<Time>,
@@ -25,15 +25,11 @@ impl Program for Teller {
             self.broadcast.broadcast(robot, &0u8);
         }
     }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.broadcast);
-    }
 }
 
 /// Total order without a majority: the robot with the least number of those that were heard within a second
 /// says which message comes next.
-#[derive(Clone, Default)]
+#[derive(Clone, Default, Primitives)]
 struct Presumptuous {
     heard: BTreeMap<RobotId, Time>,
     sent: u32,

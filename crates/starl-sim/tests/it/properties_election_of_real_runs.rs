@@ -3,15 +3,15 @@
 
 use crate::engine_support::weather::{WEATHERS, fleet, judge, lossy};
 use starl_core::{
-    Destination, Duration, Input, Message, Port, Primitive, Program, Random, Robot, RobotId, Time,
-    Value,
+    Destination, Duration, Input, Message, Port, Primitive, Primitives, Program, Random, Robot,
+    RobotId, Time, Value,
 };
 use starl_primitives::election::{Algorithm, Options};
 use starl_primitives::{FailureDetector, LeaderElection, failure_detector};
 use starl_sim::Scenario;
 
 /// Stands all the time, and resigns now and then.
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct Elector {
     detector: FailureDetector,
     election: LeaderElection,
@@ -41,11 +41,6 @@ impl Program for Elector {
             self.election.resign(robot);
             self.election.elect(robot);
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.detector);
-        visit(&mut self.election);
     }
 
     fn corrupt(&mut self, random: &mut Random) {
@@ -142,15 +137,11 @@ impl Primitive for Naive {
     }
 }
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct NaiveElector(Naive);
 
 impl Program for NaiveElector {
     fn activate(&mut self, _: &mut Robot<'_>) {}
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.0);
-    }
 }
 
 fn naive(needed: usize) -> NaiveElector {

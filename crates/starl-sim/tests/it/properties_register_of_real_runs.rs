@@ -2,7 +2,9 @@
 //! under every fault, and one that leaves out a part of the algorithm is found out.
 
 use crate::engine_support::weather::{calm, chaotic, fleet, judge, lossy};
-use starl_core::{Destination, Input, Message, Port, Primitive, Program, Robot, RobotId, Value};
+use starl_core::{
+    Destination, Input, Message, Port, Primitive, Primitives, Program, Robot, RobotId, Value,
+};
 use starl_primitives::Register;
 use starl_primitives::register::Options;
 use std::collections::BTreeSet;
@@ -14,8 +16,8 @@ trait Registers: Primitive + Clone + Send + Sync + 'static {
     fn write(&mut self, robot: &mut Robot<'_>, register: &'static str, value: u32);
 }
 
-#[derive(Clone)]
-struct User<R>(R);
+#[derive(Clone, Primitives)]
+struct User<R: Registers>(R);
 
 impl<R: Registers> Program for User<R> {
     fn activate(&mut self, robot: &mut Robot<'_>) {
@@ -30,10 +32,6 @@ impl<R: Registers> Program for User<R> {
             true => self.0.read(robot, register),
             false => self.0.write(robot, register, value),
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.0);
     }
 }
 

@@ -2,12 +2,12 @@
 //! after the other under every fault, and robots that read and then write without a claim are found out.
 
 use crate::engine_support::weather::{calm, chaotic, fleet, judge, lossy};
-use starl_core::{Payload, Port, Primitive, Program, Robot};
+use starl_core::{Payload, Port, Primitives, Program, Robot};
 use starl_primitives::Register;
 use starl_primitives::register::{OperationId, Options, Status};
 
 /// A program that reads a counter now and then, or counts it up.
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct Counter {
     register: Register,
     /// Whether it claims what it counts up; else it reads it and then writes it.
@@ -104,10 +104,6 @@ impl Program for Counter {
             }
             _ => Step::Idle,
         };
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.register);
     }
 }
 

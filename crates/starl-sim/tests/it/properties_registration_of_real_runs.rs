@@ -2,13 +2,13 @@
 //! keep their promises under every fault.
 
 use crate::engine_support::weather::{WEATHERS, fleet};
-use starl_core::{Duration, Event, Primitive, Program, Random, Robot, Time};
+use starl_core::{Duration, Event, Primitives, Program, Random, Robot, Time};
 use starl_primitives::failure_detector::{self, FailureDetector};
 use starl_primitives::{Barrier, Registration, barrier, registration};
 use starl_sim::Run;
 
 /// Registers and leaves at random for the first minute, and comes to the barrier again and again.
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct Visitor {
     detector: FailureDetector,
     registration: Registration,
@@ -41,12 +41,6 @@ impl Program for Visitor {
         if !self.barrier.is_waiting() && robot.random().chance(0.1) {
             self.barrier.arrive(robot);
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.detector);
-        visit(&mut self.registration);
-        visit(&mut self.barrier);
     }
 
     fn corrupt(&mut self, random: &mut Random) {

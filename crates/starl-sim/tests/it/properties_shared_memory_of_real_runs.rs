@@ -3,16 +3,16 @@
 
 use crate::engine_support::weather::{WEATHERS, fleet, judge};
 use starl_core::{
-    Destination, Duration, Input, Message, Payload, Port, Primitive, Program, Random, Robot,
-    RobotId, Time, Value, message,
+    Destination, Duration, Input, Message, Payload, Port, Primitive, Primitives, Program, Random,
+    Robot, RobotId, Time, Value, message,
 };
 use starl_primitives::SharedMemory;
 use starl_primitives::shared_memory::Options;
 use starl_sim::Scenario;
 
 /// Writes now and then.
-#[derive(Clone)]
-struct Writer<M> {
+#[derive(Clone, Primitives)]
+struct Writer<M: Memory> {
     memory: M,
     activations: u32,
 }
@@ -39,10 +39,6 @@ impl<M: Memory> Program for Writer<M> {
                 .write_own(robot, ["x", "y", "z"][draw as usize - 3], value),
             _ => {}
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.memory);
     }
 
     fn corrupt(&mut self, random: &mut Random) {

@@ -3,13 +3,13 @@
 
 use crate::engine_support::scenario;
 use starl_core::event::Name;
-use starl_core::{Duration, Program, Robot, RobotId, Time};
+use starl_core::{Duration, Primitives, Program, Robot, RobotId, Time};
 use starl_sim::Run;
 use starl_sim::properties::{Monitor, Violation, Witness};
 use starl_sim::scenario::{Fault, FaultKind};
 use std::sync::{Arc, Mutex};
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct Idle;
 
 impl Program for Idle {

@@ -1,6 +1,6 @@
 //! Robots that each enter a critical section once, and a checker that looks at what they say of it.
 
-use starl_core::{Event, Primitive, Program, Record, Robot, RobotId, Value};
+use starl_core::{Event, Primitives, Program, Record, Robot, RobotId, Value};
 use starl_primitives::Mutex;
 use starl_primitives::mutex::{Options, Resources};
 use starl_sim::properties::{Checker, Violation};
@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Asks for its resources, gives them back at the activation after it got them, and finishes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Primitives)]
 pub struct Locker {
     mutex: Mutex,
     /// By robot.
@@ -45,10 +45,6 @@ impl Program for Locker {
             }
             _ => {}
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.mutex);
     }
 
     fn write_state(&self, text: &mut dyn Write) -> bool {

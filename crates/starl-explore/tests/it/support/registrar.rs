@@ -1,7 +1,7 @@
 //! Robots that register, and a checker of what they come to show.
 
 use starl_core::event::Fields;
-use starl_core::{Event, Primitive, Program, Record, Robot, RobotId, Time, Value};
+use starl_core::{Event, Primitives, Program, Record, Robot, RobotId, Time, Value};
 use starl_primitives::Registration;
 use starl_primitives::registration::Options;
 use starl_sim::properties::{Checker, Violation};
@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Registers at its first activation.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Primitives)]
 pub struct Registrar {
     registration: Registration,
     is_registered: bool,
@@ -31,10 +31,6 @@ impl Program for Registrar {
             self.is_registered = true;
             self.registration.register(robot, None);
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.registration);
     }
 
     fn write_state(&self, text: &mut dyn Write) -> bool {

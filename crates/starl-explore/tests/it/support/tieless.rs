@@ -1,11 +1,11 @@
 //! Ricart and Agrawala's algorithm with the half of the order left out that breaks ties.
 
-use starl_core::{Destination, Message, Port, Program, Robot, RobotId, Value};
+use starl_core::{Destination, Message, Port, Primitives, Program, Robot, RobotId, Value};
 use std::fmt::Write;
 
 /// Enters a critical section once. Of two requests with the same time, each robot gives way to the
 /// other's.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Primitives)]
 pub struct Tieless {
     clock: u32,
     /// The time of its request, while it waits.

@@ -2,13 +2,13 @@
 
 use super::World;
 use starl_core::event::Value;
-use starl_core::{Duration, Event, Payload, Primitive, Program, Random, Robot, RobotId, Time};
+use starl_core::{Duration, Event, Payload, Primitives, Program, Random, Robot, RobotId, Time};
 use starl_primitives::Register;
 use starl_primitives::register::{OperationId, Options, Status};
 use std::any::Any;
 use std::collections::{BTreeMap, BTreeSet};
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Counter {
     pub register: Register,
     /// What is under way, and the value that is being written, if it is.
@@ -68,10 +68,6 @@ impl Program for Counter {
                 self.next = now + Duration::from_millis(u64::from(pause));
             }
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.register);
     }
 
     fn corrupt(&mut self, random: &mut Random) {

@@ -3,18 +3,17 @@
 
 use super::World;
 use starl_core::{
-    Duration, Event, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value, timers,
+    Duration, Event, Primitives, Program, Random, Robot, RobotId, Time, TimerKey, Value, timers,
 };
 use starl_primitives::barrier::Options;
 use starl_primitives::{Barrier, FailureDetector, failure_detector};
 use std::any::Any;
 use std::collections::{BTreeMap, BTreeSet};
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Crosser {
+    detector: Option<FailureDetector>,
     pub barrier: Barrier,
-    detector: FailureDetector,
-    has_detector: bool,
     /// Whether it comes by itself, and with which pauses at most, milliseconds.
     pause_ms: Option<u32>,
     next_arrival: Option<Time>,
@@ -45,8 +44,7 @@ impl Crosser {
         move || {
             Box::new(Crosser {
                 barrier: Barrier::new("gate", participants.clone(), Options::default()),
-                detector: FailureDetector::new("watch", failure_detector::Options::default()),
-                has_detector,
+                detector: has_detector.then(watch),
                 pause_ms,
                 next_arrival: Some(Time::ZERO),
                 crossings: 0,
@@ -64,6 +62,10 @@ timers! {
 /// Tells a robot to come to the barrier.
 pub fn arrive() -> Command {
     Command::Arrive
+}
+
+fn watch() -> FailureDetector {
+    FailureDetector::new("watch", failure_detector::Options::default())
 }
 
 impl Program for Crosser {
@@ -86,13 +88,6 @@ impl Program for Crosser {
     fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
         assert_eq!(key.read(), Some(Command::Arrive));
         self.barrier.arrive(robot);
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        if self.has_detector {
-            visit(&mut self.detector);
-        }
-        visit(&mut self.barrier);
     }
 
     fn corrupt(&mut self, random: &mut Random) {

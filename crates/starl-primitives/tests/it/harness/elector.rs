@@ -2,17 +2,16 @@
 
 use super::{World, int, robot};
 use starl_core::event::Value;
-use starl_core::{Event, Primitive, Program, Random, Robot, RobotId, TimerKey, timers};
+use starl_core::{Event, Primitives, Program, Random, Robot, RobotId, TimerKey, timers};
 use starl_primitives::election::{Algorithm, Options};
 use starl_primitives::{FailureDetector, LeaderElection, failure_detector};
 use std::any::Any;
 use std::collections::{BTreeMap, BTreeSet};
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Elector {
+    detector: Option<FailureDetector>,
     pub election: LeaderElection,
-    detector: FailureDetector,
-    has_detector: bool,
     /// Whether it stands as soon as it starts.
     is_eager: bool,
 }
@@ -32,8 +31,7 @@ impl Elector {
         move || {
             Box::new(Elector {
                 election: LeaderElection::new("election", participants.clone(), options),
-                detector: FailureDetector::new("watch", failure_detector::Options::default()),
-                has_detector,
+                detector: has_detector.then(watch),
                 is_eager,
             })
         }
@@ -64,6 +62,10 @@ pub const ELECT: Command = Command::Elect;
 /// Tells a robot to resign.
 pub const RESIGN: Command = Command::Resign;
 
+fn watch() -> FailureDetector {
+    FailureDetector::new("watch", failure_detector::Options::default())
+}
+
 impl Program for Elector {
     fn start(&mut self, robot: &mut Robot<'_>) {
         if self.is_eager {
@@ -78,13 +80,6 @@ impl Program for Elector {
             Command::Elect => self.election.elect(robot),
             Command::Resign => self.election.resign(robot),
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        if self.has_detector {
-            visit(&mut self.detector);
-        }
-        visit(&mut self.election);
     }
 
     fn corrupt(&mut self, random: &mut Random) {

@@ -3,7 +3,7 @@
 
 use super::{World, int};
 use starl_core::{
-    Duration, Event, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value, timers,
+    Duration, Event, Primitives, Program, Random, Robot, RobotId, Time, TimerKey, Value, timers,
 };
 use starl_primitives::register::{OperationId, Options, Status};
 use starl_primitives::{FailureDetector, Register, failure_detector};
@@ -13,10 +13,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The registers that there are.
 pub const REGISTERS: [&str; 2] = ["x", "y"];
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Keeper {
-    pub register: Register,
     detector: FailureDetector,
+    pub register: Register,
     /// Whether it begins operations by itself.
     is_busy: bool,
     pub last: Option<OperationId>,
@@ -110,11 +110,6 @@ impl Program for Keeper {
             }
         };
         self.last = Some(begun.expect("few are under way"));
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.detector);
-        visit(&mut self.register);
     }
 
     fn corrupt(&mut self, random: &mut Random) {

@@ -4,7 +4,7 @@
 use super::World;
 use starl_core::event::Name;
 use starl_core::{
-    Duration, Event, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value, timers,
+    Duration, Event, Primitives, Program, Random, Robot, RobotId, Time, TimerKey, Value, timers,
 };
 use starl_primitives::mutex::{Algorithm, Options, Resources};
 use starl_primitives::{FailureDetector, Mutex, failure_detector};
@@ -14,11 +14,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The resources that there are.
 pub const RESOURCES: [&str; 4] = ["a", "b", "c", "d"];
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Locker {
+    detector: Option<FailureDetector>,
     pub mutex: Mutex,
-    detector: FailureDetector,
-    has_detector: bool,
     /// Whether it asks by itself.
     is_busy: bool,
     /// When it gives back the next resource.
@@ -54,8 +53,7 @@ impl Locker {
             };
             Box::new(Locker {
                 mutex: Mutex::new("lock", None, options),
-                detector: FailureDetector::new("watch", failure_detector::Options::default()),
-                has_detector,
+                detector: has_detector.then(watch),
                 is_busy,
                 next_release: None,
                 next_request: Time::ZERO,
@@ -109,6 +107,10 @@ fn pause(random: &mut Random) -> Duration {
     Duration::from_millis(u64::from(random.below(1500)))
 }
 
+fn watch() -> FailureDetector {
+    FailureDetector::new("watch", failure_detector::Options::default())
+}
+
 impl Program for Locker {
     fn activate(&mut self, robot: &mut Robot<'_>) {
         if !self.is_busy {
@@ -147,13 +149,6 @@ impl Program for Locker {
                 self.mutex.set_participants(Some(participants));
             }
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        if self.has_detector {
-            visit(&mut self.detector);
-        }
-        visit(&mut self.mutex);
     }
 
     fn corrupt(&mut self, random: &mut Random) {

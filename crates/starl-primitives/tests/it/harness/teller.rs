@@ -4,7 +4,7 @@
 use super::{World, int, robot};
 use starl_core::event::Value;
 use starl_core::{
-    Duration, Event, Message, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, message,
+    Duration, Event, Message, Primitives, Program, Random, Robot, RobotId, Time, TimerKey, message,
     timers,
 };
 use starl_primitives::broadcast::Order;
@@ -13,10 +13,10 @@ use starl_primitives::{Broadcast, FailureDetector, failure_detector};
 use std::any::Any;
 use std::collections::{BTreeMap, BTreeSet};
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Teller {
-    pub broadcast: Broadcast,
     detector: FailureDetector,
+    pub broadcast: Broadcast,
     /// Messages of its own that it sends, and how likely in each activation.
     left: u32,
     likelihood: f64,
@@ -68,11 +68,6 @@ impl Program for Teller {
     fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
         let Command::Tell(value) = key.read().expect("a command");
         self.broadcast.broadcast(robot, &value);
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.detector);
-        visit(&mut self.broadcast);
     }
 
     fn corrupt(&mut self, random: &mut Random) {

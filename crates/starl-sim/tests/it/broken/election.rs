@@ -2,14 +2,14 @@
 //! epochs: whoever hears nothing of a greater robot for a while leads. A partition has one leader in each
 //! part.
 
-use starl_core::{Destination, Duration, Message, Port, Program, Robot, RobotId, Time};
+use starl_core::{Destination, Duration, Message, Port, Primitives, Program, Robot, RobotId, Time};
 
 const PORT: Port = Port::PROGRAM;
 /// Who has not been heard for so long is taken for dead.
 const PATIENCE: Duration = Duration::from_millis(1000);
 
 /// A robot that leads, or follows a greater one.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Primitives)]
 pub struct Bully {
     /// When each greater robot was last heard.
     heard: Vec<(RobotId, Time)>,

@@ -2,7 +2,7 @@
 //! time neither goes before the other, so both robots permit the other's.
 
 use serde::{Deserialize, Serialize};
-use starl_core::{Destination, Message, Port, Program, Robot, RobotId, Value};
+use starl_core::{Destination, Message, Port, Primitives, Program, Robot, RobotId, Value};
 use std::collections::BTreeSet;
 
 const PORT: Port = Port::PROGRAM;
@@ -16,7 +16,7 @@ enum Packet {
 }
 
 /// A robot that wants the door now and then.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Primitives)]
 pub struct Locker {
     /// Lamport's clock.
     clock: u64,

@@ -1,13 +1,13 @@
 //! A shared variable whose last writer wins by the robots' own clocks: where these are apart, a later write
 //! with an earlier time is lost.
 
-use starl_core::{Destination, Message, Port, Program, Robot, RobotId, Time, Value};
+use starl_core::{Destination, Message, Port, Primitives, Program, Robot, RobotId, Time, Value};
 
 const PORT: Port = Port::PROGRAM;
 const KIND: &str = "shared_memory";
 
 /// A robot that writes a variable now and then.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Primitives)]
 pub struct Writer {
     held: Option<(Time, RobotId, u32)>,
 }
