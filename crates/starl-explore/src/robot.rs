@@ -8,6 +8,7 @@ use crate::model::Model;
 use crate::step::Datagram;
 use crate::texts::fingerprint;
 use starl_core::effect::Effects;
+use starl_core::event::Fault;
 use starl_core::random::hash_key;
 use starl_core::{
     Agent, Destination, Duration, Effect, Estimate, Event, Input, Message, Port, Random, RobotId,
@@ -187,7 +188,7 @@ impl Turn {
             return;
         };
         if local.life > 0 {
-            self.events.push(Event::Fault("restart".into()));
+            self.events.push(Event::Fault(Fault::Restart));
         }
         let random = Random::keyed(model.seed, &[u64::from(local.robot.0), local.life]);
         local.agent = Some(Agent::new(member.program.clone(), random));
@@ -211,7 +212,7 @@ impl Turn {
             failed: false,
             history: 0,
         };
-        self.events.push(Event::Fault("crash".into()));
+        self.events.push(Event::Fault(Fault::Crash));
     }
 
     /// Hands an input to the robot's software and carries out what it asks for.

@@ -16,7 +16,7 @@ pub struct Run {
     violations: Vec<Violation>,
     failures: Vec<Failure>,
     /// The primitives that have reported something.
-    used: Vec<Name>,
+    used: Vec<String>,
     records: Vec<Record>,
     /// Those of the records of the last step.
     kinds: Vec<Kinds>,
@@ -139,10 +139,10 @@ impl Run {
         self.kinds
             .extend(records.iter().map(|record| Kinds::of(&record.event)));
         for record in records {
-            if let Event::Primitive { primitive, .. } = &record.event
-                && !self.used.contains(primitive)
+            if let Event::Primitive { event, .. } = &record.event
+                && !self.is_known(event.primitive())
             {
-                self.used.push(primitive.clone());
+                self.used.push(event.primitive().to_string());
             }
         }
         for checker in &mut self.checkers {
@@ -229,7 +229,12 @@ impl Run {
     /// is about the world.
     fn is_used(&self, property: &str) -> bool {
         let primitive = property.split_once('.').map(|(primitive, _)| primitive);
-        primitive.is_none_or(|primitive| self.used.iter().any(|used| used == primitive))
+        primitive.is_none_or(|primitive| self.is_known(primitive))
+    }
+
+    /// Whether a primitive has reported something.
+    fn is_known(&self, primitive: &str) -> bool {
+        self.used.iter().any(|used| used == primitive)
     }
 
     fn verdict(&self, property: Name, open: bool, used: bool) -> Verdict {

@@ -5,3 +5,4 @@ mod geometry_index;
 mod geometry_obstacle;
 mod geometry_path;
 mod geometry_polygon;
+mod typed_events;

@@ -8,6 +8,7 @@ use super::shard::Scratch;
 use super::shared::{Kind, Shared, Window};
 use super::{Stream, position, stream};
 use starl_core::event::{DropReason, Hit, Level};
+use starl_core::event::{PrimitiveEvent, ReachAvoidEvent};
 use starl_core::{
     Command, Destination, Duration, Effect, Event, Input, Message, MotionRequest, Payload, Port,
     Sensors, Time, View,
@@ -327,10 +328,11 @@ impl Turn<'_> {
 
     fn note(&mut self, at: Time, event: Event) {
         if let Event::Primitive {
-            primitive, name, ..
+            event: PrimitiveEvent::ReachAvoid(ReachAvoidEvent::Done { .. }),
+            ..
         } = &event
         {
-            self.mind.way_points += u32::from(primitive == "reach_avoid" && name == "done");
+            self.mind.way_points += 1;
         }
         self.log
             .record(&mut self.mind.digest, self.mind.id, at, event);

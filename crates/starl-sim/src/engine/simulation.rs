@@ -277,11 +277,11 @@ impl Simulation {
         let robots = match kind {
             FaultKind::Partition(groups) => {
                 self.shared.parts = fault::parts(groups, self.shared.bodies.len());
-                return self.note(at, Event::Fault(fault::name(kind).into()));
+                return self.note(at, fault::event(kind));
             }
             FaultKind::Heal => {
                 self.shared.parts.clear();
-                return self.note(at, Event::Fault(fault::name(kind).into()));
+                return self.note(at, fault::event(kind));
             }
             FaultKind::Crash(robots)
             | FaultKind::Restart(robots)
@@ -294,7 +294,7 @@ impl Simulation {
             let seed = self.shared.scenario.seed;
             let shard = &mut self.shards[robot.index() / SIZE];
             let mind = &mut shard.minds[robot.index() % SIZE];
-            let event = Event::Fault(fault::name(kind).into());
+            let event = fault::event(kind);
             shard.log.record(&mut mind.digest, robot, at, event);
             self.impaired -= usize::from(mind.condition.is_impaired());
             match kind {

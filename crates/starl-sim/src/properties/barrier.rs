@@ -5,12 +5,12 @@
 //! and does not know yet to which. When all that take part have crashed, generations begin anew.
 
 use super::disturbance::Disturbance;
-use super::health::{Health, Needs};
+use super::health::{Change, Health, Needs};
 use super::pending::Pending;
 use super::report::Report;
 use super::{Checker, Kinds, Setting, Violation, robot_list};
 use crate::scenario::Scenario;
-use starl_core::event::{Event, Value};
+use starl_core::event::{BarrierEvent, Event};
 use starl_core::{Duration, Port, Record, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -41,13 +41,13 @@ struct Instance {
 #[derive(Clone, Copy, Debug, Default)]
 struct Place {
     /// The generation that it waited for last, in any life.
-    come_to: i64,
+    come_to: u64,
     /// It has come, and does not know to which generation.
     is_unsure: bool,
     /// Since when it waits.
     waits: Option<Time>,
     /// The latest generation that it has passed in its present life.
-    passed: Option<i64>,
+    passed: Option<u64>,
     passed_at: Time,
     /// Whether it was reported that it does not pass.
     is_reported: bool,
@@ -66,32 +66,31 @@ impl Barrier {
         }
     }
 
-    fn reported(&mut self, report: &Report<'_>) {
+    fn reported(&mut self, report: &Report<'_, BarrierEvent>) {
         let Report {
             at, robot, port, ..
         } = *report;
         let is_disturbed = self.disturbance.is_made_up(at);
         let instance = self.instances.entry(port).or_default();
-        let generation = match report.get("generation") {
-            Some(&Value::Int(generation)) => generation,
-            _ => 0,
-        };
-        if let Some(Value::Robots(all)) = report.get("participants") {
-            instance.participants.clone_from(all);
-        }
         let place = instance.robots.entry(robot).or_default();
-        match report.name {
-            "arrive" => {
+        match report.event {
+            BarrierEvent::Arrive { participants } => {
+                instance.participants.clone_from(participants);
                 place.is_unsure = true;
                 place.waits = Some(at);
                 place.is_reported = false;
                 instance.rememberers.insert(robot);
             }
-            "wait" => {
+            BarrierEvent::Wait { generation } => {
                 place.is_unsure = false;
-                place.come_to = generation;
+                place.come_to = *generation;
             }
-            "pass" => {
+            BarrierEvent::Pass {
+                generation,
+                participants,
+            } => {
+                instance.participants.clone_from(participants);
+                let generation = *generation;
                 let before = place.passed.replace(generation);
                 place.waits = None;
                 place.passed_at = at;
@@ -99,14 +98,14 @@ impl Barrier {
                     instance.check_passing(robot, generation, before, at, &mut self.pending);
                 }
             }
-            _ => return,
         }
         self.due.insert((at + self.bound, port));
     }
 
-    fn fault(&mut self, at: Time, robot: Option<RobotId>, fault: &str) {
-        self.disturbance.fault(at, robot, fault, &mut self.pending);
-        if let (Some(robot), "crash" | "failed") = (robot, fault) {
+    fn changed(&mut self, at: Time, robot: Option<RobotId>, change: Change<'_>) {
+        self.disturbance
+            .change(at, robot, change, &mut self.pending);
+        if let Some(robot) = robot.filter(|_| change.is_end()) {
             for instance in self.instances.values_mut() {
                 instance.crashes(robot);
             }
@@ -154,8 +153,8 @@ impl Instance {
     fn check_passing(
         &self,
         robot: RobotId,
-        generation: i64,
-        before: Option<i64>,
+        generation: u64,
+        before: Option<u64>,
         at: Time,
         found: &mut Pending,
     ) {
@@ -247,7 +246,7 @@ impl Checker for Barrier {
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
         match &record.event {
             Event::Primitive { .. } => {
-                if let Some(report) = Report::of(record, "barrier") {
+                if let Some(report) = Report::of(record) {
                     self.pass(record.at, violations);
                     self.reported(&report);
                 }
@@ -255,12 +254,12 @@ impl Checker for Barrier {
             Event::Fault(fault) => {
                 self.pass(record.at, violations);
                 self.health.observe(record);
-                self.fault(record.at, record.robot, fault);
+                self.changed(record.at, record.robot, Change::Fault(fault));
             }
             Event::Failed(_) => {
                 self.pass(record.at, violations);
                 self.health.observe(record);
-                self.fault(record.at, record.robot, "failed");
+                self.changed(record.at, record.robot, Change::Failed);
             }
             _ => {}
         }

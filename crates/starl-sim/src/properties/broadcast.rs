@@ -10,7 +10,8 @@ use super::outstanding::Outstanding;
 use super::report::{MessageKey, Report};
 use super::{Checker, Kinds, Setting, Violation, robot_list};
 use crate::scenario::Scenario;
-use starl_core::event::{Event, Value};
+use starl_core::event::messaging::Order;
+use starl_core::event::{BroadcastEvent, Event, TransferEvent};
 use starl_core::{Duration, Record, RobotId, Time};
 
 const DELIVERY: &str = "broadcast.delivery";
@@ -42,28 +43,41 @@ impl Broadcast {
         }
     }
 
-    fn sent(&mut self, report: &Report<'_>) {
-        let bound = match report.get("order") {
-            // That is another property: `broadcast.agreement`.
-            Some(Value::Text(order)) if order == "total" => return,
-            // Another message may have to be given up before this one is handed out.
-            Some(Value::Text(order)) if order == "causal" => self.bound + self.bound,
-            _ => self.bound,
-        };
-        if let Some(key) = report.message(report.robot) {
-            let others = (0..self.robots).map(RobotId);
-            let message = Message {
-                sent: report.at,
-                owed: others.filter(|&robot| robot != report.robot).collect(),
-            };
-            self.outstanding.insert(key, report.at + bound, message);
+    fn reported(&mut self, report: &Report<'_, BroadcastEvent>, found: &mut Vec<Violation>) {
+        let Report { at, robot, .. } = *report;
+        match report.event {
+            BroadcastEvent::Broadcast { message, order, .. } => {
+                self.sent(at, report.message(robot, *message), *order);
+            }
+            BroadcastEvent::Transfer(TransferEvent::Deliver { from, message }) => {
+                self.delivered(report.message(*from, *message), robot);
+            }
+            BroadcastEvent::Transfer(TransferEvent::Fail { message, to }) => {
+                self.failed(at, report.message(robot, *message), to, found);
+            }
+            _ => {}
         }
     }
 
-    fn delivered(&mut self, report: &Report<'_>) {
-        let Some(key) = report.arrival() else { return };
+    fn sent(&mut self, at: Time, key: MessageKey, order: Option<Order>) {
+        let bound = match order {
+            // That is another property: `broadcast.agreement`.
+            Some(Order::Total) => return,
+            // Another message may have to be given up before this one is handed out.
+            Some(Order::Causal) => self.bound + self.bound,
+            Some(Order::Fifo) | None => self.bound,
+        };
+        let others = (0..self.robots).map(RobotId);
+        let message = Message {
+            sent: at,
+            owed: others.filter(|&robot| robot != key.from).collect(),
+        };
+        self.outstanding.insert(key, at + bound, message);
+    }
+
+    fn delivered(&mut self, key: MessageKey, robot: RobotId) {
         if let Some(message) = self.outstanding.get_mut(&key) {
-            if let Ok(index) = message.owed.binary_search(&report.robot) {
+            if let Ok(index) = message.owed.binary_search(&robot) {
                 message.owed.remove(index);
             }
             if message.owed.is_empty() {
@@ -73,12 +87,13 @@ impl Broadcast {
     }
 
     /// The sender has given robots up.
-    fn failed(&mut self, report: &Report<'_>, found: &mut Vec<Violation>) {
-        let (Some(key), Some(Value::Robots(given_up))) =
-            (report.message(report.robot), report.get("to"))
-        else {
-            return;
-        };
+    fn failed(
+        &mut self,
+        at: Time,
+        key: MessageKey,
+        given_up: &[RobotId],
+        found: &mut Vec<Violation>,
+    ) {
         let Some(message) = self.outstanding.get_mut(&key) else {
             return;
         };
@@ -97,9 +112,9 @@ impl Broadcast {
         }
         let how = format!(
             "before its sender gave up after {:.3} s",
-            report.at.since(lost.sent).seconds()
+            at.since(lost.sent).seconds()
         );
-        self.judge(report.at, &key, &lost, &how, found);
+        self.judge(at, &key, &lost, &how, found);
     }
 
     fn check_bound(&mut self, now: Time, found: &mut Vec<Violation>) {
@@ -168,14 +183,8 @@ impl Checker for Broadcast {
         self.check_bound(record.at, violations);
         match &record.event {
             Event::Primitive { .. } => {
-                let Some(report) = Report::of(record, "broadcast") else {
-                    return;
-                };
-                match report.name {
-                    "broadcast" => self.sent(&report),
-                    "deliver" => self.delivered(&report),
-                    "fail" => self.failed(&report, violations),
-                    _ => {}
+                if let Some(report) = Report::of(record) {
+                    self.reported(&report, violations);
                 }
             }
             Event::Fault(_) | Event::Failed(_) => self.health.observe(record),

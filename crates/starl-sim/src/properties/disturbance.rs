@@ -2,7 +2,9 @@
 //! and whether what a corruption made up may still be about.
 
 use super::Violation;
+use super::health::Change;
 use super::pending::Pending;
+use starl_core::event::Fault;
 use starl_core::{Duration, RobotId, Time};
 
 /// The account of a checker that judges what all robots of an instance come to agree on.
@@ -27,17 +29,23 @@ impl Disturbance {
         }
     }
 
-    /// Takes note of a fault of one robot or of the network, and drops what it excuses of what was found.
-    pub fn fault(&mut self, at: Time, robot: Option<RobotId>, fault: &str, found: &mut Pending) {
+    /// Takes note of what befalls one robot or the network, and drops what it excuses of what was found.
+    pub fn change(
+        &mut self,
+        at: Time,
+        robot: Option<RobotId>,
+        change: Change<'_>,
+        found: &mut Pending,
+    ) {
         self.last = at;
-        let is_corruption = robot.is_some() && fault == "corrupt state";
+        let is_corruption = robot.is_some() && change.is_corruption();
         // What was made up may outlast what keeps robots from each other.
         if is_corruption || self.is_made_up(at) {
             self.corrupted = Some(at);
         }
-        match (robot, fault) {
-            (None, "partition") => self.is_parted = true,
-            (None, "heal") => self.is_parted = false,
+        match (robot, change) {
+            (None, Change::Fault(Fault::Partition)) => self.is_parted = true,
+            (None, Change::Fault(Fault::Heal)) => self.is_parted = false,
             _ => {}
         }
         let is_excused = |violation: &Violation| match robot {

@@ -15,7 +15,7 @@ use super::report::{MessageKey, Report};
 use super::track::{Sample, Tolerance, Track};
 use super::{Checker, Kinds, Setting, Violation, robot_list};
 use crate::scenario::Scenario;
-use starl_core::event::{Event, Value};
+use starl_core::event::{Event, GeocastEvent, TransferEvent};
 use starl_core::{Area, Duration, Point, Record, RobotId, Time};
 
 const EXCLUSION: &str = "geocast.exclusion";
@@ -72,27 +72,31 @@ impl Geocast {
         }
     }
 
-    fn sent(&mut self, report: &Report<'_>) {
-        let (Some(key), Some(Value::Area(area)), Some(&Value::Float(retry_span))) = (
-            report.message(report.robot),
-            report.get("area"),
-            report.get("retry_span"),
-        ) else {
-            return;
-        };
-        let message = Message {
-            sent: report.at,
-            area: (**area).clone(),
-            retry_span: Duration::from_seconds_f64(retry_span),
-            delivered: Vec::new(),
-        };
-        self.outstanding
-            .insert(key, report.at + self.bound, message);
+    fn reported(&mut self, report: &Report<'_, GeocastEvent>, found: &mut Vec<Violation>) {
+        let Report { at, robot, .. } = *report;
+        match report.event {
+            GeocastEvent::Geocast {
+                message,
+                retry_span,
+                area,
+            } => {
+                let key = report.message(robot, *message);
+                let message = Message {
+                    sent: at,
+                    area: (**area).clone(),
+                    retry_span: *retry_span,
+                    delivered: Vec::new(),
+                };
+                self.outstanding.insert(key, at + self.bound, message);
+            }
+            GeocastEvent::Transfer(TransferEvent::Deliver { from, message }) => {
+                self.delivered(at, robot, report.message(*from, *message), found);
+            }
+            _ => {}
+        }
     }
 
-    fn delivered(&mut self, report: &Report<'_>, found: &mut Vec<Violation>) {
-        let Report { at, robot, .. } = *report;
-        let Some(key) = report.arrival() else { return };
+    fn delivered(&mut self, at: Time, robot: RobotId, key: MessageKey, found: &mut Vec<Violation>) {
         let known = self.outstanding.get_mut(&key);
         let Some(message) = known.or_else(|| self.late.get_mut(&key)) else {
             return;
@@ -202,13 +206,8 @@ impl Checker for Geocast {
         match (&record.event, record.robot) {
             (Event::Moved(pose), Some(robot)) => self.moved(record.at, robot, pose.position),
             (Event::Primitive { .. }, _) => {
-                let Some(report) = Report::of(record, "geocast") else {
-                    return;
-                };
-                match report.name {
-                    "geocast" => self.sent(&report),
-                    "deliver" => self.delivered(&report, violations),
-                    _ => {}
+                if let Some(report) = Report::of(record) {
+                    self.reported(&report, violations);
                 }
             }
             (Event::Fault(_) | Event::Failed(_), _) => self.health.observe(record),

@@ -5,7 +5,7 @@
 //! the datagrams that are dropped for it: a partition that swallowed no datagram from one to the other
 //! kept nothing from it.
 
-use starl_core::event::{DropReason, Event};
+use starl_core::event::{DropReason, Event, Fault};
 use starl_core::{Duration, Record, RobotId, Time};
 use std::collections::BTreeMap;
 
@@ -18,6 +18,27 @@ pub(super) enum Needs {
     Sensing,
     /// Its motors are not stuck.
     Moving,
+}
+
+/// What befalls a robot.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Change<'a> {
+    /// A fault.
+    Fault(&'a Fault),
+    /// Its program cannot go on.
+    Failed,
+}
+
+impl Change<'_> {
+    /// Whether the robot does nothing any more, or nothing until it starts again.
+    pub fn is_end(self) -> bool {
+        matches!(self, Change::Fault(Fault::Crash) | Change::Failed)
+    }
+
+    /// Whether the robot's variables were overwritten.
+    pub fn is_corruption(self) -> bool {
+        matches!(self, Change::Fault(Fault::CorruptState))
+    }
 }
 
 /// Which robots were unwell until when, and which links cut.
@@ -56,7 +77,7 @@ impl Health {
     pub fn observe(&mut self, record: &Record) {
         match &record.event {
             Event::Fault(fault) => match record.robot {
-                Some(robot) => self.change(robot, record.at, fault),
+                Some(robot) => self.change(robot, record.at, Change::Fault(fault)),
                 None => {
                     let oldest = record.at - self.memory;
                     self.cuts.retain(|_, at| *at >= oldest);
@@ -64,7 +85,7 @@ impl Health {
             },
             Event::Failed(_) => {
                 if let Some(robot) = record.robot {
-                    self.change(robot, record.at, "failed");
+                    self.change(robot, record.at, Change::Failed);
                 }
             }
             &Event::Dropped {
@@ -98,28 +119,30 @@ impl Health {
         self.cuts.get(&(from, to)).is_none_or(|&at| at < since)
     }
 
-    fn change(&mut self, robot: RobotId, at: Time, fault: &str) {
+    fn change(&mut self, robot: RobotId, at: Time, change: Change<'_>) {
         let needs = self.needs;
         let Some(condition) = self.robots.get_mut(robot.index()) else {
             return;
         };
         let was_unwell = condition.is_unwell(needs);
         let mut for_a_moment = false;
-        match fault {
+        match change {
+            Change::Failed => condition.failed = true,
             // Who crashes has no other trouble.
-            "crash" => {
+            Change::Fault(Fault::Crash) => {
                 *condition = Condition {
                     down: true,
                     ..Condition::default()
                 }
             }
-            "restart" => condition.down = false,
-            "failed" => condition.failed = true,
-            "frozen sensor" => condition.sensors_frozen = true,
-            "stuck motor" => condition.motor_stuck = true,
-            "repair" => (condition.sensors_frozen, condition.motor_stuck) = (false, false),
-            "corrupt state" => for_a_moment = true,
-            _ => {}
+            Change::Fault(Fault::Restart) => condition.down = false,
+            Change::Fault(Fault::FrozenSensor) => condition.sensors_frozen = true,
+            Change::Fault(Fault::StuckMotor) => condition.motor_stuck = true,
+            Change::Fault(Fault::Repair) => {
+                (condition.sensors_frozen, condition.motor_stuck) = (false, false);
+            }
+            Change::Fault(Fault::CorruptState) => for_a_moment = true,
+            Change::Fault(Fault::Partition | Fault::Heal | Fault::Other(_)) => {}
         }
         if condition.is_unwell(needs) {
             condition.unwell = Some(Time::NEVER);

@@ -7,7 +7,7 @@
 
 use super::bodies::{Sweep, gap};
 use super::{Checker, Kinds, Setting, Violation};
-use starl_core::event::{Event, Hit};
+use starl_core::event::{Event, Fault, Hit};
 use starl_core::geometry::{Bounds, ObstacleIndex};
 use starl_core::motion::Body;
 use starl_core::{Duration, Obstacle, Point, Record, RobotId, Time};
@@ -127,12 +127,12 @@ impl NoCollision {
         }
     }
 
-    fn changed(&mut self, at: Time, robot: RobotId, fault: &str) {
+    fn changed(&mut self, at: Time, robot: RobotId, fault: &Fault) {
         let Some(&Some(place)) = self.positions.get(robot.index()) else {
             return;
         };
         match fault {
-            "crash" if place.z > OVERLAP => {
+            Fault::Crash if place.z > OVERLAP => {
                 let fall = Fall {
                     lowest: place.z,
                     since: at,
@@ -140,7 +140,7 @@ impl NoCollision {
                 };
                 self.falls.insert(robot, fall);
             }
-            "restart" => {
+            Fault::Restart => {
                 if let Some(fall) = self.falls.get_mut(&robot) {
                     fall.restarted = Some(at);
                 }

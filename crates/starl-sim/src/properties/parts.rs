@@ -4,7 +4,7 @@
 //! robots were in the same one shows in the datagrams that came through: those sent after the partition
 //! had set in join their senders and receivers. Robots that nothing joined may have been apart.
 
-use starl_core::event::Event;
+use starl_core::event::{Event, Fault};
 use starl_core::{Duration, Record, RobotId, Time};
 use std::collections::VecDeque;
 
@@ -42,14 +42,11 @@ impl Parts {
     /// Takes note of partitions and datagrams.
     pub fn observe(&mut self, record: &Record) {
         match (&record.event, record.robot) {
-            (Event::Fault(fault), None) => match &**fault {
-                "partition" => {
-                    self.end(record.at);
-                    self.begin();
-                }
-                "heal" => self.end(record.at),
-                _ => {}
-            },
+            (Event::Fault(Fault::Partition), None) => {
+                self.end(record.at);
+                self.begin();
+            }
+            (Event::Fault(Fault::Heal), None) => self.end(record.at),
             (&Event::Sent { sequence, .. }, Some(robot)) => {
                 if let Some(last) = self.sent.get_mut(robot.index()) {
                     *last = Some(sequence);

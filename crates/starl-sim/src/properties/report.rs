@@ -1,73 +1,60 @@
-//! Events of primitives, taken apart.
+//! Events of primitives, with what records say besides.
 
-use starl_core::event::{Event, Fields, Value};
+use starl_core::event::messaging::MessageNumber;
+use starl_core::event::{Event, PrimitiveEvent};
 use starl_core::{Port, Record, RobotId, Time};
 
 /// An event of one kind of primitive on a robot.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Report<'a> {
+#[derive(Debug)]
+pub(super) struct Report<'a, E> {
     pub at: Time,
     pub robot: RobotId,
     pub port: Port,
     /// What happened.
-    pub name: &'a str,
-    fields: &'a Fields,
+    pub event: &'a E,
 }
 
-/// Names a message sent through a primitive: its sender, the sender's instance and incarnation, and
-/// the number that these give it.
+impl<E> Clone for Report<'_, E> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<E> Copy for Report<'_, E> {}
+
+/// Names a message sent through a primitive: its sender, the sender's instance, and which of its messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct MessageKey {
     pub from: RobotId,
     pub port: Port,
-    pub incarnation: i64,
-    pub number: i64,
+    pub incarnation: u32,
+    pub number: u32,
 }
 
-impl<'a> Report<'a> {
-    /// The record as an event of the primitive called `kind`; none if it is anything else.
-    pub fn of(record: &'a Record, kind: &str) -> Option<Report<'a>> {
+impl<'a, E> Report<'a, E> {
+    /// The record as an event of this kind of primitive; none if it is anything else.
+    pub fn of(record: &'a Record) -> Option<Report<'a, E>>
+    where
+        &'a E: TryFrom<&'a PrimitiveEvent>,
+    {
         match &record.event {
-            Event::Primitive {
-                primitive,
-                port,
-                name,
-                fields,
-            } if primitive == kind => Some(Report {
+            Event::Primitive { port, event } => Some(Report {
                 at: record.at,
                 robot: record.robot?,
                 port: *port,
-                name,
-                fields,
+                event: event.try_into().ok()?,
             }),
             _ => None,
         }
     }
 
-    /// A detail.
-    pub fn get(&self, field: &str) -> Option<&'a Value> {
-        let named = self.fields.iter().find(|(name, _)| name == field);
-        named.map(|(_, value)| value)
-    }
-
-    /// The message it is about, which `from` has sent.
-    pub fn message(&self, from: RobotId) -> Option<MessageKey> {
-        match (self.get("incarnation"), self.get("number")) {
-            (Some(&Value::Int(incarnation)), Some(&Value::Int(number))) => Some(MessageKey {
-                from,
-                port: self.port,
-                incarnation,
-                number,
-            }),
-            _ => None,
-        }
-    }
-
-    /// The message that it says has reached this robot.
-    pub fn arrival(&self) -> Option<MessageKey> {
-        match self.get("from") {
-            Some(&Value::Robot(from)) => self.message(from),
-            _ => None,
+    /// A message of this instance that `from` has sent.
+    pub fn message(&self, from: RobotId, message: MessageNumber) -> MessageKey {
+        MessageKey {
+            from,
+            port: self.port,
+            incarnation: message.incarnation,
+            number: message.number,
         }
     }
 }

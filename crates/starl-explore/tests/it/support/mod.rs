@@ -94,9 +94,10 @@ impl Checker for Sees {
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
-        if let (Some(robot), Event::Primitive { name, .. }) = (record.robot, &record.event)
-            && name == self.0
+        if let (Some(robot), Event::Primitive { event, .. }) = (record.robot, &record.event)
+            && event.name() == self.0
         {
+            let name = event.name();
             violations.push(Violation {
                 property: "seen".into(),
                 at: record.at,

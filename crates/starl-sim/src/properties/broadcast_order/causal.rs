@@ -13,7 +13,7 @@ use std::sync::Arc;
 const MEMORY: Duration = Duration::from_seconds(300);
 
 /// The last message of each process that comes before something.
-type Past = BTreeMap<Process, i64>;
+type Past = BTreeMap<Process, u32>;
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Causality {
@@ -66,7 +66,7 @@ impl Causality {
         };
         // Its own messages are not handed to a robot.
         let mut others = before.iter().filter(|(process, _)| process.0 != robot);
-        let is_missing = |(process, number): &(&Process, &i64)| {
+        let is_missing = |(process, number): &(&Process, &u32)| {
             settled.get(process).is_none_or(|last| last < *number)
         };
         if let Some(((sender, _), missing)) = others.find(is_missing) {
@@ -86,7 +86,7 @@ impl Causality {
     }
 }
 
-fn raise(past: &mut Past, process: Process, number: i64) {
+fn raise(past: &mut Past, process: Process, number: u32) {
     let last = past.entry(process).or_insert(number);
     *last = (*last).max(number);
 }

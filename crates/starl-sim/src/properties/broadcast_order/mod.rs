@@ -14,7 +14,8 @@ use crate::scenario::Scenario;
 use agreement::Agreement;
 use causal::Causality;
 use sequence::Sequences;
-use starl_core::event::{Event, Value};
+use starl_core::event::messaging::Order;
+use starl_core::event::{BroadcastEvent, Event, Fault, TransferEvent};
 use starl_core::{Duration, Port, Record, RobotId, Time};
 use std::collections::BTreeMap;
 
@@ -25,7 +26,7 @@ const TOTAL: &str = "broadcast.total_order";
 const AGREEMENT: &str = "broadcast.agreement";
 
 /// A sender from one start to the next: the robot and its incarnation.
-type Process = (RobotId, i64);
+type Process = (RobotId, u32);
 
 /// Watches all instances that promise an order.
 #[derive(Clone, Debug)]
@@ -42,9 +43,9 @@ pub(super) struct BroadcastOrder {
 struct Instance {
     is_total: bool,
     /// The last message that each process has sent.
-    sent: BTreeMap<Process, i64>,
+    sent: BTreeMap<Process, u32>,
     /// The last message of each process that each robot was handed.
-    handed: BTreeMap<RobotId, BTreeMap<Process, i64>>,
+    handed: BTreeMap<RobotId, BTreeMap<Process, u32>>,
     /// For causal order.
     causality: Option<Causality>,
     /// For total order.
@@ -52,12 +53,12 @@ struct Instance {
 }
 
 impl Instance {
-    fn new(order: &str) -> Instance {
+    fn new(order: Order) -> Instance {
         Instance {
-            is_total: order == "total",
+            is_total: order == Order::Total,
             sent: BTreeMap::new(),
             handed: BTreeMap::new(),
-            causality: (order == "causal").then(Causality::default),
+            causality: (order == Order::Causal).then(Causality::default),
             sequences: Sequences::default(),
         }
     }
@@ -74,7 +75,7 @@ impl Instance {
 
 /// What is seen at a robot, and what of it is wrong.
 struct Finding<'a> {
-    report: &'a Report<'a>,
+    report: &'a Report<'a, BroadcastEvent>,
     violations: &'a mut Vec<Violation>,
 }
 
@@ -103,19 +104,20 @@ impl BroadcastOrder {
         }
     }
 
-    fn reported(&mut self, report: &Report<'_>, violations: &mut Vec<Violation>) {
+    fn reported(&mut self, report: &Report<'_, BroadcastEvent>, violations: &mut Vec<Violation>) {
         let Report {
             at, robot, port, ..
         } = *report;
-        if report.name == "broadcast"
-            && let Some(Value::Text(order)) = report.get("order")
-        {
-            let new = || Instance::new(order);
-            self.instances.entry(port).or_insert_with(new);
-        }
-        if report.name == "join" {
+        match report.event {
+            BroadcastEvent::Broadcast {
+                order: Some(order), ..
+            } => {
+                let new = || Instance::new(*order);
+                self.instances.entry(port).or_insert_with(new);
+            }
             // Before any message there may be members.
-            return self.agreement.joined(port, robot, at);
+            BroadcastEvent::Join { .. } => return self.agreement.joined(port, robot, at),
+            _ => {}
         }
         let Some(instance) = self.instances.get_mut(&port) else {
             return;
@@ -126,11 +128,9 @@ impl BroadcastOrder {
             report,
             violations: if is_judged { violations } else { &mut none },
         };
-        match report.name {
-            "broadcast" => {
-                let Some(key) = report.message(robot) else {
-                    return;
-                };
+        match report.event {
+            BroadcastEvent::Broadcast { message, .. } => {
+                let key = report.message(robot, *message);
                 instance.sent.insert((robot, key.incarnation), key.number);
                 if let Some(causality) = &mut instance.causality {
                     causality.sent(robot, key, at);
@@ -139,26 +139,24 @@ impl BroadcastOrder {
                     self.agreement.sent(key, at);
                 }
             }
-            "deliver" => {
-                let Some(key) = report.arrival() else { return };
+            BroadcastEvent::Transfer(TransferEvent::Deliver { from, message }) => {
+                let key = report.message(*from, *message);
                 instance.handed(robot, key, &mut finding);
                 if instance.is_total {
                     self.agreement.handed(key, robot);
                 }
             }
-            "pass_over" => {
-                if let (Some(key), Some(causality)) = (report.arrival(), &mut instance.causality) {
-                    causality.passed(robot, key);
+            BroadcastEvent::PassOver { from, message } => {
+                if let Some(causality) = &mut instance.causality {
+                    causality.passed(robot, report.message(*from, *message));
                 }
             }
-            "gap" => {
+            BroadcastEvent::Gap => {
                 instance.sequences.gap(robot);
                 self.agreement.joined(port, robot, at);
             }
-            "fail" if instance.is_total => {
-                if let Some(key) = report.message(robot) {
-                    self.agreement.failed(key);
-                }
+            BroadcastEvent::Transfer(TransferEvent::Fail { message, .. }) if instance.is_total => {
+                self.agreement.failed(report.message(robot, *message));
             }
             _ => {}
         }
@@ -225,19 +223,19 @@ impl Checker for BroadcastOrder {
         match &record.event {
             Event::Sent { .. } | Event::Delivered { .. } => self.agreement.observe(record),
             Event::Primitive { .. } => {
-                if let Some(report) = Report::of(record, "broadcast") {
+                if let Some(report) = Report::of(record) {
                     self.reported(&report, violations);
                 }
             }
             Event::Fault(fault) => {
                 self.agreement.observe(record);
-                match (record.robot, &**fault) {
-                    (Some(robot), "crash") => {
+                match (record.robot, fault) {
+                    (Some(robot), Fault::Crash) => {
                         for instance in self.instances.values_mut() {
                             instance.begin_anew(robot);
                         }
                     }
-                    (Some(_), "corrupt state") => {
+                    (Some(_), Fault::CorruptState) => {
                         self.void_until = record.at + self.bound;
                         for instance in self.instances.values_mut() {
                             instance.handed.clear();

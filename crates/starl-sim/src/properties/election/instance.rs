@@ -13,13 +13,13 @@ pub(super) struct Instance {
     /// Robots that have it and are up.
     pub members: BTreeMap<RobotId, Member>,
     /// Those that lead, with their epochs.
-    pub leading: BTreeMap<RobotId, Option<i64>>,
+    pub leading: BTreeMap<RobotId, Option<u64>>,
     /// The leader of each epoch.
-    leaders: BTreeMap<i64, RobotId>,
+    leaders: BTreeMap<u64, RobotId>,
     /// The epochs that robots have led in.
-    led: BTreeSet<i64>,
+    led: BTreeSet<u64>,
     /// The latest of those that later ones have to be greater than.
-    pub highest: Option<i64>,
+    pub highest: Option<u64>,
 }
 
 /// A robot that has the election.
@@ -75,7 +75,7 @@ impl Instance {
         &mut self,
         robot: RobotId,
         leader: RobotId,
-        epoch: Option<i64>,
+        epoch: Option<u64>,
         at: Time,
         is_disturbed: bool,
         found: &mut Vec<Violation>,
@@ -113,7 +113,7 @@ impl Instance {
     fn leads(
         &mut self,
         robot: RobotId,
-        epoch: Option<i64>,
+        epoch: Option<u64>,
         at: Time,
         is_disturbed: bool,
         found: &mut Vec<Violation>,

@@ -15,7 +15,8 @@ use super::report::Report;
 use super::{Checker, Kinds, Setting, Violation};
 use crate::scenario::Scenario;
 use instance::{Instance, Member, Shown};
-use starl_core::event::{Event, Value};
+use starl_core::event::agreement::Algorithm;
+use starl_core::event::{ElectionEvent, Event, Fault};
 use starl_core::{Duration, Port, Record, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -60,7 +61,7 @@ impl Election {
         self.corrupted.is_some_and(|at| now < at + self.bound)
     }
 
-    fn reported(&mut self, report: &Report<'_>) {
+    fn reported(&mut self, report: &Report<'_, ElectionEvent>) {
         let mut found = Vec::new();
         let Report {
             at, robot, port, ..
@@ -71,35 +72,28 @@ impl Election {
             .members
             .entry(robot)
             .or_insert_with(|| Member::new(at));
-        match report.name {
-            "start" => {
+        match *report.event {
+            ElectionEvent::Start {
+                algorithm,
+                ref participants,
+            } => {
                 *member = Member::new(at);
-                if let Some(Value::Robots(participants)) = report.get("participants") {
-                    instance.participants.clone_from(participants);
-                }
-                let has_leases =
-                    matches!(report.get("algorithm"), Some(Value::Text(name)) if name == "leases");
-                instance.has_leases = has_leases;
+                instance.participants.clone_from(participants);
+                instance.has_leases = algorithm == Algorithm::Leases;
             }
-            "elect" => {
+            ElectionEvent::Elect => {
                 member.called.get_or_insert(at);
             }
-            "resign" => member.called = None,
-            "vote" => {
+            ElectionEvent::Resign => member.called = None,
+            ElectionEvent::Vote { anew } => {
                 member.votes_since.get_or_insert(at);
-                member.is_anew = report.get("anew") == Some(&Value::Bool(true));
+                member.is_anew = anew;
             }
-            "leader" => {
-                if let Some(&Value::Robot(leader)) = report.get("leader") {
-                    let epoch = match report.get("epoch") {
-                        Some(&Value::Int(epoch)) => Some(epoch),
-                        _ => None,
-                    };
-                    instance.shows(robot, leader, epoch, at, is_disturbed, &mut found);
-                }
+            ElectionEvent::Leader { leader, epoch } => {
+                instance.shows(robot, leader, epoch, at, is_disturbed, &mut found);
             }
-            "lost" => instance.shows_none(robot, at),
-            _ => return,
+            ElectionEvent::Lost => instance.shows_none(robot, at),
+            ElectionEvent::Fail => return,
         }
         self.due.insert((at + self.bound, port, robot));
         self.pending.extend(found);
@@ -147,7 +141,7 @@ impl Checker for Election {
                 self.parts.observe(record);
             }
             Event::Primitive { .. } => {
-                if let Some(report) = Report::of(record, "election") {
+                if let Some(report) = Report::of(record) {
                     self.pass(record.at, violations);
                     self.reported(&report);
                 }
@@ -156,9 +150,9 @@ impl Checker for Election {
                 self.pass(record.at, violations);
                 self.health.observe(record);
                 self.parts.observe(record);
-                match (record.robot, &**fault) {
-                    (Some(robot), "crash") => self.crash(robot),
-                    (Some(_), "corrupt state") => self.corrupt(record.at),
+                match (record.robot, fault) {
+                    (Some(robot), Fault::Crash) => self.crash(robot),
+                    (Some(_), Fault::CorruptState) => self.corrupt(record.at),
                     _ => {}
                 }
             }

@@ -14,9 +14,9 @@ pub(super) struct Locks {
     /// been reported.
     holders: BTreeMap<Arc<str>, Vec<Holder>>,
     /// By resource: the number that it was held with last, and by whom.
-    numbers: BTreeMap<Arc<str>, (i64, RobotId)>,
+    numbers: BTreeMap<Arc<str>, (u64, RobotId)>,
     /// By resource: all numbers that it was held with while clocks need not keep their bound.
-    used: BTreeMap<Arc<str>, BTreeMap<i64, RobotId>>,
+    used: BTreeMap<Arc<str>, BTreeMap<u64, RobotId>>,
     pub(super) waiting: BTreeMap<RobotId, Waiting>,
 }
 
@@ -31,7 +31,7 @@ struct Holder {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
     /// Its number, with leases.
-    pub number: Option<i64>,
+    pub number: Option<u64>,
     /// Whether nobody else is to hold it.
     pub is_exclusive: bool,
     /// Whether some corrupted state may have led to it.
@@ -116,7 +116,7 @@ impl Locks {
         robot: RobotId,
         resource: Arc<str>,
         at: Time,
-        number: i64,
+        number: u64,
         entry: Entry,
     ) -> Option<Violation> {
         let before = if entry.is_exclusive {

@@ -17,7 +17,7 @@ use super::report::Report;
 use super::{Checker, Kinds, Setting, Violation};
 use crate::scenario::Scenario;
 use locks::{Entry, Locks};
-use starl_core::event::{Event, Value};
+use starl_core::event::{Event, Fault, MutexEvent};
 use starl_core::{Duration, Port, Record, RobotId, Time};
 use std::collections::BTreeMap;
 
@@ -65,35 +65,28 @@ impl Mutex {
         }
     }
 
-    fn reported(&mut self, report: &Report<'_>) {
-        let Some(Value::Text(resource)) = report.get("resource") else {
-            return;
-        };
+    fn reported(&mut self, report: &Report<'_, MutexEvent>) {
         let (at, robot) = (report.at, report.robot);
         let locks = self.locks.entry(report.port).or_default();
-        match report.name {
-            "acquire" => locks.acquire(robot, resource, at),
-            "withdraw" => locks.withdraw(robot, resource, at),
-            "release" | "expire" => locks.release(robot, resource, at),
-            "enter" => {
-                let number = match report.get("fencing") {
-                    Some(&Value::Int(number)) => Some(number),
-                    _ => None,
-                };
-                let is_bounded = match report.get("drift") {
-                    Some(&Value::Float(drift)) => self.drift <= drift,
-                    _ => true,
-                };
-                let is_doubtful = at < self.doubtful_until;
+        match report.event {
+            MutexEvent::Acquire { resource } => locks.acquire(robot, resource, at),
+            MutexEvent::Withdraw { resource } => locks.withdraw(robot, resource, at),
+            MutexEvent::Release { resource } | MutexEvent::Expire { resource } => {
+                locks.release(robot, resource, at);
+            }
+            MutexEvent::Enter {
+                resource,
+                fencing,
+                drift,
+            } => {
                 let entry = Entry {
-                    number,
-                    is_exclusive: is_bounded,
-                    is_doubtful,
+                    number: *fencing,
+                    is_exclusive: drift.is_none_or(|drift| self.drift <= drift),
+                    is_doubtful: at < self.doubtful_until,
                 };
                 let found = locks.enter(robot, resource, at, entry);
                 self.pending.extend(found);
             }
-            _ => {}
         }
         self.look_after(at);
     }
@@ -157,7 +150,7 @@ impl Checker for Mutex {
                 self.parts.observe(record);
             }
             Event::Primitive { .. } => {
-                if let Some(report) = Report::of(record, "mutex") {
+                if let Some(report) = Report::of(record) {
                     self.pass(record.at, violations);
                     self.reported(&report);
                 }
@@ -166,9 +159,9 @@ impl Checker for Mutex {
                 self.pass(record.at, violations);
                 self.health.observe(record);
                 self.parts.observe(record);
-                match (record.robot, &**fault) {
-                    (Some(robot), "crash") => self.forget(robot, record.at),
-                    (Some(robot), "corrupt state") => self.corrupted(robot, record.at),
+                match (record.robot, fault) {
+                    (Some(robot), Fault::Crash) => self.forget(robot, record.at),
+                    (Some(robot), Fault::CorruptState) => self.corrupted(robot, record.at),
                     _ => {}
                 }
             }

@@ -1,8 +1,6 @@
 //! One command to a ReachAvoid, and whether its robot keeps out of the unsafe set.
 
-use super::super::report::Report;
-use starl_core::event::Value;
-use starl_core::motion::{Body, Obstacles};
+use starl_core::motion::Obstacles;
 use starl_core::{Point, Port, RobotId, Time};
 
 /// A command, from its start until its end is reported.
@@ -35,32 +33,25 @@ pub enum Phase {
 }
 
 impl Command {
-    /// The command that a `start` gives; none if it lacks a detail.
-    pub fn started(report: &Report<'_>, body: &Body) -> Option<Command> {
-        let (
-            Some(&Value::Point(target)),
-            Some(&Value::Float(vicinity)),
-            Some(Value::Obstacles(unsafe_set)),
-        ) = (
-            report.get("target"),
-            report.get("vicinity"),
-            report.get("unsafe_set"),
-        )
-        else {
-            return None;
-        };
-        Some(Command {
-            port: report.port,
-            started: report.at,
-            target: body.reachable(target),
+    /// The command that was given to an instance.
+    pub fn new(
+        (port, started): (Port, Time),
+        target: Point,
+        vicinity: f64,
+        unsafe_set: Obstacles,
+    ) -> Command {
+        Command {
+            port,
+            started,
+            target,
             vicinity,
-            unsafe_set: unsafe_set.clone(),
+            unsafe_set,
             phase: Phase::Active,
             judged: None,
             clearance: 0.0,
             entered: false,
             overdue: false,
-        })
+        }
     }
 
     /// What is wrong if the robot has now entered the unsafe set; said once. The way between two poses

@@ -13,7 +13,7 @@ use super::track::{Tolerance, Track};
 use super::{Checker, Kinds, Setting, Violation};
 use crate::scenario::Scenario;
 use command::{Command, Phase};
-use starl_core::event::Event;
+use starl_core::event::{Event, ReachAvoidEvent};
 use starl_core::motion::Body;
 use starl_core::{Duration, Point, Port, Record, RobotId, Time};
 use std::collections::VecDeque;
@@ -87,7 +87,7 @@ impl ReachAvoid {
             .retain(|command| command.phase == Phase::Active);
     }
 
-    fn reported(&mut self, report: &Report<'_>, found: &mut Vec<Violation>) {
+    fn reported(&mut self, report: &Report<'_, ReachAvoidEvent>, found: &mut Vec<Violation>) {
         let Report {
             at, robot, port, ..
         } = *report;
@@ -95,20 +95,24 @@ impl ReachAvoid {
             return;
         };
         let active = |command: &Command| command.port == port && command.phase == Phase::Active;
-        match report.name {
-            "start" => {
+        match report.event {
+            ReachAvoidEvent::Start {
+                target,
+                vicinity,
+                unsafe_set,
+            } => {
                 watch.commands.retain(|command| !active(command));
-                if let Some(command) = Command::started(report, &watch.body) {
-                    watch.commands.push(command);
-                    self.deadlines.push_back((at + self.bound, robot, port, at));
-                }
+                let target = watch.body.reachable(*target);
+                let command = Command::new((port, at), target, *vicinity, unsafe_set.clone());
+                watch.commands.push(command);
+                self.deadlines.push_back((at + self.bound, robot, port, at));
             }
-            "failed" => {
+            ReachAvoidEvent::Failed { .. } => {
                 for command in watch.commands.iter_mut().filter(|command| active(command)) {
                     command.phase = Phase::Failed;
                 }
             }
-            "done" => {
+            ReachAvoidEvent::Done { .. } => {
                 if let Some(index) = watch.commands.iter().position(active) {
                     let command = watch.commands.remove(index);
                     if self.health.well_since(robot, command.started)
@@ -123,8 +127,10 @@ impl ReachAvoid {
                     }
                 }
             }
-            "give_up" | "stop" => watch.commands.retain(|command| !active(command)),
-            _ => {}
+            ReachAvoidEvent::GiveUp { .. } | ReachAvoidEvent::Stop => {
+                watch.commands.retain(|command| !active(command));
+            }
+            ReachAvoidEvent::Path { .. } | ReachAvoidEvent::Replan { .. } => {}
         }
     }
 
@@ -202,7 +208,7 @@ impl Checker for ReachAvoid {
                 self.moved(record.at, robot, pose.position, violations);
             }
             (Event::Primitive { .. }, _) => {
-                if let Some(report) = Report::of(record, "reach_avoid") {
+                if let Some(report) = Report::of(record) {
                     self.reported(&report, violations);
                 }
             }

@@ -8,7 +8,8 @@ mod search;
 use super::report::Report;
 use super::{Checker, Kinds, Violation};
 use search::{Content, Id, Search, Verdict};
-use starl_core::event::{Event, Value};
+use starl_core::event::storing as event;
+use starl_core::event::{Event, Fault, RegisterEvent};
 use starl_core::{Port, Record, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -29,7 +30,7 @@ pub(super) struct Register {
 struct Instance {
     registers: BTreeMap<String, Search>,
     /// What is under way: by robot and its number for it.
-    operations: BTreeMap<(RobotId, i64), Operation>,
+    operations: BTreeMap<(RobotId, u32), Operation>,
     /// Who has kept copies at some time, and who does now.
     members: BTreeSet<RobotId>,
     up: BTreeSet<RobotId>,
@@ -65,8 +66,8 @@ impl Instance {
     }
 
     fn crashed(&mut self, robot: RobotId) {
-        let under_way = self.operations.range((robot, i64::MIN)..=(robot, i64::MAX));
-        let keys: Vec<(RobotId, i64)> = under_way.map(|(&key, _)| key).collect();
+        let under_way = self.operations.range((robot, 0)..=(robot, u32::MAX));
+        let keys: Vec<(RobotId, u32)> = under_way.map(|(&key, _)| key).collect();
         for key in keys {
             if let Some(operation) = self.operations.remove(&key) {
                 self.abandon(&operation);
@@ -80,6 +81,26 @@ impl Instance {
         }
     }
 
+    /// An operation is under way no longer.
+    fn ends(&mut self, robot: RobotId, operation: &event::Operation) -> Option<Operation> {
+        self.operations.remove(&(robot, operation.operation))
+    }
+
+    /// An operation has ended in this way: whether that fits.
+    fn judge(
+        &mut self,
+        report: &Report<'_, RegisterEvent>,
+        operation: &event::Operation,
+        end: impl FnOnce(&mut Search, &Operation),
+    ) -> Option<Violation> {
+        let operation = self.ends(report.robot, operation)?;
+        let search = self.search(&operation.register);
+        let before = search.verdict();
+        end(search, &operation);
+        let verdict = search.verdict();
+        (before != verdict).then(|| violation(verdict, &operation, report.at, report.robot))?
+    }
+
     fn is_up(&mut self, robot: RobotId) {
         self.members.insert(robot);
         self.up.insert(robot);
@@ -87,81 +108,80 @@ impl Instance {
 }
 
 impl Register {
-    fn reported(&mut self, report: &Report<'_>, found: &mut Vec<Violation>) {
-        let Report {
-            at, robot, port, ..
-        } = *report;
-        let instance = self.instances.entry(port).or_default();
-        if report.name == "up" {
-            return instance.is_up(robot);
+    fn reported(&mut self, report: &Report<'_, RegisterEvent>, found: &mut Vec<Violation>) {
+        let instance = self.instances.entry(report.port).or_default();
+        if let RegisterEvent::Up { .. } = report.event {
+            return instance.is_up(report.robot);
         }
         if instance.is_lost || self.corrupted {
             return;
         }
-        let (Some(&Value::Int(number)), Some(Value::Text(register))) =
-            (report.get("operation"), report.get("register"))
-        else {
-            return;
-        };
-        let key = (robot, number);
-        let value = match report.get("value") {
-            Some(&Value::Int(value)) => Some(value),
-            _ => None,
-        };
-        match (report.name, value) {
-            ("read", _) | ("write" | "update", Some(_)) => {
-                self.last += 1;
-                let id = self.last;
-                let search = instance.search(register);
-                let kind = match (report.name, value) {
-                    ("write", Some(value)) => {
-                        search.write_begins(id, value);
-                        Kind::Write
-                    }
-                    ("update", Some(value)) => {
-                        let found = match report.get("found") {
-                            Some(&Value::Int(found)) => Content::Value(found),
-                            _ => Content::Nothing,
-                        };
-                        search.update_begins(id, found, value);
-                        Kind::Update
-                    }
-                    _ => {
-                        search.read_begins(id);
-                        Kind::Read
-                    }
-                };
-                let register = register.to_string();
-                let operation = Operation { id, register, kind };
-                instance.operations.insert(key, operation);
+        match report.event {
+            RegisterEvent::Read { operation } => {
+                self.begins(report, operation, Kind::Read, Search::read_begins);
             }
-            ("withdraw" | "refused", _) => {
-                if let Some(operation) = instance.operations.remove(&key) {
+            RegisterEvent::Write { operation, value } => {
+                self.begins(report, operation, Kind::Write, |search, id| {
+                    search.write_begins(id, *value);
+                });
+            }
+            RegisterEvent::Update {
+                operation,
+                found,
+                value,
+            } => {
+                let found = found.map_or(Content::Nothing, Content::Value);
+                self.begins(report, operation, Kind::Update, |search, id| {
+                    search.update_begins(id, found, *value);
+                });
+            }
+            RegisterEvent::Withdraw { operation } | RegisterEvent::Refused { operation, .. } => {
+                if let Some(operation) = instance.ends(report.robot, operation) {
                     instance.abandon(&operation);
                 }
             }
-            ("done" | "lost", _) => {
-                if let Some(operation) = instance.operations.remove(&key) {
-                    let search = instance.search(&operation.register);
-                    let before = search.verdict();
-                    match operation.kind {
-                        Kind::Update if report.name == "lost" => {
-                            search.update_is_lost(operation.id);
-                        }
-                        Kind::Write | Kind::Update => search.write_ends(operation.id),
-                        Kind::Read => {
-                            let content = value.map_or(Content::Nothing, Content::Value);
-                            search.read_ends(operation.id, content);
-                        }
+            RegisterEvent::Done { operation, value } => {
+                found.extend(instance.judge(report, operation, |search, ending| {
+                    let content = value.map_or(Content::Nothing, Content::Value);
+                    match ending.kind {
+                        Kind::Write | Kind::Update => search.write_ends(ending.id),
+                        Kind::Read => search.read_ends(ending.id, content),
                     }
-                    let verdict = search.verdict();
-                    if before != verdict {
-                        found.extend(violation(verdict, &operation, at, robot));
-                    }
-                }
+                }));
             }
-            _ => {}
+            RegisterEvent::Lost { operation, .. } => {
+                found.extend(instance.judge(report, operation, |search, ending| {
+                    search.update_is_lost(ending.id);
+                }));
+            }
+            RegisterEvent::Up { .. }
+            | RegisterEvent::Claim { .. }
+            | RegisterEvent::NoQuorum { .. } => {}
         }
+    }
+
+    /// An operation begins.
+    fn begins(
+        &mut self,
+        report: &Report<'_, RegisterEvent>,
+        event::Operation {
+            operation,
+            register,
+        }: &event::Operation,
+        kind: Kind,
+        begin: impl FnOnce(&mut Search, Id),
+    ) {
+        self.last += 1;
+        let instance = self.instances.entry(report.port).or_default();
+        begin(instance.search(register), self.last);
+        let begun = Operation {
+            id: self.last,
+            register: register.to_string(),
+            kind,
+        };
+        instance
+            .operations
+            .insert((report.robot, *operation), begun);
     }
 }
 
@@ -211,17 +231,17 @@ impl Checker for Register {
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
         match &record.event {
             Event::Primitive { .. } => {
-                if let Some(report) = Report::of(record, "register") {
+                if let Some(report) = Report::of(record) {
                     self.reported(&report, violations);
                 }
             }
-            Event::Fault(fault) => match (record.robot, &**fault) {
-                (Some(robot), "crash") => {
+            Event::Fault(fault) => match (record.robot, fault) {
+                (Some(robot), Fault::Crash) => {
                     for instance in self.instances.values_mut() {
                         instance.crashed(robot);
                     }
                 }
-                (_, "corrupt state") => self.corrupted = true,
+                (_, Fault::CorruptState) => self.corrupted = true,
                 _ => {}
             },
             _ => {}

@@ -2,19 +2,17 @@
 
 use super::{AGREEMENT, EXCLUSION, SOUNDNESS, violation};
 use crate::properties::pending::Pending;
+use starl_core::event::agreement::ListId;
 use starl_core::{Duration, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// As many of the latest lists are remembered; of older ones nothing is said.
 const MOST_LISTS: usize = 256;
 
-/// The name of a list: its time, its coordinator, and the coordinator's incarnation.
-pub(super) type Id = (Time, RobotId, i64);
-
 #[derive(Clone, Debug, Default)]
 pub(super) struct Instance {
     pub robots: BTreeMap<RobotId, Life>,
-    lists: BTreeMap<Id, List>,
+    lists: BTreeMap<ListId, List>,
     /// When somebody came or left last.
     pub changed: Time,
     /// Since when not all that are to agree do.
@@ -32,12 +30,12 @@ pub(super) struct Life {
     pub registered: Option<Time>,
     /// Whether it does so with the whole fleet.
     pub with_all: bool,
-    pub shown: Option<Id>,
+    pub shown: Option<ListId>,
     /// Since when it has shown no list.
     pub without: Time,
     /// Whether that was reported.
     pub is_reported: bool,
-    promised: Option<Id>,
+    promised: Option<ListId>,
     /// How far the times of its lists are apart.
     apart: Duration,
 }
@@ -56,12 +54,12 @@ impl Instance {
         self.robots.entry(robot).or_default()
     }
 
-    pub fn registers(&mut self, robot: RobotId, at: Time, with_all: bool, apart: f64) {
+    pub fn registers(&mut self, robot: RobotId, at: Time, with_all: bool, apart: Duration) {
         let life = self.life(robot);
         life.registered = Some(at);
         life.with_all = with_all;
         life.without = at;
-        life.apart = Duration::from_seconds_f64(apart);
+        life.apart = apart;
         self.changed = at;
     }
 
@@ -83,7 +81,7 @@ impl Instance {
     pub fn accepts(
         &mut self,
         robot: RobotId,
-        id: Id,
+        id: ListId,
         at: Time,
         is_disturbed: bool,
         found: &mut Pending,
@@ -100,11 +98,11 @@ impl Instance {
         }
         let promised = life.promised.replace(id);
         if let Some(promised) = promised.filter(|promised| *promised != id && !is_disturbed)
-            && id.0 < promised.0 + life.apart
+            && id.time < promised.time + life.apart
         {
             let text = format!(
                 "robot {robot} accepts the list of {} after that of {}, less than {} before",
-                id.0, promised.0, life.apart
+                id.time, promised.time, life.apart
             );
             found.push(violation(AGREEMENT, at, [robot], text));
         }
@@ -121,7 +119,7 @@ impl Instance {
     pub fn shows(
         &mut self,
         robot: RobotId,
-        id: Id,
+        id: ListId,
         members: &[RobotId],
         at: Time,
         is_disturbed: bool,
@@ -142,9 +140,9 @@ impl Instance {
         if known != members {
             let text = format!(
                 "robot {robot} shows another list of {} than others, by the same coordinator",
-                id.0
+                id.time
             );
-            found.push(violation(AGREEMENT, at, [robot, id.1], text));
+            found.push(violation(AGREEMENT, at, [robot, id.coordinator], text));
         }
         let missing = members.iter().filter(|m| !list.accepted.contains_key(m));
         for &member in missing {
@@ -168,8 +166,8 @@ impl Instance {
 
     /// Whether the other robot shows a different list than this one, and each lists the other's present
     /// life.
-    fn exclude_each_other(&self, robot: RobotId, id: Id, other: RobotId) -> bool {
-        let lists = |id: &Id, whom: RobotId| {
+    fn exclude_each_other(&self, robot: RobotId, id: ListId, other: RobotId) -> bool {
+        let lists = |id: &ListId, whom: RobotId| {
             let number = self.robots.get(&whom).map(|life| life.number);
             self.lists.get(id).is_some_and(|list| {
                 !list.is_doubtful

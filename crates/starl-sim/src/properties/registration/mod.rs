@@ -8,13 +8,13 @@
 mod instance;
 
 use super::disturbance::Disturbance;
-use super::health::{Health, Needs};
+use super::health::{Change, Health, Needs};
 use super::pending::Pending;
 use super::report::Report;
 use super::{Checker, Kinds, Setting, Violation, robot_list};
 use crate::scenario::Scenario;
-use instance::{Id, Instance};
-use starl_core::event::{Event, Value};
+use instance::Instance;
+use starl_core::event::{Event, RegistrationEvent};
 use starl_core::{Duration, Port, Record, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -49,7 +49,7 @@ impl Registration {
         }
     }
 
-    fn reported(&mut self, report: &Report<'_>) {
+    fn reported(&mut self, report: &Report<'_, RegistrationEvent>) {
         let Report {
             at, robot, port, ..
         } = *report;
@@ -57,43 +57,35 @@ impl Registration {
         let is_disturbed = self.disturbance.is_made_up(at);
         let instance = self.instances.entry(port).or_default();
         let found = &mut self.pending;
-        match (report.name, id(report)) {
-            ("register", _) => {
-                let apart = match report.get("apart") {
-                    Some(&Value::Float(apart)) => apart,
-                    _ => 0.0,
-                };
-                instance.registers(robot, at, report.get("area").is_none(), apart);
+        match report.event {
+            RegistrationEvent::Register { apart, area } => {
+                instance.registers(robot, at, area.is_none(), *apart);
             }
-            ("unregister", _) => instance.leaves(robot, at),
-            ("lose", _) => instance.shows_none(robot, at),
-            ("propose" | "accept", Some(id)) => {
-                instance.accepts(robot, id, at, is_disturbed, found);
+            RegistrationEvent::Unregister => instance.leaves(robot, at),
+            RegistrationEvent::Lose => instance.shows_none(robot, at),
+            RegistrationEvent::Propose { list, .. } | RegistrationEvent::Accept { list } => {
+                instance.accepts(robot, *list, at, is_disturbed, found);
             }
-            ("agree", Some(id)) => {
-                if let Some(Value::Robots(members)) = report.get("members") {
-                    instance.shows(robot, id, members, at, is_disturbed, found);
-                }
+            RegistrationEvent::Agree { list, members } => {
+                instance.shows(robot, *list, members, at, is_disturbed, found);
             }
-            _ => return,
+            RegistrationEvent::Fail => return,
         }
         instance.note_agreement(at);
         self.due.insert((at + self.bound, port));
     }
 
-    fn fault(&mut self, at: Time, robot: Option<RobotId>, fault: &str) {
-        self.disturbance.fault(at, robot, fault, &mut self.pending);
-        match (robot, fault) {
-            (Some(robot), "crash" | "failed") => {
-                for instance in self.instances.values_mut() {
-                    instance.crashes(robot, at);
-                    instance.note_agreement(at);
-                }
+    fn changed(&mut self, at: Time, robot: Option<RobotId>, change: Change<'_>) {
+        self.disturbance
+            .change(at, robot, change, &mut self.pending);
+        if let Some(robot) = robot.filter(|_| change.is_end()) {
+            for instance in self.instances.values_mut() {
+                instance.crashes(robot, at);
+                instance.note_agreement(at);
             }
-            (Some(_), "corrupt state") => {
-                self.instances.values_mut().for_each(Instance::doubts);
-            }
-            _ => {}
+        }
+        if robot.is_some() && change.is_corruption() {
+            self.instances.values_mut().for_each(Instance::doubts);
         }
         for &port in self.instances.keys() {
             self.due.insert((at + self.bound, port));
@@ -167,7 +159,7 @@ impl Checker for Registration {
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
         match &record.event {
             Event::Primitive { .. } => {
-                if let Some(report) = Report::of(record, "registration") {
+                if let Some(report) = Report::of(record) {
                     self.pass(record.at, violations);
                     self.reported(&report);
                 }
@@ -175,12 +167,12 @@ impl Checker for Registration {
             Event::Fault(fault) => {
                 self.pass(record.at, violations);
                 self.health.observe(record);
-                self.fault(record.at, record.robot, fault);
+                self.changed(record.at, record.robot, Change::Fault(fault));
             }
             Event::Failed(_) => {
                 self.pass(record.at, violations);
                 self.health.observe(record);
-                self.fault(record.at, record.robot, "failed");
+                self.changed(record.at, record.robot, Change::Failed);
             }
             _ => {}
         }
@@ -188,18 +180,6 @@ impl Checker for Registration {
 
     fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
         self.pass(now, violations);
-    }
-}
-
-/// The list that an event is about.
-fn id(report: &Report<'_>) -> Option<Id> {
-    match ["time", "coordinator", "incarnation"].map(|field| report.get(field)) {
-        [
-            Some(&Value::Time(time)),
-            Some(&Value::Robot(coordinator)),
-            Some(&Value::Int(incarnation)),
-        ] => Some((time, coordinator, incarnation)),
-        _ => None,
     }
 }
 

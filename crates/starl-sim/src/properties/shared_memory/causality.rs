@@ -2,12 +2,12 @@
 //! showed when it wrote, or later ones.
 
 use super::element::Stamp;
-use super::{Address, content};
+use super::{Address, owner};
 use crate::properties::pending::Pending;
 use crate::properties::report::Report;
 use crate::properties::{Checker, Kinds, Violation};
 use crate::scenario::Scenario;
-use starl_core::event::{Event, Value};
+use starl_core::event::{Event, Fault, SharedMemoryEvent};
 use starl_core::{Port, Record, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -89,29 +89,31 @@ impl Causality {
         }
     }
 
-    fn reported(&mut self, report: &Report<'_>) {
+    fn reported(&mut self, report: &Report<'_, SharedMemoryEvent>) {
         let Report {
             at, robot, port, ..
         } = *report;
-        if report.name == "causal" {
-            if let Some(Value::Text(variable)) = report.get("variable") {
+        let (written, is_own) = match report.event {
+            SharedMemoryEvent::Causal { variable } => {
                 let memory = self.memories.entry(port).or_default();
-                memory.causal.insert(Arc::from(&**variable));
+                memory.causal.insert(variable.clone());
+                return;
             }
-            return;
-        }
+            SharedMemoryEvent::Write { written } | SharedMemoryEvent::WriteAgain { written } => {
+                (written, true)
+            }
+            SharedMemoryEvent::Update { written } => (written, false),
+            SharedMemoryEvent::Start | SharedMemoryEvent::Initialize { .. } => return,
+        };
         let Some(memory) = self.memories.get_mut(&port) else {
             return;
         };
-        let Some((variable, owner, stamp, _)) = content(report) else {
+        let Some(variable) = memory.causal.get(&written.variable).cloned() else {
             return;
         };
-        let Some(variable) = memory.causal.get(variable).cloned() else {
-            return;
-        };
-        let element = (variable, owner);
+        let (element, stamp) = ((variable, owner(written)), Stamp::of(written));
         let shown = memory.shown.entry(robot).or_default();
-        if matches!(report.name, "write" | "write_again") {
+        if is_own {
             let mut past = shown.clone();
             past.remove(&element);
             let writes = memory.past.entry(element.clone()).or_default();
@@ -175,21 +177,21 @@ impl Checker for Causality {
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
         match &record.event {
             Event::Primitive { .. } => {
-                if let Some(report) = Report::of(record, "shared_memory")
+                if let Some(report) = Report::of(record)
                     && !self.corrupted
                 {
                     self.pass(record.at, violations);
                     self.reported(&report);
                 }
             }
-            Event::Fault(fault) => match (record.robot, &**fault) {
-                (Some(robot), "crash") => {
+            Event::Fault(fault) => match (record.robot, fault) {
+                (Some(robot), Fault::Crash) => {
                     self.judge(Time::NEVER);
                     for memory in self.memories.values_mut() {
                         memory.shown.remove(&robot);
                     }
                 }
-                (_, "corrupt state") => {
+                (_, Fault::CorruptState) => {
                     self.pass(record.at, violations);
                     self.corrupted = true;
                     self.fresh.clear();

@@ -1,5 +1,6 @@
 //! What is on record of one element of a shared memory: its writes, and what robots show.
 
+use starl_core::event::storing::Written;
 use starl_core::{RobotId, Time};
 use std::collections::BTreeMap;
 
@@ -7,10 +8,21 @@ use std::collections::BTreeMap;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Stamp {
     pub time: Time,
-    pub count: i64,
+    pub count: u32,
     pub writer: RobotId,
     /// In which of the writer's lives.
-    pub incarnation: i64,
+    pub incarnation: u32,
+}
+
+impl Stamp {
+    pub fn of(written: &Written) -> Stamp {
+        Stamp {
+            time: written.time,
+            count: written.count,
+            writer: written.writer,
+            incarnation: written.incarnation,
+        }
+    }
 }
 
 /// What a robot shows.

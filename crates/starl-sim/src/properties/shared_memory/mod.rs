@@ -20,7 +20,8 @@ use super::{Checker, Kinds, Setting, Violation};
 use crate::scenario::Scenario;
 use debt::{Address, Debt};
 use element::{Element, Shown, Stamp};
-use starl_core::event::{Event, Value};
+use starl_core::event::storing::Written;
+use starl_core::event::{Event, Fault, SharedMemoryEvent};
 use starl_core::{Duration, Port, Record, RobotId, Time};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -70,18 +71,25 @@ impl SharedMemory {
         }
     }
 
-    fn reported(&mut self, report: &Report<'_>, found: &mut Vec<Violation>) {
+    fn reported(&mut self, report: &Report<'_, SharedMemoryEvent>, found: &mut Vec<Violation>) {
         let Report {
             at, robot, port, ..
         } = *report;
         self.joined(port, robot, at);
-        let Some((variable, owner, stamp, value)) = content(report) else {
-            return;
+        let (written, is_write) = match report.event {
+            SharedMemoryEvent::Write { written } | SharedMemoryEvent::WriteAgain { written } => {
+                (written, true)
+            }
+            SharedMemoryEvent::Update { written } => (written, false),
+            SharedMemoryEvent::Start
+            | SharedMemoryEvent::Initialize { .. }
+            | SharedMemoryEvent::Causal { .. } => return,
         };
+        let (owner, stamp, value) = (owner(written), Stamp::of(written), written.value);
         let memory = self.memories.entry(port).or_default();
-        let variable = match memory.variables.get_key_value(variable) {
+        let variable = match memory.variables.get_key_value(&written.variable) {
             Some((known, _)) => known.clone(),
-            None => Arc::from(variable),
+            None => written.variable.clone(),
         };
         let elements = memory.variables.entry(variable.clone()).or_default();
         let element = elements.entry(owner).or_default();
@@ -90,7 +98,6 @@ impl SharedMemory {
             variable,
             owner,
         };
-        let is_write = matches!(report.name, "write" | "write_again");
         let is_new = is_write || !element.was_written(stamp, value);
         let wrong = if is_write && element.has_other(stamp, value) {
             Some(format!(
@@ -213,7 +220,7 @@ impl Checker for SharedMemory {
         match &record.event {
             Event::Sent { .. } | Event::Delivered { .. } => self.parts.observe(record),
             Event::Primitive { .. } => {
-                if let Some(report) = Report::of(record, "shared_memory") {
+                if let Some(report) = Report::of(record) {
                     self.pass(record.at, violations);
                     self.reported(&report, violations);
                 }
@@ -222,9 +229,9 @@ impl Checker for SharedMemory {
                 self.pass(record.at, violations);
                 self.health.observe(record);
                 self.parts.observe(record);
-                match (record.robot, &**fault) {
-                    (Some(robot), "crash") => self.crashed(robot),
-                    (Some(robot), "corrupt state") => self.corrupted(robot),
+                match (record.robot, fault) {
+                    (Some(robot), Fault::Crash) => self.crashed(robot),
+                    (Some(robot), Fault::CorruptState) => self.corrupted(robot),
                     _ => {}
                 }
             }
@@ -241,38 +248,9 @@ impl Checker for SharedMemory {
     }
 }
 
-/// What an event says of an element: its variable, its owner in an array, the write and its value.
-fn content<'a>(report: &Report<'a>) -> Option<(&'a str, Option<RobotId>, Stamp, i64)> {
-    let Some(Value::Text(variable)) = report.get("variable") else {
-        return None;
-    };
-    let fields = [
-        "single_writer",
-        "time",
-        "count",
-        "writer",
-        "incarnation",
-        "value",
-    ];
-    match fields.map(|field| report.get(field)) {
-        [
-            Some(&Value::Bool(single_writer)),
-            Some(&Value::Time(time)),
-            Some(&Value::Int(count)),
-            Some(&Value::Robot(writer)),
-            Some(&Value::Int(incarnation)),
-            Some(&Value::Int(value)),
-        ] => {
-            let stamp = Stamp {
-                time,
-                count,
-                writer,
-                incarnation,
-            };
-            Some((variable, single_writer.then_some(writer), stamp, value))
-        }
-        _ => None,
-    }
+/// The robot that owns an element of an array; none where all write the variable.
+fn owner(written: &Written) -> Option<RobotId> {
+    written.single_writer.then_some(written.writer)
 }
 
 fn words(stamp: Stamp) -> String {

@@ -1,6 +1,6 @@
 //! Tells stories as streams of records and lets the checkers judge them.
 
-use starl_core::event::{Event, Fields, Hit, Value};
+use starl_core::event::{Event, Fault, Fields, Hit, PrimitiveEvent, Value};
 use starl_core::motion::{Body, Workspace};
 use starl_core::{Area, Destination, Duration, Obstacle, Point, Port, Pose, Record, RobotId, Time};
 use starl_sim::Scenario;
@@ -105,7 +105,7 @@ impl Story {
 
     /// A fault of a robot, or of the world.
     pub fn fault(&mut self, millis: u64, robot: Option<u32>, name: &'static str) -> &mut Story {
-        self.record(millis, robot, Event::Fault(name.into()))
+        self.record(millis, robot, Event::Fault(Fault::named(name.into())))
     }
 
     /// A primitive of a robot reports something.
@@ -120,13 +120,13 @@ impl Story {
             .into_iter()
             .map(|(name, value)| (name.into(), value))
             .collect();
-        let event = Event::Primitive {
-            primitive: primitive.into(),
-            port: Port::named(primitive),
-            name: name.into(),
-            fields,
-        };
-        self.record(millis, Some(robot), event)
+        let port = Port::named(primitive);
+        let event = PrimitiveEvent::named(primitive, name, fields);
+        assert!(
+            !matches!(event, PrimitiveEvent::Other(_)),
+            "no checker knows {event:?}"
+        );
+        self.record(millis, Some(robot), Event::Primitive { port, event })
     }
 
     /// A robot is sent to a target, vicinity 0.1 m.
@@ -147,7 +147,12 @@ impl Story {
 
     /// A robot's ReachAvoid comes to an end.
     pub fn ends(&mut self, millis: u64, robot: u32, how: &'static str) -> &mut Story {
-        self.report(millis, robot, ("reach_avoid", how), [])
+        let how = ("reach_avoid", how);
+        match how.1 {
+            "stop" => self.report(millis, robot, how, []),
+            "give_up" => self.report(millis, robot, how, [("reason", "stuck".into())]),
+            _ => self.report(millis, robot, how, [("position", Point::ZERO.into())]),
+        }
     }
 
     /// A robot sends its message of this number to all.

@@ -1,17 +1,30 @@
 //! What a trace is made of: every host writes the same events.
 
+mod fault;
+mod fields;
+#[macro_use]
+mod define;
+pub mod agreement;
+pub mod messaging;
+pub mod moving;
+mod primitive;
+pub mod storing;
+mod value;
+
+pub use agreement::{
+    BarrierEvent, ElectionEvent, FailureDetectorEvent, MutexEvent, RegistrationEvent,
+};
+pub use fault::Fault;
+pub use messaging::{BroadcastEvent, GeocastEvent, TransferEvent, UnicastEvent};
+pub use moving::ReachAvoidEvent;
+pub use primitive::{OtherEvent, PrimitiveEvent};
+pub use storing::{RegisterEvent, SharedMemoryEvent};
+pub use value::{Fields, Name, Value, ValueRef, ValueRefs, borrowed};
+
 use crate::geometry::{Obstacle, Point, Pose};
-use crate::motion::Path;
 use crate::{Destination, Payload, Port, RobotId, time::Time};
-use alloc::borrow::Cow;
-use alloc::boxed::Box;
-use alloc::sync::Arc;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
-use smallvec::SmallVec;
-
-/// A short text that is usually known at compile time.
-pub type Name = Cow<'static, str>;
 
 /// An event with its time and robot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -76,15 +89,12 @@ pub enum Event {
         fields: Fields,
     },
     /// A primitive was given a command, or reports an outcome.
+    #[serde(with = "primitive::wire")]
     Primitive {
-        /// The primitive's type, e.g. `reach_avoid`.
-        primitive: Name,
         /// Which instance.
         port: Port,
-        /// What happened, e.g. `done`.
-        name: Name,
-        /// Its details.
-        fields: Fields,
+        /// What happened.
+        event: PrimitiveEvent,
     },
     /// The program's log.
     Log {
@@ -96,7 +106,7 @@ pub enum Event {
     /// The program draws for the viewer.
     Draw(Mark),
     /// A fault set in or was healed.
-    Fault(Name),
+    Fault(Fault),
     /// An obstacle the robot did not know was met.
     Discovered(Obstacle),
     /// The program has reached its goal.
@@ -185,50 +195,3 @@ pub enum MarkShape {
     /// The mark's label, written here.
     Text(Point),
 }
-
-/// Details of an event, by name.
-pub type Fields = SmallVec<[(Name, Value); 2]>;
-
-/// A detail of an event.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Value {
-    /// Yes or no.
-    Bool(bool),
-    /// A whole number.
-    Int(i64),
-    /// A number.
-    Float(f64),
-    /// A text.
-    Text(Name),
-    /// A moment.
-    Time(Time),
-    /// A place.
-    Point(Point),
-    /// Places in order.
-    Path(Path),
-    /// A robot.
-    Robot(RobotId),
-    /// Robots.
-    Robots(Vec<RobotId>),
-    /// Obstacles.
-    Obstacles(Arc<[Obstacle]>),
-    /// An area. By far the largest, and rare: in a box it does not make all events larger.
-    Area(Box<crate::Area>),
-}
-
-macro_rules! value_from {
-    ($($type:ty => $variant:ident),*) => {
-        $(impl From<$type> for Value {
-            fn from(value: $type) -> Value {
-                Value::$variant(value.into())
-            }
-        })*
-    };
-}
-
-value_from!(
-    bool => Bool, i64 => Int, u32 => Int, i32 => Int, f64 => Float, &'static str => Text,
-    Name => Text, Time => Time, Point => Point, Path => Path, RobotId => Robot,
-    Vec<RobotId> => Robots, Arc<[Obstacle]> => Obstacles, crate::Area => Area
-);
