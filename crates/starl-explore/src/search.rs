@@ -16,7 +16,7 @@ use crate::walk::Walk;
 use crate::watch::Watches;
 use starl_core::event::PrimitiveEvent;
 use starl_core::{Event, RobotId};
-use starl_sim::properties::Violation;
+use starl_properties::Violation;
 
 /// A search under way.
 #[derive(Clone)]

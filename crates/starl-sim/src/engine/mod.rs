@@ -14,6 +14,7 @@ mod shard;
 mod shared;
 mod simulation;
 mod timers;
+mod witness;
 
 pub use fault::timeline;
 pub use record::Tally;

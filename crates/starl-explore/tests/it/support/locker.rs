@@ -4,7 +4,7 @@ use starl_core::event::{Fault, MutexEvent, PrimitiveEvent};
 use starl_core::{Event, Primitive, Program, Record, Robot, RobotId};
 use starl_primitives::Mutex;
 use starl_primitives::mutex::{Options, Resources};
-use starl_sim::properties::{Checker, Violation};
+use starl_properties::{Checker, Violation};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 

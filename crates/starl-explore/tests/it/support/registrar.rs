@@ -5,7 +5,7 @@ use starl_core::event::{PrimitiveEvent, RegistrationEvent};
 use starl_core::{Event, Primitive, Program, Record, Robot, RobotId, Time};
 use starl_primitives::Registration;
 use starl_primitives::registration::Options;
-use starl_sim::properties::{Checker, Violation};
+use starl_properties::{Checker, Violation};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
