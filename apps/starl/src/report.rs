@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 use starl_core::RobotId;
 use starl_core::event::Name;
-use starl_sim::properties::Violation;
+use starl_properties::Violation;
 use starl_sim::{Outcome, Run, Scenario};
 
 /// All that is told of a run. As JSON its fields are described in `docs/reference/command.md`.
@@ -200,7 +200,7 @@ impl Breach {
 }
 
 fn properties(run: &Run, scenario: &Scenario) -> Vec<Property> {
-    let property = |verdict: starl_sim::Verdict| Property {
+    let property = |verdict: starl_properties::Verdict| Property {
         property: verdict.property,
         verdict: match (verdict.violations, verdict.open, verdict.used) {
             (0, _, false) => UNUSED,

@@ -78,7 +78,7 @@ fn explore(target: &str, arguments: &ExploreArguments) -> Result<ExitCode, Failu
     }
     if !matches!(end, Some(End::Violated(_))) {
         let is_complete = end == Some(End::Complete);
-        account.hints = hints::hints(&recording.bounds, &search.told(), is_complete);
+        account.hints = hints::hints(&recording.bounds, search.told(), is_complete);
     }
     account.seconds = begun.elapsed().as_secs_f64();
     if let Some(End::Violated(found)) = &end {

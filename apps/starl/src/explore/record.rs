@@ -7,7 +7,7 @@ use crate::target;
 use serde::{Deserialize, Serialize};
 use starl_catalog::Application;
 use starl_explore::{Bounds, Counterexample, Setup, Step, Walk};
-use starl_sim::properties::Violation;
+use starl_properties::Violation;
 use starl_sim::read::Inputs;
 use std::path::Path;
 

@@ -9,7 +9,7 @@ use crate::output::Output;
 use starl_catalog::Application;
 use starl_core::{Event, Record, Time};
 use starl_explore::{Counterexample, STUCK, Setup};
-use starl_sim::properties::Violation;
+use starl_properties::Violation;
 use std::fs::File;
 use std::path::Path;
 use std::process::ExitCode;

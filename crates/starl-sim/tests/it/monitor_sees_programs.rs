@@ -4,7 +4,7 @@
 use crate::engine_support::scenario;
 use starl_core::event::Name;
 use starl_core::{Duration, Event, Primitives, Program, Robot, Time};
-use starl_sim::properties::{Monitor, Violation, Witness};
+use starl_properties::{Monitor, Violation, Witness};
 use starl_sim::scenario::{Fault, FaultKind};
 use starl_sim::{Outcome, Run};
 use std::any::Any;
@@ -40,7 +40,7 @@ impl Monitor for Limit {
         vec!["limit".into(), format!("all {}", "down").into()]
     }
 
-    fn observe(&mut self, witness: &Witness<'_>, violations: &mut Vec<Violation>) {
+    fn observe(&mut self, witness: &dyn Witness, violations: &mut Vec<Violation>) {
         let robots = witness.robots().iter();
         let counts = robots.clone().map(|&robot| {
             let program = witness.program(robot).expect("it shows itself");
