@@ -226,7 +226,12 @@ impl Finding {
                     self.after.words(),
                     grouped(self.trials)
                 )?;
-                writeln!(text, "  to see it: starl run {}", crate::run::quoted(path))?;
+                writeln!(
+                    text,
+                    "  to see it: {} run {}",
+                    crate::console::command(),
+                    crate::run::quoted(path)
+                )?;
             }
             None => {
                 let why = match self.trials {
