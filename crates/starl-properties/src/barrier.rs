@@ -8,7 +8,7 @@ use super::disturbance::Disturbance;
 use super::health::{Change, Health, Needs};
 use super::pending::Pending;
 use super::report::Report;
-use super::{Checker, Kinds, Setting, Violation, robot_list};
+use super::{Checker, Excuse, Excused, Kinds, Setting, Violation, robot_list};
 use starl_core::event::{BarrierEvent, Event};
 use starl_core::{Duration, Port, Record, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
@@ -26,6 +26,7 @@ pub(super) struct Barrier {
     due: BTreeSet<(Time, Port)>,
     disturbance: Disturbance,
     pending: Pending,
+    excused: Excused,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -62,6 +63,7 @@ impl Barrier {
             due: BTreeSet::new(),
             disturbance: Disturbance::new(bound),
             pending: Pending::new(setting),
+            excused: Excused::default(),
         }
     }
 
@@ -93,8 +95,11 @@ impl Barrier {
                 let before = place.passed.replace(generation);
                 place.waits = None;
                 place.passed_at = at;
-                if !is_disturbed {
-                    instance.check_passing(robot, generation, before, at, &mut self.pending);
+                for found in instance.check_passing(robot, generation, before, at) {
+                    match is_disturbed {
+                        true => self.excused.forgive(&found, Excuse::Corruption),
+                        false => self.pending.push(found),
+                    }
                 }
             }
         }
@@ -103,7 +108,7 @@ impl Barrier {
 
     fn changed(&mut self, at: Time, robot: Option<RobotId>, change: Change<'_>) {
         self.disturbance
-            .change(at, robot, change, &mut self.pending);
+            .change(at, robot, change, &mut self.pending, &mut self.excused);
         if let Some(robot) = robot.filter(|_| change.is_end()) {
             for instance in self.instances.values_mut() {
                 instance.crashes(robot);
@@ -128,10 +133,18 @@ impl Barrier {
                 continue;
             };
             let bound = self.bound;
+            let waiting = instance.waiting(due - bound);
             if self.disturbance.is_parted() || self.disturbance.last() + bound > due {
+                for _ in waiting {
+                    self.excused.note(PROGRESS, self.disturbance.excuse(due));
+                }
                 continue;
             }
             let late = instance.late(&self.health, due - bound);
+            for robot in waiting.into_iter().filter(|robot| !late.contains(robot)) {
+                self.excused
+                    .note(PROGRESS, instance.excuse(robot, &self.health, due - bound));
+            }
             if !late.is_empty() {
                 let text = format!(
                     "{} did not pass within {bound} of the arrival of the last",
@@ -155,8 +168,8 @@ impl Instance {
         generation: u64,
         before: Option<u64>,
         at: Time,
-        found: &mut Pending,
-    ) {
+    ) -> Vec<Violation> {
+        let mut found = Vec::new();
         let mut report = |robots: Vec<RobotId>, text: String| {
             found.push(Violation {
                 property: SAFETY.into(),
@@ -182,6 +195,7 @@ impl Instance {
             );
             report([robot].into_iter().chain(absent).collect(), text);
         }
+        found
     }
 
     /// A robot has lost all it knew. What it said before may still be known to others.
@@ -194,6 +208,27 @@ impl Instance {
         if self.rememberers.is_empty() {
             self.robots.clear();
         }
+    }
+
+    /// Those that wait although all had come by then, well or not, and were not reported before.
+    fn waiting(&self, by: Time) -> Vec<RobotId> {
+        let robots = self.robots.iter();
+        let waiting = robots.filter(|(robot, place)| {
+            let mut others = self.participants.iter().filter(|other| other != robot);
+            !place.is_reported
+                && place.waits.is_some_and(|arrived| arrived <= by)
+                && others.all(|other| self.had_come(*other, place, by))
+        });
+        waiting.map(|(robot, _)| *robot).collect()
+    }
+
+    /// Why a robot need not have passed.
+    fn excuse(&self, robot: RobotId, health: &Health, by: Time) -> Excuse {
+        let concerned = [robot].into_iter().chain(self.participants.iter().copied());
+        let mut unwell = concerned.filter(|robot| health.well_from(*robot) > by);
+        unwell
+            .next()
+            .map_or(Excuse::Recovery, |robot| health.excuse(robot))
     }
 
     /// Those that wait although all had come by then, and were not reported before.
@@ -240,6 +275,10 @@ impl Checker for Barrier {
 
     fn heeds(&self) -> Kinds {
         Kinds::REPORTS
+    }
+
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        self.excused.of(property)
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

@@ -8,7 +8,7 @@
 use super::health::{Health, Needs};
 use super::outstanding::Outstanding;
 use super::report::{MessageKey, Report};
-use super::{Checker, Kinds, Setting, Violation, robot_list};
+use super::{Checker, Excuse, Excused, Kinds, Setting, Violation, robot_list};
 use starl_core::event::messaging::Order;
 use starl_core::event::{BroadcastEvent, Event, TransferEvent};
 use starl_core::{Duration, Record, RobotId, Time};
@@ -22,6 +22,7 @@ pub(super) struct Broadcast {
     bound: Duration,
     health: Health,
     outstanding: Outstanding<Message>,
+    excused: Excused,
 }
 
 #[derive(Clone, Debug)]
@@ -39,6 +40,7 @@ impl Broadcast {
             bound,
             health: Health::new(setting.bodies.len(), Needs::Computing, bound),
             outstanding: Outstanding::default(),
+            excused: Excused::default(),
         }
     }
 
@@ -130,7 +132,7 @@ impl Broadcast {
 
     /// Reports a message that did not get through to those who are still owed it.
     fn judge(
-        &self,
+        &mut self,
         at: Time,
         key: &MessageKey,
         message: &Message,
@@ -139,13 +141,13 @@ impl Broadcast {
     ) {
         let MessageKey { from, number, .. } = *key;
         let sent = message.sent;
-        if !self.health.well_since(from, sent) {
-            return;
+        let mut missed = Vec::new();
+        for &robot in &message.owed {
+            match self.health.excuse_of(from, robot, sent) {
+                Some(excuse) => self.excused.note(DELIVERY, excuse),
+                None => missed.push(robot),
+            }
         }
-        let to_blame = |&robot: &RobotId| {
-            self.health.well_since(robot, sent) && self.health.linked_since(from, robot, sent)
-        };
-        let missed: Vec<RobotId> = message.owed.iter().copied().filter(to_blame).collect();
         if missed.is_empty() {
             return;
         }
@@ -172,6 +174,10 @@ impl Checker for Broadcast {
             None => Kinds::REPORTS | Kinds::DROPPED,
             Some(_) => Kinds::ALL,
         }
+    }
+
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        self.excused.of(property)
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

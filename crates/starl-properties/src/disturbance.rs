@@ -1,9 +1,9 @@
 //! What faults disturb all robots of a primitive alike: when the last one was, whether the network is parted,
 //! and whether what a corruption made up may still be about.
 
-use super::Violation;
 use super::health::Change;
 use super::pending::Pending;
+use super::{Excuse, Excused, Violation};
 use starl_core::event::Fault;
 use starl_core::{Duration, RobotId, Time};
 
@@ -36,6 +36,7 @@ impl Disturbance {
         robot: Option<RobotId>,
         change: Change<'_>,
         found: &mut Pending,
+        excused: &mut Excused,
     ) {
         self.last = at;
         let is_corruption = robot.is_some() && change.is_corruption();
@@ -52,7 +53,8 @@ impl Disturbance {
             Some(robot) => is_corruption || violation.robots.contains(&robot),
             None => false,
         };
-        found.retain(|violation| !is_excused(violation));
+        let excuse = change.excuse().unwrap_or(Excuse::Recovery);
+        found.retain(excuse, excused, |violation| !is_excused(violation));
     }
 
     /// When the last fault was on record.
@@ -63,6 +65,17 @@ impl Disturbance {
     /// Whether the network is parted.
     pub fn is_parted(&self) -> bool {
         self.is_parted
+    }
+
+    /// Why something of the last bound is not judged.
+    pub fn excuse(&self, now: Time) -> Excuse {
+        if self.is_parted {
+            Excuse::Partition
+        } else if self.is_made_up(now) {
+            Excuse::Corruption
+        } else {
+            Excuse::Recovery
+        }
     }
 
     /// Whether robots may still go by what a corruption made up.

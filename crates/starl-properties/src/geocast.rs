@@ -13,7 +13,7 @@ use super::health::{Health, Needs};
 use super::outstanding::Outstanding;
 use super::report::{MessageKey, Report};
 use super::track::{Sample, Tolerance, Track};
-use super::{Checker, Kinds, Setting, Violation, robot_list};
+use super::{Checker, Excuse, Excused, Kinds, Setting, Violation, robot_list};
 use starl_core::event::{Event, GeocastEvent, TransferEvent};
 use starl_core::{Area, Duration, Point, Record, RobotId, Time};
 
@@ -34,6 +34,7 @@ pub(super) struct Geocast {
     outstanding: Outstanding<Message>,
     /// Messages of which copies may yet come.
     late: Outstanding<Message>,
+    excused: Excused,
 }
 
 #[derive(Clone, Debug)]
@@ -59,6 +60,7 @@ impl Geocast {
             tracks: vec![Track::default(); robots],
             outstanding: Outstanding::default(),
             late: Outstanding::default(),
+            excused: Excused::default(),
         }
     }
 
@@ -106,15 +108,15 @@ impl Geocast {
         message.delivered.insert(index, robot);
         let (sent, area) = (message.sent, &message.area);
         let until = at.min(sent + self.bound);
-        if !self.health.well_since(robot, sent - self.staleness) {
-            return;
-        }
         let Some(track) = self.tracks.get(robot.index()) else {
             return;
         };
         let Some(text) = outside(track.between(sent, until), area, &self.tolerance) else {
             return;
         };
+        if !self.health.well_since(robot, sent - self.staleness) {
+            return self.excused.note(EXCLUSION, self.health.excuse(robot));
+        }
         let MessageKey { from, number, .. } = key;
         found.push(Violation {
             property: EXCLUSION.into(),
@@ -136,7 +138,7 @@ impl Geocast {
     }
 
     fn check_inclusion(
-        &self,
+        &mut self,
         due: Time,
         key: &MessageKey,
         message: &Message,
@@ -144,18 +146,23 @@ impl Geocast {
     ) {
         let MessageKey { from, number, .. } = *key;
         let sent = message.sent;
-        if !message.area.is_valid() || !self.health.well_since(from, sent) {
+        if !message.area.is_valid() {
             return;
         }
-        let missed: Vec<RobotId> = (0..self.tracks.len() as u32)
+        let mut missed: Vec<RobotId> = (0..self.tracks.len() as u32)
             .map(RobotId)
             .filter(|&robot| robot != from && message.delivered.binary_search(&robot).is_err())
             .filter(|&robot| self.was_inside(robot, message, due))
-            .filter(|&robot| {
-                self.health.well_since(robot, sent - self.staleness)
-                    && self.health.linked_since(from, robot, sent)
-            })
             .collect();
+        missed.retain(|&robot| {
+            let stale = !self.health.well_since(robot, sent - self.staleness);
+            let stale = stale.then(|| self.health.excuse(robot));
+            let excuse = self.health.excuse_of(from, robot, sent).or(stale);
+            if let Some(excuse) = excuse {
+                self.excused.note(INCLUSION, excuse);
+            }
+            excuse.is_none()
+        });
         if missed.is_empty() {
             return;
         }
@@ -194,6 +201,10 @@ impl Checker for Geocast {
             None => Kinds::REPORTS | Kinds::MOVED | Kinds::DROPPED,
             Some(_) => Kinds::ALL,
         }
+    }
+
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        self.excused.of(property)
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

@@ -5,6 +5,7 @@
 //! the datagrams that are dropped for it: a partition that swallowed no datagram from one to the other
 //! kept nothing from it.
 
+use crate::Excuse;
 use starl_core::event::{DropReason, Event, Fault};
 use starl_core::{Duration, Record, RobotId, Time};
 use std::collections::BTreeMap;
@@ -35,6 +36,19 @@ impl Change<'_> {
         matches!(self, Change::Fault(Fault::Crash) | Change::Failed)
     }
 
+    /// What it excuses; none where it mends something.
+    pub fn excuse(self) -> Option<Excuse> {
+        match self {
+            Change::Failed => Some(Excuse::Failed),
+            Change::Fault(Fault::Crash) => Some(Excuse::Down),
+            Change::Fault(Fault::FrozenSensor) => Some(Excuse::Sensors),
+            Change::Fault(Fault::StuckMotor) => Some(Excuse::Motors),
+            Change::Fault(Fault::CorruptState) => Some(Excuse::Corruption),
+            Change::Fault(Fault::Partition) => Some(Excuse::Partition),
+            Change::Fault(Fault::Restart | Fault::Heal | Fault::Repair | Fault::Other(_)) => None,
+        }
+    }
+
     /// Whether the robot's variables were overwritten.
     pub fn is_corruption(self) -> bool {
         matches!(self, Change::Fault(Fault::CorruptState))
@@ -60,6 +74,8 @@ struct Condition {
     motor_stuck: bool,
     /// The last moment at which it was unwell; [`Time::NEVER`] while it is.
     unwell: Option<Time>,
+    /// Why it was unwell then.
+    why: Option<Excuse>,
 }
 
 impl Health {
@@ -106,6 +122,13 @@ impl Health {
         condition.is_none_or(|condition| condition.unwell.is_none_or(|until| until < since))
     }
 
+    /// Why the robot was unwell when it was last.
+    pub fn excuse(&self, robot: RobotId) -> Excuse {
+        let condition = self.robots.get(robot.index());
+        let why = condition.and_then(|condition| condition.why);
+        why.unwrap_or(Excuse::Recovery)
+    }
+
     /// Since when the robot has been well; [`Time::NEVER`] while it is not.
     pub fn well_from(&self, robot: RobotId) -> Time {
         let condition = self.robots.get(robot.index());
@@ -119,6 +142,15 @@ impl Health {
         self.cuts.get(&(from, to)).is_none_or(|&at| at < since)
     }
 
+    /// What excuses that a message did not get from one robot to another from `since` on; none where nothing does.
+    pub fn excuse_of(&self, from: RobotId, to: RobotId, since: Time) -> Option<Excuse> {
+        let unwell = [from, to]
+            .into_iter()
+            .find(|robot| !self.well_since(*robot, since));
+        let parted = (!self.linked_since(from, to, since)).then_some(Excuse::Partition);
+        unwell.map(|robot| self.excuse(robot)).or(parted)
+    }
+
     fn change(&mut self, robot: RobotId, at: Time, change: Change<'_>) {
         let needs = self.needs;
         let Some(condition) = self.robots.get_mut(robot.index()) else {
@@ -128,7 +160,7 @@ impl Health {
         let mut for_a_moment = false;
         match change {
             Change::Failed => condition.failed = true,
-            // Who crashes has no other trouble.
+            // A robot that crashes has no other trouble.
             Change::Fault(Fault::Crash) => {
                 *condition = Condition {
                     down: true,
@@ -146,8 +178,10 @@ impl Health {
         }
         if condition.is_unwell(needs) {
             condition.unwell = Some(Time::NEVER);
+            condition.why = change.excuse().or(condition.why);
         } else if was_unwell || for_a_moment {
             condition.unwell = Some(at);
+            condition.why = change.excuse().or(condition.why);
         }
     }
 }

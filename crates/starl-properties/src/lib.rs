@@ -10,6 +10,7 @@ mod broadcast;
 mod broadcast_order;
 mod disturbance;
 mod election;
+mod excuse;
 mod geocast;
 mod health;
 mod heed;
@@ -28,6 +29,7 @@ mod shared_memory;
 mod track;
 mod watch;
 
+pub use excuse::{Excuse, Excused};
 pub use heed::Kinds;
 pub use monitor::{Monitor, Witness};
 pub use setting::{Properties, Setting};
@@ -67,6 +69,12 @@ pub trait Checker: dyn_clone::DynClone + fmt::Debug + Send + Sync {
     fn has_subject(&self, property: &str) -> bool {
         let _ = property;
         true
+    }
+
+    /// How often something was excused that speaks against a property, and why.
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        let _ = property;
+        Vec::new()
     }
 
     /// Takes the next record; records come in the order of their times.

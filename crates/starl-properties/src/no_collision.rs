@@ -6,7 +6,7 @@
 //! has crashed in the air and falls is none.
 
 use super::bodies::{Sweep, gap};
-use super::{Checker, Kinds, Setting, Violation};
+use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
 use starl_core::event::{Event, Fault, Hit};
 use starl_core::geometry::{Bounds, ObstacleIndex};
 use starl_core::motion::Body;
@@ -53,6 +53,7 @@ pub(super) struct NoCollision {
     walls: Vec<Vec<Wall>>,
     /// Robots that have crashed in the air, until they have started again and rise.
     falls: BTreeMap<RobotId, Fall>,
+    excused: Excused,
 }
 
 /// A robot that has crashed in the air.
@@ -107,6 +108,7 @@ impl NoCollision {
             pairs: BTreeSet::new(),
             walls: vec![Vec::new(); robots],
             falls: BTreeMap::new(),
+            excused: Excused::default(),
         }
     }
 
@@ -170,7 +172,7 @@ impl NoCollision {
         }
         let other_falls = matches!(with, Hit::Robot(other) if self.falls(other, at));
         if other_falls || self.falls(robot, at) {
-            return;
+            return self.excused.note(NO_COLLISION, Excuse::Fall);
         }
         let near = place.map_or(String::new(), |place| format!(" near {place}"));
         let mut robots = vec![robot];
@@ -240,11 +242,11 @@ impl NoCollision {
         let _ = map.for_each_near(&around, |index| {
             let gap = gap(index).unwrap_or(f64::INFINITY);
             let stands = at <= self.expires[index as usize];
-            if gap < -OVERLAP
-                && stands
-                && self.touch(robot, index, position)
-                && !self.falls(robot, at)
-            {
+            if gap < -OVERLAP && stands && self.touch(robot, index, position) {
+                if self.falls(robot, at) {
+                    self.excused.note(NO_COLLISION, Excuse::Fall);
+                    return ControlFlow::Continue(());
+                }
                 found.push(Violation {
                     property: NO_COLLISION.into(),
                     at,
@@ -269,6 +271,7 @@ impl NoCollision {
             sweep,
         } = &mut self.round;
         let (bodies, pairs, falls) = (&self.bodies, &mut self.pairs, &self.falls);
+        let excused = &mut self.excused;
         let falls = |robot: RobotId| falls.get(&robot).is_some_and(|fall| fall.lasts(*at));
         let place = |robot: RobotId| poses[robot.index()];
         pairs.retain(|&(a, b)| match (place(a), place(b)) {
@@ -276,7 +279,12 @@ impl NoCollision {
             _ => true,
         });
         sweep.overlaps(bodies, poses, OVERLAP, |a, b, gap| {
-            if pairs.insert((a, b)) && !falls(a) && !falls(b) {
+            if !pairs.insert((a, b)) {
+                return;
+            }
+            if falls(a) || falls(b) {
+                excused.note(NO_COLLISION, Excuse::Fall);
+            } else {
                 let near = place(a).map_or(String::new(), |place| format!(" near {place}"));
                 found.push(Violation {
                     property: NO_COLLISION.into(),
@@ -308,6 +316,10 @@ impl Checker for NoCollision {
 
     fn heeds(&self) -> Kinds {
         Kinds::MOVED | Kinds::COLLIDED | Kinds::FAULT
+    }
+
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        self.excused.of(property)
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

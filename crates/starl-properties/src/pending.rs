@@ -3,7 +3,7 @@
 //! Faults take effect at the beginning of the step in which they are recorded, so what robots do in a step
 //! may come on record before the fault that it is due to.
 
-use super::{Setting, Violation};
+use super::{Excuse, Excused, Setting, Violation};
 use starl_core::{Duration, Time};
 use std::collections::VecDeque;
 
@@ -29,8 +29,19 @@ impl Pending {
     }
 
     /// A fault excuses all but these.
-    pub fn retain(&mut self, has_no_excuse: impl FnMut(&Violation) -> bool) {
-        self.found.retain(has_no_excuse);
+    pub fn retain(
+        &mut self,
+        excuse: Excuse,
+        excused: &mut Excused,
+        mut has_no_excuse: impl FnMut(&Violation) -> bool,
+    ) {
+        self.found.retain(|found| {
+            let stays = has_no_excuse(found);
+            if !stays {
+                excused.forgive(found, excuse);
+            }
+            stays
+        });
     }
 
     /// Time has come to `now`: hands over what no fault can excuse any more.

@@ -1,6 +1,6 @@
 //! All checkers and monitors of a run, and what they say of it.
 
-use crate::{Checker, Kinds, Monitor, Violation, Witness};
+use crate::{Checker, Excuse, Kinds, Monitor, Violation, Witness};
 use starl_core::event::{Event, Name};
 use starl_core::{Record, Time};
 
@@ -30,6 +30,8 @@ pub struct Verdict {
     pub open: bool,
     /// Whether anything took place that it speaks of: a property of a primitive that nobody used says nothing.
     pub used: bool,
+    /// How often something was excused that speaks against it, by reason.
+    pub excused: Vec<(Excuse, u64)>,
 }
 
 impl Watch {
@@ -88,22 +90,39 @@ impl Watch {
         monitors.flat_map(|monitor| monitor.properties())
     }
 
+    /// How often something was excused that speaks against a property, and why.
+    pub fn excused(&self) -> Vec<(Name, Excuse, u64)> {
+        let checkers = self.checkers.iter();
+        let properties = checkers.flat_map(|checker| {
+            let properties = checker.properties().iter();
+            properties.map(move |&property| (property, checker.excused(property)))
+        });
+        let counts = properties.flat_map(|(property, counts)| {
+            let named = counts.into_iter();
+            named.map(move |(excuse, count)| (Name::from(property), excuse, count))
+        });
+        counts.collect()
+    }
+
     /// What the checkers and monitors say of each property they watch.
     pub fn verdicts(&self) -> Vec<Verdict> {
         let checked = self.checkers.iter().flat_map(|checker| {
             let properties = checker.properties().iter();
             properties.map(|&property| {
                 let used = self.is_used(property) && checker.has_subject(property);
-                (Name::from(property), false, used)
+                (Name::from(property), false, used, checker.excused(property))
             })
         });
         let monitored = self.monitors.iter().flat_map(|monitor| {
             let properties = monitor.properties().into_iter().enumerate();
-            properties.map(|(index, property)| (property, monitor.is_open(index), true))
+            properties.map(|(index, property)| (property, monitor.is_open(index), true, Vec::new()))
         });
         checked
             .chain(monitored)
-            .map(|(property, open, used)| self.verdict(property, open, used))
+            .map(|(property, open, used, excused)| Verdict {
+                excused,
+                ..self.verdict(property, open, used)
+            })
             .collect()
     }
 
@@ -129,6 +148,7 @@ impl Watch {
             open: open && first.is_none(),
             used: used || first.is_some(),
             first,
+            excused: Vec::new(),
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::engine::{Programs, Simulation, StartError};
 use crate::scenario::{Bounds, Goal, Group, Scenario};
 use starl_core::event::{Event, Name};
 use starl_core::{Record, RobotId, Time};
-use starl_properties::{Monitor, Setting, Verdict, Violation, Watch};
+use starl_properties::{Excuse, Monitor, Setting, Verdict, Violation, Watch};
 
 /// A scenario under way and under watch.
 #[derive(Clone)]
@@ -153,6 +153,11 @@ impl Run {
     /// All violations so far.
     pub fn violations(&self) -> &[Violation] {
         self.watch.violations()
+    }
+
+    /// How often something was excused that speaks against a property, and why.
+    pub fn excused(&self) -> Vec<(Name, Excuse, u64)> {
+        self.watch.excused()
     }
 
     /// What the checkers know of the run: what a trace of it holds for others to judge it by.

@@ -10,7 +10,7 @@ use super::AGREEMENT;
 use crate::health::{Health, Needs};
 use crate::parts::Parts;
 use crate::report::MessageKey;
-use crate::{Violation, robot_list};
+use crate::{Excuse, Excused, Violation, robot_list};
 use starl_core::event::Event;
 use starl_core::{Duration, Port, Record, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -69,9 +69,9 @@ impl Agreement {
 
     /// The sender has given it up: that is wrong only where nothing has happened that explains it, and then
     /// the bound tells.
-    pub fn failed(&mut self, key: MessageKey) {
-        if self.last_fault.is_some() {
-            self.handed.remove(&key);
+    pub fn failed(&mut self, key: MessageKey, excused: &mut Excused) {
+        if self.last_fault.is_some() && self.handed.remove(&key).is_some() {
+            excused.note(AGREEMENT, Excuse::Recovery);
         }
     }
 
@@ -85,7 +85,7 @@ impl Agreement {
     }
 
     /// Judges what was due before `now`.
-    pub fn check(&mut self, now: Time, found: &mut Vec<Violation>) {
+    pub fn check(&mut self, now: Time, found: &mut Vec<Violation>, excused: &mut Excused) {
         while let Some(&(due, key)) = self.due.front()
             && due < now
         {
@@ -102,7 +102,7 @@ impl Agreement {
                 self.due.push_back((later, key));
                 continue;
             }
-            let owed = self.owed(key, *sent);
+            let owed = self.owed(key, *sent, handed, excused);
             let missed: Vec<RobotId> = owed.into_iter().filter(|r| !handed.contains(r)).collect();
             if !missed.is_empty() {
                 let text = format!(
@@ -125,7 +125,24 @@ impl Agreement {
     }
 
     /// Who has to have been handed a message by now.
-    fn owed(&self, key: MessageKey, sent: Time) -> Vec<RobotId> {
+    fn owed(
+        &self,
+        key: MessageKey,
+        sent: Time,
+        handed: &BTreeSet<RobotId>,
+        excused: &mut Excused,
+    ) -> Vec<RobotId> {
+        for robot in (0..self.robots)
+            .map(RobotId)
+            .filter(|r| !handed.contains(r))
+        {
+            if self.health.well_from(robot) > sent {
+                excused.note(AGREEMENT, self.health.excuse(robot));
+            } else if self.parts.together_since(key.from, robot) == Time::NEVER {
+                excused.note(AGREEMENT, Excuse::Partition);
+            }
+        }
+
         let with_sender = |robot: &RobotId| {
             *robot == key.from || self.parts.together_since(key.from, *robot) != Time::NEVER
         };

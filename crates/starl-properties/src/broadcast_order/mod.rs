@@ -9,7 +9,7 @@ mod causal;
 mod sequence;
 
 use super::report::{MessageKey, Report};
-use super::{Checker, Kinds, Setting, Violation};
+use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
 use agreement::Agreement;
 use causal::Causality;
 use sequence::Sequences;
@@ -35,6 +35,7 @@ pub(super) struct BroadcastOrder {
     agreement: Agreement,
     /// After a corruption nothing is judged until then.
     void_until: Time,
+    excused: Excused,
 }
 
 /// One instance, on all robots.
@@ -76,10 +77,15 @@ impl Instance {
 struct Finding<'a> {
     report: &'a Report<'a, BroadcastEvent>,
     violations: &'a mut Vec<Violation>,
+    /// After a corruption nothing is held against anybody.
+    excused: Option<&'a mut Excused>,
 }
 
 impl Finding<'_> {
     fn add(&mut self, property: &'static str, other: RobotId, text: String) {
+        if let Some(excused) = &mut self.excused {
+            return excused.note(property, Excuse::Corruption);
+        }
         let Report { robot, at, .. } = *self.report;
         let mut robots = vec![robot, other];
         robots.dedup();
@@ -100,6 +106,7 @@ impl BroadcastOrder {
             instances: BTreeMap::new(),
             agreement: Agreement::new(setting.bodies.len(), bound),
             void_until: Time::ZERO,
+            excused: Excused::default(),
         }
     }
 
@@ -122,10 +129,10 @@ impl BroadcastOrder {
             return;
         };
         let is_judged = at >= self.void_until;
-        let mut none = Vec::new();
         let mut finding = Finding {
             report,
-            violations: if is_judged { violations } else { &mut none },
+            violations,
+            excused: (!is_judged).then_some(&mut self.excused),
         };
         match report.event {
             BroadcastEvent::Broadcast { message, .. } => {
@@ -136,6 +143,8 @@ impl BroadcastOrder {
                 }
                 if instance.is_total && is_judged {
                     self.agreement.sent(key, at);
+                } else if instance.is_total {
+                    self.excused.note(AGREEMENT, Excuse::Corruption);
                 }
             }
             BroadcastEvent::Transfer(TransferEvent::Deliver { from, message }) => {
@@ -155,7 +164,8 @@ impl BroadcastOrder {
                 self.agreement.joined(port, robot, at);
             }
             BroadcastEvent::Transfer(TransferEvent::Fail { message, .. }) if instance.is_total => {
-                self.agreement.failed(report.message(robot, *message));
+                self.agreement
+                    .failed(report.message(robot, *message), &mut self.excused);
             }
             _ => {}
         }
@@ -213,12 +223,17 @@ impl Checker for BroadcastOrder {
         }
     }
 
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        self.excused.of(property)
+    }
+
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
         // Datagrams that wait for their turn may be on record ahead of their time.
         if let Event::Dropped { .. } = &record.event {
             return;
         }
-        self.agreement.check(record.at, violations);
+        self.agreement
+            .check(record.at, violations, &mut self.excused);
         match &record.event {
             Event::Sent { .. } | Event::Delivered { .. } => self.agreement.observe(record),
             Event::Primitive { .. } => {
@@ -252,6 +267,6 @@ impl Checker for BroadcastOrder {
     }
 
     fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
-        self.agreement.check(now, violations);
+        self.agreement.check(now, violations, &mut self.excused);
     }
 }

@@ -91,7 +91,7 @@ impl Instance {
                 found.push(violation(UNIQUENESS, at, [known, leader], text));
             }
         }
-        if !is_disturbed && !self.participants.contains(&leader) {
+        if !self.participants.contains(&leader) {
             let text =
                 format!("robot {robot} shows robot {leader}, which takes no part, as leader");
             found.push(violation(SOUNDNESS, at, [leader, robot], text));
@@ -122,12 +122,12 @@ impl Instance {
             .members
             .get(&robot)
             .is_some_and(|member| member.called.is_some());
-        if !has_called && !is_disturbed {
+        if !has_called {
             let text = format!("robot {robot} leads without having called for an election");
             found.push(violation(SOUNDNESS, at, [robot], text));
         }
         if let Some(epoch) = epoch {
-            if !self.led.insert(epoch) && !is_disturbed {
+            if !self.led.insert(epoch) {
                 let text = format!("robot {robot} leads twice in epoch {epoch}");
                 found.push(violation(UNIQUENESS, at, [robot], text));
             }
@@ -142,7 +142,6 @@ impl Instance {
             self.highest = self.highest.max(Some(epoch)).filter(|_| !is_disturbed);
         }
         if self.has_leases
-            && !is_disturbed
             && let Some(&other) = self.leading.keys().next()
         {
             let text = format!("robots {other} and {robot} lead at the same time");
@@ -151,15 +150,14 @@ impl Instance {
         self.leading.insert(robot, epoch);
     }
 
-    /// Where a majority does not vote, having crashed or not begun, nobody may remember the latest epoch.
-    pub fn note_forgotten(&mut self) {
+    /// Where a majority does not vote, having crashed or not begun, nobody may remember the latest epoch; whether
+    /// there was one.
+    pub fn note_forgotten(&mut self) -> bool {
         let votes = |robot: &RobotId| {
             let member = self.members.get(robot);
             member.is_some_and(|member| member.votes_since.is_some())
         };
         let forgetful = self.participants.iter().filter(|robot| !votes(robot));
-        if forgetful.count() >= self.majority() {
-            self.highest = None;
-        }
+        forgetful.count() >= self.majority() && self.highest.take().is_some()
     }
 }

@@ -12,7 +12,7 @@ use super::health::{Health, Needs};
 use super::parts::Parts;
 use super::pending::Pending;
 use super::report::Report;
-use super::{Checker, Kinds, Setting, Violation};
+use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
 use instance::{Instance, Member, Shown};
 use starl_core::event::agreement::Algorithm;
 use starl_core::event::{ElectionEvent, Event, Fault};
@@ -38,6 +38,7 @@ pub(super) struct Election {
     /// When some state was corrupted last.
     corrupted: Option<Time>,
     pending: Pending,
+    excused: Excused,
 }
 
 impl Election {
@@ -52,6 +53,7 @@ impl Election {
             due: BTreeSet::new(),
             corrupted: None,
             pending: Pending::new(setting),
+            excused: Excused::default(),
         }
     }
 
@@ -95,7 +97,13 @@ impl Election {
             ElectionEvent::Fail => return,
         }
         self.due.insert((at + self.bound, port, robot));
-        self.pending.extend(found);
+        for found in found {
+            if is_disturbed && !is_shared_epoch(&found) {
+                self.excused.forgive(&found, Excuse::Corruption);
+            } else {
+                self.pending.push(found);
+            }
+        }
     }
 
     /// Time has come to `now`.
@@ -109,17 +117,20 @@ impl Election {
         for instance in self.instances.values_mut() {
             instance.leading.remove(&robot);
             instance.members.remove(&robot);
-            instance.note_forgotten();
+            if instance.note_forgotten() {
+                self.excused.note(ORDER, Excuse::NoMajority);
+            }
         }
     }
 
     fn corrupt(&mut self, at: Time) {
         self.corrupted = Some(at);
-        // Two robots that share an epoch have no excuse.
         self.pending
-            .retain(|found| found.property == UNIQUENESS && found.robots.len() > 1);
+            .retain(Excuse::Corruption, &mut self.excused, is_shared_epoch);
         for instance in self.instances.values_mut() {
-            instance.highest = None;
+            if instance.highest.take().is_some() {
+                self.excused.note(ORDER, Excuse::Corruption);
+            }
         }
     }
 }
@@ -131,6 +142,10 @@ impl Checker for Election {
 
     fn heeds(&self) -> Kinds {
         Kinds::REPORTS | Kinds::SENT | Kinds::DELIVERED
+    }
+
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        self.excused.of(property)
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
@@ -166,6 +181,11 @@ impl Checker for Election {
     fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
         self.pass(now, violations);
     }
+}
+
+/// Two robots that share an epoch have no excuse.
+fn is_shared_epoch(found: &Violation) -> bool {
+    found.property == UNIQUENESS && found.robots.len() > 1
 }
 
 fn violation(

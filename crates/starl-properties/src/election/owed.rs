@@ -1,8 +1,11 @@
 //! Agreement and progress, once robots have had the time that the bound gives them.
 
 use super::{AGREEMENT, Election, Instance, Member, PROGRESS, Shown, violation};
-use crate::{Violation, robot_list};
+use crate::{Excuse, Violation, robot_list};
 use starl_core::{Duration, Port, RobotId, Time};
+
+/// What is excused, and why.
+type Reason = (&'static str, Excuse);
 
 /// Robots cannot tell whether one began to vote before another started, or so shortly after: their clocks drift,
 /// and messages take their time.
@@ -22,13 +25,22 @@ impl Election {
             let Some(member) = instance.members.get(&robot) else {
                 continue;
             };
+            let excused = &mut Vec::new();
             if member.shown.since + self.bound > due {
                 continue; // it is judged later
             }
             let again = match member.shown.leader {
-                Some(leader) => self.judge_agreement(robot, leader, instance, due, found),
-                None => member.called.is_some() && self.judge_progress(robot, port, due, found),
+                Some(leader) => {
+                    self.judge_agreement(robot, leader, instance, due, (found, excused))
+                }
+                None => {
+                    member.called.is_some()
+                        && self.judge_progress(robot, port, due, (found, excused))
+                }
             };
+            for (property, excuse) in excused.drain(..) {
+                self.excused.note(property, excuse);
+            }
             if again {
                 self.due.insert((due + self.bound, port, robot));
             }
@@ -42,6 +54,20 @@ impl Election {
         since != Time::NEVER && since + self.bound <= now
     }
 
+    /// Why two robots need not agree yet.
+    fn excuse(&self, one: RobotId, other: RobotId, now: Time) -> Excuse {
+        let is_unwell = |robot: &RobotId| {
+            let since = self.health.well_from(*robot);
+            since != Time::ZERO && (since == Time::NEVER || since + self.bound > now)
+        };
+        let unwell = [one, other].into_iter().find(is_unwell);
+        match unwell {
+            Some(robot) => self.health.excuse(robot),
+            None if self.is_disturbed(now) => Excuse::Corruption,
+            None => Excuse::Partition,
+        }
+    }
+
     /// Whether a robot has shown the same as leader for as long as any robot that shows another; if not, the
     /// two are judged again.
     fn judge_agreement(
@@ -50,7 +76,7 @@ impl Election {
         leader: RobotId,
         instance: &Instance,
         now: Time,
-        found: &mut Vec<Violation>,
+        (found, excused): (&mut Vec<Violation>, &mut Vec<Reason>),
     ) -> bool {
         let differs = |member: &Member| {
             let Shown {
@@ -66,6 +92,9 @@ impl Election {
             |&other: &RobotId| self.are_linked(robot, other, now) && !self.is_disturbed(now);
         let linked: Vec<RobotId> = different.iter().copied().filter(is_linked).collect();
         if linked.is_empty() {
+            if let Some(&other) = different.first() {
+                excused.push((AGREEMENT, self.excuse(robot, other, now)));
+            }
             return !different.is_empty();
         }
         let text = format!(
@@ -84,7 +113,7 @@ impl Election {
         robot: RobotId,
         port: Port,
         now: Time,
-        found: &mut Vec<Violation>,
+        (found, excused): (&mut Vec<Violation>, &mut Vec<Reason>),
     ) -> bool {
         let instance = &self.instances[&port];
         let since = now - self.bound;
@@ -95,11 +124,19 @@ impl Election {
             .members
             .get(&robot)
             .and_then(|member| member.called);
-        let owes = called.is_some_and(|called| called <= since)
-            && instance.participants.contains(&robot)
-            && !self.is_disturbed(now)
-            && self.are_linked(robot, robot, now)
+        let stands =
+            called.is_some_and(|called| called <= since) && instance.participants.contains(&robot);
+        let is_able = !self.is_disturbed(now) && self.are_linked(robot, robot, now);
+        let owes = stands
+            && is_able
             && (!instance.has_leases || self.has_quorum(instance, since, is_ready));
+        if stands && !owes {
+            let excuse = match is_able {
+                true => Excuse::NoMajority,
+                false => self.excuse(robot, robot, now),
+            };
+            excused.push((PROGRESS, excuse));
+        }
         if owes {
             let text = format!(
                 "robot {robot} stands for election and has no leader for {}",

@@ -2,7 +2,7 @@
 
 use super::waiting::Waiting;
 use super::{FENCING, SAFETY};
-use crate::Violation;
+use crate::{Excuse, Excused, Violation};
 use starl_core::{Duration, RobotId, Time};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -71,6 +71,7 @@ impl Locks {
         resource: &str,
         at: Time,
         entry: Entry,
+        excused: &mut Excused,
     ) -> Vec<Violation> {
         let mut found = Vec::new();
         let name = self.name(resource);
@@ -83,10 +84,22 @@ impl Locks {
         self.changed(&[resource], at);
         self.overtake(robot, resource, at);
         let holders = self.holders.entry(name.clone()).or_default();
-        holders.retain(|holder| holder.robot != robot && !holder.is_doubtful);
-        let is_wrong = |holder: &&Holder| {
-            !(holder.is_doubtful || entry.is_doubtful) && holder.is_exclusive && entry.is_exclusive
+        holders.retain(|holder| {
+            let is_other = holder.robot != robot;
+            if is_other && holder.is_doubtful {
+                excused.note(SAFETY, Excuse::Corruption);
+            }
+            is_other && !holder.is_doubtful
+        });
+        let excuse = |holder: &Holder| {
+            let clocks = !(holder.is_exclusive && entry.is_exclusive);
+            let clocks = clocks.then_some(Excuse::Clocks);
+            entry.is_doubtful.then_some(Excuse::Corruption).or(clocks)
         };
+        for excuse in holders.iter().filter_map(excuse) {
+            excused.note(SAFETY, excuse);
+        }
+        let is_wrong = |holder: &&Holder| excuse(holder).is_none();
         if let Some(holder) = holders.iter().find(is_wrong) {
             found.push(Violation {
                 property: SAFETY.into(),
@@ -104,7 +117,7 @@ impl Locks {
             is_doubtful: entry.is_doubtful,
         });
         if let Some(number) = entry.number {
-            found.extend(self.number(robot, name, at, number, entry));
+            found.extend(self.number((robot, number), name, at, entry, excused));
         }
         found
     }
@@ -113,11 +126,11 @@ impl Locks {
     /// it comes late to hold what has been granted to another since, at least one of its own.
     fn number(
         &mut self,
-        robot: RobotId,
+        (robot, number): (RobotId, u64),
         resource: Arc<str>,
         at: Time,
-        number: u64,
         entry: Entry,
+        excused: &mut Excused,
     ) -> Option<Violation> {
         let before = if entry.is_exclusive {
             let last = self.numbers.insert(resource.clone(), (number, robot));
@@ -126,7 +139,11 @@ impl Locks {
             let used = self.used.entry(resource.clone()).or_default();
             used.insert(number, robot).map(|other| (number, other))
         };
-        let (before, other) = before.filter(|_| !entry.is_doubtful)?;
+        let (before, other) = before?;
+        if entry.is_doubtful {
+            excused.note(FENCING, Excuse::Corruption);
+            return None;
+        }
         Some(Violation {
             property: FENCING.into(),
             at,
@@ -181,10 +198,10 @@ impl Locks {
         &mut self,
         now: Time,
         bound: Duration,
-        well_since: &dyn Fn() -> Time,
-        found: &mut Vec<Violation>,
+        well_since: &dyn Fn() -> (Time, Excuse),
+        judged: (&mut Vec<Violation>, &mut Excused),
     ) -> Time {
-        self.look_at_requests(now, bound, well_since, found)
+        self.look_at_requests(now, bound, well_since, judged)
     }
 
     /// A name that is kept once.

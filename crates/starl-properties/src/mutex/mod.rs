@@ -14,7 +14,7 @@ use super::health::{Health, Needs};
 use super::parts::Parts;
 use super::pending::Pending;
 use super::report::Report;
-use super::{Checker, Kinds, Setting, Violation};
+use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
 use locks::{Entry, Locks};
 use starl_core::event::{Event, Fault, MutexEvent};
 use starl_core::{Duration, Port, Record, RobotId, Time};
@@ -40,6 +40,7 @@ pub(super) struct Mutex {
     pending: Pending,
     /// When requests are looked at next.
     next_look: Time,
+    excused: Excused,
 }
 
 impl Mutex {
@@ -56,6 +57,7 @@ impl Mutex {
             doubtful_until: Time::ZERO,
             pending: Pending::new(setting),
             next_look: Time::ZERO,
+            excused: Excused::default(),
         }
     }
 
@@ -78,7 +80,7 @@ impl Mutex {
                     is_exclusive: drift.is_none_or(|drift| self.drift <= drift),
                     is_doubtful: at < self.doubtful_until,
                 };
-                let found = locks.enter(robot, resource, at, entry);
+                let found = locks.enter(robot, resource, at, entry, &mut self.excused);
                 self.pending.extend(found);
             }
         }
@@ -95,7 +97,8 @@ impl Mutex {
 
     /// A robot's state was overwritten, perhaps before its last reports.
     fn corrupted(&mut self, robot: RobotId, at: Time) {
-        self.pending.retain(|_| false);
+        self.pending
+            .retain(Excuse::Corruption, &mut self.excused, |_| false);
         self.doubtful_until = at + self.bound;
         for locks in self.locks.values_mut() {
             locks.doubt(robot, at);
@@ -116,14 +119,18 @@ impl Mutex {
         }
         let (health, parts, robots) = (&self.health, &self.parts, self.robots);
         let well_since = || {
-            let robots = (0..robots).map(RobotId);
-            let together = |robot| parts.together_since(RobotId(0), robot);
-            let since = robots.map(|robot| health.well_from(robot).max(together(robot)));
-            since.max().unwrap_or_default()
+            let all = || (0..robots).map(RobotId);
+            let together = all().map(|robot| parts.together_since(RobotId(0), robot));
+            let parted = together.max().map(|since| (since, Excuse::Partition));
+            let unwell = all().map(|robot| (health.well_from(robot), health.excuse(robot)));
+            unwell
+                .chain(parted)
+                .max()
+                .unwrap_or((Time::ZERO, Excuse::Recovery))
         };
         let mut next = Time::NEVER;
         for locks in self.locks.values_mut() {
-            next = next.min(locks.look(now, self.bound, &well_since, found));
+            next = next.min(locks.look(now, self.bound, &well_since, (found, &mut self.excused)));
         }
         self.next_look = next;
     }
@@ -136,6 +143,10 @@ impl Checker for Mutex {
 
     fn heeds(&self) -> Kinds {
         Kinds::REPORTS | Kinds::SENT | Kinds::DELIVERED
+    }
+
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        self.excused.of(property)
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

@@ -9,7 +9,7 @@
 
 use super::locks::Locks;
 use super::{NON_INTERFERENCE, PROGRESS};
-use crate::{Violation, robot_list};
+use crate::{Excuse, Excused, Violation, robot_list};
 use starl_core::{Duration, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -29,6 +29,8 @@ pub(super) struct Waiting {
     /// When, and by whom, it was overtaken once too often.
     starved: Option<(Time, RobotId)>,
     is_reported: bool,
+    /// Since when it waited for what it was excused for last.
+    excused: Option<Time>,
 }
 
 impl Waiting {
@@ -40,6 +42,7 @@ impl Waiting {
             overtaken: BTreeMap::new(),
             starved: None,
             is_reported: false,
+            excused: None,
         }
     }
 }
@@ -77,14 +80,14 @@ impl Locks {
         &mut self,
         now: Time,
         bound: Duration,
-        well_since: &dyn Fn() -> Time,
-        found: &mut Vec<Violation>,
+        well_since: &dyn Fn() -> (Time, Excuse),
+        (found, excused): (&mut Vec<Violation>, &mut Excused),
     ) -> Time {
         let mut next = Time::NEVER;
         if self.waiting.is_empty() {
             return next;
         }
-        let well_since = well_since();
+        let (well_since, excuse) = well_since();
         let mut left: BTreeSet<RobotId> = self.waiting.keys().copied().collect();
         while let Some(first) = left.first().copied() {
             let resources = self.waiting[&first].resources.iter();
@@ -99,7 +102,8 @@ impl Locks {
             }
             let changes = group.iter().map(|robot| self.waiting[robot].changed);
             // Who comes later does not excuse those who were there.
-            let latest = changes.min().unwrap_or(now).max(well_since);
+            let changed = changes.min().unwrap_or(now);
+            let latest = changed.max(well_since);
             let due = if well_since == Time::NEVER {
                 now + bound
             } else {
@@ -107,6 +111,17 @@ impl Locks {
             };
             if due >= now {
                 next = next.min(due);
+                if changed + bound >= now {
+                    next = next.min(changed + bound);
+                } else if let Some(first) = self.waiting.get_mut(&first)
+                    && first.excused.replace(changed) != Some(changed)
+                {
+                    let property = match group.len() {
+                        1 => NON_INTERFERENCE,
+                        _ => PROGRESS,
+                    };
+                    excused.note(property, excuse);
+                }
                 continue;
             }
             let waits = |robot: &&RobotId| self.waiting[robot].changed + bound <= due;

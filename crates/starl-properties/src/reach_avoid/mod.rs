@@ -10,7 +10,7 @@ mod command;
 use super::health::{Health, Needs};
 use super::report::Report;
 use super::track::{Tolerance, Track};
-use super::{Checker, Kinds, Setting, Violation};
+use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
 use command::{Command, Phase};
 use starl_core::event::{Event, ReachAvoidEvent};
 use starl_core::motion::Body;
@@ -34,6 +34,7 @@ pub(super) struct ReachAvoid {
     robots: Vec<Watch>,
     /// When commands have to have ended: the time, whose they are, and when they started.
     deadlines: VecDeque<(Time, RobotId, Port, Time)>,
+    excused: Excused,
 }
 
 /// One robot.
@@ -59,6 +60,7 @@ impl ReachAvoid {
             health: Health::new(setting.bodies.len(), Needs::Moving, Duration::ZERO),
             robots: setting.bodies.iter().map(watch).collect(),
             deadlines: VecDeque::new(),
+            excused: Excused::default(),
         }
     }
 
@@ -70,15 +72,15 @@ impl ReachAvoid {
         watch.track.forget_before(at - self.recent);
         for command in &mut watch.commands {
             let well = self.health.well_since(robot, command.started);
-            if let Some(text) = command.check_safety(at, robot, position)
-                && well
-            {
-                found.push(Violation {
+            match command.check_safety(at, robot, position) {
+                Some(text) if well => found.push(Violation {
                     property: SAFETY.into(),
                     at,
                     robots: vec![robot],
                     text,
-                });
+                }),
+                Some(_) => self.excused.note(SAFETY, self.health.excuse(robot)),
+                None => {}
             }
         }
         watch
@@ -114,15 +116,16 @@ impl ReachAvoid {
             ReachAvoidEvent::Done { .. } => {
                 if let Some(index) = watch.commands.iter().position(active) {
                     let command = watch.commands.remove(index);
-                    if self.health.well_since(robot, command.started)
-                        && let Some(text) = self.check_goal(robot, &command, at)
-                    {
-                        found.push(Violation {
+                    let well = self.health.well_since(robot, command.started);
+                    match self.check_goal(robot, &command, at) {
+                        Some(text) if well => found.push(Violation {
                             property: GOAL.into(),
                             at,
                             robots: vec![robot],
                             text,
-                        });
+                        }),
+                        Some(_) => self.excused.note(GOAL, self.health.excuse(robot)),
+                        None => {}
                     }
                 }
             }
@@ -182,6 +185,8 @@ impl ReachAvoid {
                         command.target, self.bound,
                     ),
                 });
+            } else {
+                self.excused.note(PROGRESS, self.health.excuse(robot));
             }
         }
     }
@@ -198,6 +203,10 @@ impl Checker for ReachAvoid {
             true => Kinds::REPORTS | Kinds::MOVED,
             false => Kinds::ALL,
         }
+    }
+
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        self.excused.of(property)
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

@@ -6,7 +6,7 @@
 mod search;
 
 use super::report::Report;
-use super::{Checker, Kinds, Violation};
+use super::{Checker, Excuse, Excused, Kinds, Violation};
 use search::{Content, Id, Search, Verdict};
 use starl_core::event::storing as event;
 use starl_core::event::{Event, Fault, RegisterEvent};
@@ -23,6 +23,7 @@ pub(super) struct Register {
     last: Id,
     /// Whether some state was corrupted, so that copies may hold what was never written.
     corrupted: bool,
+    excused: Excused,
 }
 
 /// The registers of one instance.
@@ -228,6 +229,10 @@ impl Checker for Register {
         Kinds::REPORTS
     }
 
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        self.excused.of(property)
+    }
+
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
         match &record.event {
             Event::Primitive { .. } => {
@@ -238,10 +243,19 @@ impl Checker for Register {
             Event::Fault(fault) => match (record.robot, fault) {
                 (Some(robot), Fault::Crash) => {
                     for instance in self.instances.values_mut() {
+                        let was_lost = instance.is_lost;
                         instance.crashed(robot);
+                        if instance.is_lost && !was_lost {
+                            self.excused.note(LINEARIZABILITY, Excuse::NoMajority);
+                        }
                     }
                 }
-                (_, Fault::CorruptState) => self.corrupted = true,
+                (_, Fault::CorruptState) => {
+                    if !self.instances.is_empty() {
+                        self.excused.note(LINEARIZABILITY, Excuse::Corruption);
+                    }
+                    self.corrupted = true;
+                }
                 _ => {}
             },
             _ => {}

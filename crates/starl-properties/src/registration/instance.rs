@@ -1,7 +1,7 @@
 //! One registration: who takes part and shows what, and which lists there were.
 
 use super::{AGREEMENT, EXCLUSION, SOUNDNESS, violation};
-use crate::pending::Pending;
+use crate::Violation;
 use starl_core::event::agreement::ListId;
 use starl_core::{Duration, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
@@ -84,11 +84,11 @@ impl Instance {
         id: ListId,
         at: Time,
         is_disturbed: bool,
-        found: &mut Pending,
+        found: &mut Vec<Violation>,
     ) {
         self.shows_none(robot, at);
         let life = self.life(robot);
-        if life.registered.is_none() && !is_disturbed {
+        if life.registered.is_none() {
             found.push(violation(
                 SOUNDNESS,
                 at,
@@ -97,7 +97,7 @@ impl Instance {
             ));
         }
         let promised = life.promised.replace(id);
-        if let Some(promised) = promised.filter(|promised| *promised != id && !is_disturbed)
+        if let Some(promised) = promised.filter(|promised| *promised != id)
             && id.time < promised.time + life.apart
         {
             let text = format!(
@@ -115,7 +115,7 @@ impl Instance {
         }
     }
 
-    /// A robot shows a list from now on.
+    /// A robot shows a list from now on. Gives whether what is found may have been made up.
     pub fn shows(
         &mut self,
         robot: RobotId,
@@ -123,20 +123,17 @@ impl Instance {
         members: &[RobotId],
         at: Time,
         is_disturbed: bool,
-        found: &mut Pending,
-    ) {
+        found: &mut Vec<Violation>,
+    ) -> bool {
         let life = self.life(robot);
         life.shown = Some(id);
         life.is_reported = false;
         let Some(list) = self.lists.get_mut(&id) else {
-            return;
+            return false;
         };
         list.is_doubtful |= is_disturbed;
         let is_doubtful = list.is_doubtful;
         let known = list.members.get_or_insert_with(|| members.to_vec());
-        if is_doubtful {
-            return;
-        }
         if known != members {
             let text = format!(
                 "robot {robot} shows another list of {} than others, by the same coordinator",
@@ -162,6 +159,7 @@ impl Instance {
                 found.push(violation(EXCLUSION, at, [robot, other], text));
             }
         }
+        is_doubtful
     }
 
     /// Whether the other robot shows a different list than this one, and each lists the other's present

@@ -11,7 +11,7 @@ use super::disturbance::Disturbance;
 use super::health::{Change, Health, Needs};
 use super::pending::Pending;
 use super::report::Report;
-use super::{Checker, Kinds, Setting, Violation, robot_list};
+use super::{Checker, Excuse, Excused, Kinds, Setting, Violation, robot_list};
 use instance::Instance;
 use starl_core::event::{Event, RegistrationEvent};
 use starl_core::{Duration, Port, Record, RobotId, Time};
@@ -33,6 +33,7 @@ pub(super) struct Registration {
     due: BTreeSet<(Time, Port)>,
     disturbance: Disturbance,
     pending: Pending,
+    excused: Excused,
 }
 
 impl Registration {
@@ -45,6 +46,7 @@ impl Registration {
             due: BTreeSet::new(),
             disturbance: Disturbance::new(bound),
             pending: Pending::new(setting),
+            excused: Excused::default(),
         }
     }
 
@@ -55,7 +57,8 @@ impl Registration {
         // What a corruption made up is gone by then.
         let is_disturbed = self.disturbance.is_made_up(at);
         let instance = self.instances.entry(port).or_default();
-        let found = &mut self.pending;
+        let mut is_excused = is_disturbed;
+        let mut found = Vec::new();
         match report.event {
             RegistrationEvent::Register { apart, area } => {
                 instance.registers(robot, at, area.is_none(), *apart);
@@ -63,12 +66,18 @@ impl Registration {
             RegistrationEvent::Unregister => instance.leaves(robot, at),
             RegistrationEvent::Lose => instance.shows_none(robot, at),
             RegistrationEvent::Propose { list, .. } | RegistrationEvent::Accept { list } => {
-                instance.accepts(robot, *list, at, is_disturbed, found);
+                instance.accepts(robot, *list, at, is_disturbed, &mut found);
             }
             RegistrationEvent::Agree { list, members } => {
-                instance.shows(robot, *list, members, at, is_disturbed, found);
+                is_excused |= instance.shows(robot, *list, members, at, is_disturbed, &mut found);
             }
             RegistrationEvent::Fail => return,
+        }
+        for found in found {
+            match is_excused {
+                true => self.excused.forgive(&found, Excuse::Corruption),
+                false => self.pending.push(found),
+            }
         }
         instance.note_agreement(at);
         self.due.insert((at + self.bound, port));
@@ -76,7 +85,7 @@ impl Registration {
 
     fn changed(&mut self, at: Time, robot: Option<RobotId>, change: Change<'_>) {
         self.disturbance
-            .change(at, robot, change, &mut self.pending);
+            .change(at, robot, change, &mut self.pending, &mut self.excused);
         if let Some(robot) = robot.filter(|_| change.is_end()) {
             for instance in self.instances.values_mut() {
                 instance.crashes(robot, at);
@@ -117,6 +126,13 @@ impl Registration {
                 if since + bound <= due {
                     life.is_reported = true;
                     late.push(robot);
+                } else if life.without + bound <= due {
+                    let unwell = self.health.well_from(robot) > disturbed;
+                    let excuse = match unwell {
+                        true => self.health.excuse(robot),
+                        false => self.disturbance.excuse(due),
+                    };
+                    self.excused.note(PROGRESS, excuse);
                 }
             }
             if !late.is_empty() {
@@ -130,7 +146,13 @@ impl Registration {
                 continue;
             };
             let since = apart_since.max(instance.changed).max(disturbed);
-            if self.disturbance.is_parted() || instance.is_reported || since + bound > due {
+            if instance.is_reported {
+                continue;
+            }
+            if self.disturbance.is_parted() || since + bound > due {
+                if apart_since.max(instance.changed) + bound <= due {
+                    self.excused.note(CONVERGENCE, self.disturbance.excuse(due));
+                }
                 continue;
             }
             let apart = instance.apart();
@@ -153,6 +175,10 @@ impl Checker for Registration {
 
     fn heeds(&self) -> Kinds {
         Kinds::REPORTS
+    }
+
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        self.excused.of(property)
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {

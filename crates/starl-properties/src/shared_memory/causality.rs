@@ -5,7 +5,7 @@ use super::element::Stamp;
 use super::{Address, owner};
 use crate::pending::Pending;
 use crate::report::Report;
-use crate::{Checker, Kinds, Setting, Violation};
+use crate::{Checker, Excuse, Excused, Kinds, Setting, Violation};
 use starl_core::event::{Event, Fault, SharedMemoryEvent};
 use starl_core::{Port, Record, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
@@ -31,6 +31,7 @@ pub(crate) struct Causality {
     pending: Pending,
     /// Whether some state was corrupted, so that memories may hold what was never written.
     corrupted: bool,
+    excused: Excused,
 }
 
 /// One memory.
@@ -173,6 +174,10 @@ impl Checker for Causality {
         Kinds::REPORTS
     }
 
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        self.excused.of(property)
+    }
+
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
         match &record.event {
             Event::Primitive { .. } => {
@@ -192,9 +197,13 @@ impl Checker for Causality {
                 }
                 (_, Fault::CorruptState) => {
                     self.pass(record.at, violations);
+                    if !self.memories.is_empty() && !self.corrupted {
+                        self.excused.note(CAUSALITY, Excuse::Corruption);
+                    }
                     self.corrupted = true;
                     self.fresh.clear();
-                    self.pending.retain(|_| false);
+                    self.pending
+                        .retain(Excuse::Corruption, &mut self.excused, |_| false);
                 }
                 _ => {}
             },

@@ -2,7 +2,7 @@
 
 use super::element::{Element, Shown, Stamp};
 use super::{CONVERGENCE, SharedMemory};
-use crate::{Violation, robot_list};
+use crate::{Excuse, Violation, robot_list};
 use starl_core::{Port, RobotId, Time};
 use std::fmt;
 use std::sync::Arc;
@@ -28,8 +28,10 @@ pub(super) struct Debt {
 
 /// Whether a robot is yet to show a write.
 enum Verdict {
-    /// It may show it, or nobody is left that does.
+    /// It shows it, as far as anybody can say.
     Settled,
+    /// It does not, and nobody is left that does.
+    Lost,
     /// It does not, and should have by now.
     Late,
     /// It is to show it by then.
@@ -69,6 +71,7 @@ impl SharedMemory {
         };
         let is_latest = element.latest().is_none_or(|latest| latest <= debt.stamp);
         let (mut late, mut due) = (Vec::new(), Vec::new());
+        let mut excused = Vec::new();
         let mut everyone = debt.to.is_none();
         // Who has come since has debts of its own.
         let members = memory.members.iter();
@@ -79,12 +82,22 @@ impl SharedMemory {
         for robot in robots {
             match self.judge(robot, debt, element, now) {
                 Verdict::Settled => continue,
+                Verdict::Lost => {
+                    excused.push(self.health.excuse(debt.stamp.writer));
+                    continue;
+                }
                 Verdict::Late => late.push(robot),
                 // A later write is to be shown too, and stands for this one.
-                Verdict::Due(time) if is_latest => due.push((time, robot)),
+                Verdict::Due(time) if is_latest => {
+                    excused.push(self.excuse(robot, debt, now));
+                    due.push((time, robot));
+                }
                 Verdict::Due(_) => {}
             }
             everyone = false;
+        }
+        for excuse in excused {
+            self.excused.note(CONVERGENCE, excuse);
         }
         if everyone {
             self.forget(debt);
@@ -134,7 +147,7 @@ impl SharedMemory {
             (stamp >= debt.stamp).then(|| since.max(ready(holder)).max(together))
         });
         let Some(owed_since) = holders.min() else {
-            return Verdict::Settled;
+            return Verdict::Lost;
         };
         let owed_since = owed_since.max(ready(robot));
         if owed_since == Time::NEVER {
@@ -147,6 +160,18 @@ impl SharedMemory {
         } else {
             Verdict::Due(due)
         }
+    }
+
+    /// Why a robot need not show a write yet.
+    fn excuse(&self, robot: RobotId, debt: &Debt, now: Time) -> Excuse {
+        let concerned = [robot, debt.stamp.writer].into_iter();
+        let mut unwell = concerned.filter(|robot| {
+            let since = self.health.well_from(*robot);
+            since != Time::ZERO && (since == Time::NEVER || since + self.bound > now)
+        });
+        unwell
+            .next()
+            .map_or(Excuse::Partition, |robot| self.health.excuse(robot))
     }
 
     /// Everyone shows a write; those before it are not asked for again.

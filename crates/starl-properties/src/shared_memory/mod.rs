@@ -16,7 +16,7 @@ use super::health::{Health, Needs};
 use super::parts::Parts;
 use super::pending::Pending;
 use super::report::Report;
-use super::{Checker, Kinds, Setting, Violation};
+use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
 use debt::{Address, Debt};
 use element::{Element, Shown, Stamp};
 use starl_core::event::storing::Written;
@@ -43,6 +43,7 @@ pub(super) struct SharedMemory {
     backward: Pending,
     /// Whether some state was corrupted, so that memories may hold what was never written.
     corrupted: bool,
+    excused: Excused,
 }
 
 /// One memory.
@@ -67,6 +68,7 @@ impl SharedMemory {
             debts: 0,
             backward: Pending::new(setting),
             corrupted: false,
+            excused: Excused::default(),
         }
     }
 
@@ -111,13 +113,15 @@ impl SharedMemory {
         } else {
             None
         };
-        if let Some(text) = wrong.filter(|_| !self.corrupted) {
-            found.push(Violation {
+        match wrong {
+            Some(text) if !self.corrupted => found.push(Violation {
                 property: INTEGRITY.into(),
                 at,
                 robots: vec![robot, stamp.writer],
                 text,
-            });
+            }),
+            Some(_) => self.excused.note(INTEGRITY, Excuse::Corruption),
+            None => {}
         }
         if is_new {
             element.write(stamp, value, at);
@@ -182,7 +186,9 @@ impl SharedMemory {
 
     /// A robot has lost its memories.
     fn crashed(&mut self, robot: RobotId) {
-        self.backward.retain(|back| back.robots[0] != robot);
+        let others = |back: &Violation| back.robots[0] != robot;
+        self.backward
+            .retain(Excuse::Down, &mut self.excused, others);
         for memory in self.memories.values_mut() {
             if memory.members.remove(&robot).is_some() {
                 for element in memory.variables.values_mut().flat_map(|e| e.values_mut()) {
@@ -195,7 +201,9 @@ impl SharedMemory {
     /// A robot's memories were overwritten.
     fn corrupted(&mut self, robot: RobotId) {
         self.corrupted = true;
-        self.backward.retain(|back| back.robots[0] != robot);
+        let others = |back: &Violation| back.robots[0] != robot;
+        self.backward
+            .retain(Excuse::Corruption, &mut self.excused, others);
         for memory in self.memories.values_mut() {
             if memory.members.contains_key(&robot) {
                 for element in memory.variables.values_mut().flat_map(|e| e.values_mut()) {
@@ -213,6 +221,10 @@ impl Checker for SharedMemory {
 
     fn heeds(&self) -> Kinds {
         Kinds::REPORTS | Kinds::SENT | Kinds::DELIVERED
+    }
+
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        self.excused.of(property)
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
