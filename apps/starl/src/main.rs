@@ -1,4 +1,4 @@
-//! The one command of StarL: checks, explains, runs, replays, tests, draws, lists and measures. See `docs/reference/command.md`.
+//! The one command of StarL: checks, explains, runs, replays, judges, tests, draws, lists and measures. See `docs/reference/command.md`.
 //!
 //! Exit status: 0 the goal was reached and no property violated (or, for other commands, all is as it
 //! should be); 1 it was not; 2 bad input or an output that cannot be written, with one message on the
@@ -31,6 +31,7 @@ mod summary;
 mod target;
 mod test;
 mod threads;
+mod verify;
 
 use args::{Arguments, Command};
 use clap::Parser;
@@ -46,6 +47,7 @@ fn main() -> ExitCode {
         Command::Explore(arguments) => return exit(explore::run(arguments)),
         Command::Run(arguments) => run::run(arguments),
         Command::Replay(arguments) => replay::replay(arguments),
+        Command::Verify(arguments) => verify::verify(arguments),
         Command::Test(arguments) => test::test(arguments),
         Command::Diagram(arguments) => diagram::diagram(arguments),
         Command::Check(arguments) => check::run(arguments),
