@@ -30,6 +30,8 @@ pub enum Command {
     Run(RunArguments),
     /// Run again what a trace recorded, and compare record by record
     Replay(ReplayArguments),
+    /// Judge the properties of a run by its trace, whichever host wrote it
+    Verify(VerifyArguments),
     /// Explore every behaviour of a small fleet within bounds, or go again a way that was found
     Explore(ExploreArguments),
     /// Look for violations: run with many seeds and kinds of faults, and shrink what fails
@@ -201,6 +203,16 @@ pub struct ReplayArguments {
     /// Threads to step robots on [default: as for `starl run`]
     #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
     pub threads: Option<u32>,
+}
+
+/// Arguments of `starl verify`.
+#[derive(Args, Debug)]
+pub struct VerifyArguments {
+    /// A trace, whole or cut short
+    pub trace: PathBuf,
+    /// Print the verdicts as one JSON object instead
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Arguments of `starl explore`.

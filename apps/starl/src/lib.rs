@@ -1,4 +1,4 @@
-//! The one command of StarL: checks, explains, runs, replays, tests, draws, lists and measures. See
+//! The one command of StarL: checks, explains, runs, replays, judges, tests, draws, lists and measures. See
 //! `docs/reference/command.md`.
 //!
 //! As a library it is the same command with programs of one's own:
@@ -49,6 +49,7 @@ mod summary;
 mod target;
 mod test;
 mod threads;
+mod verify;
 
 pub use starl_catalog::Parameters;
 
@@ -102,6 +103,7 @@ impl CommandLine {
             Command::Explore(arguments) => return exit(explore::run(arguments, registry)),
             Command::Run(arguments) => run::run(arguments, registry),
             Command::Replay(arguments) => replay::replay(arguments, registry),
+            Command::Verify(arguments) => verify::verify(arguments, registry),
             Command::Test(arguments) => test::test(arguments, registry),
             Command::Diagram(arguments) => diagram::diagram(arguments, registry),
             Command::Check(arguments) => check::run(arguments),

@@ -7,6 +7,7 @@ use crate::paths::Paths;
 use crate::report::Report;
 use crate::{plot, recording};
 use starl_core::Record;
+use starl_properties::Setting;
 use starl_sim::Run;
 use starl_sim::read::Resolved;
 use starl_trace::{Outcome, ViewOptions, WriteError, Writer};
@@ -69,13 +70,14 @@ impl Outputs {
     pub fn open(
         arguments: &RunArguments,
         resolved: &Resolved,
+        setting: &Setting,
         read: &[PathBuf],
         picture: Option<Picture>,
     ) -> Result<Outputs, Failure> {
         refuse_to_overwrite(arguments, read)?;
         let trace = |path: &PathBuf| -> Result<TraceOutput, Failure> {
             let (output, file) = Output::create(path)?;
-            let header = recording::header(resolved);
+            let header = recording::header(resolved, setting);
             let writer = Writer::new(file, &header, &ViewOptions::default())
                 .map_err(|error| output.failure(&error))?;
             Ok(TraceOutput { output, writer })

@@ -5,6 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 use starl_core::Obstacle;
+use starl_properties::Setting;
 use starl_sim::Scenario;
 use starl_sim::read::{Content, Inputs, Override, Request, Resolved, Source};
 use starl_trace::{Header, RobotEntry};
@@ -29,7 +30,7 @@ struct Options {
 }
 
 /// The header of a run's trace.
-pub fn header(resolved: &Resolved) -> Header {
+pub fn header(resolved: &Resolved, setting: &Setting) -> Header {
     let scenario = &resolved.scenario;
     let mut programs: Vec<&str> = scenario
         .fleet
@@ -45,6 +46,7 @@ pub fn header(resolved: &Resolved) -> Header {
         seed: scenario.seed,
         scenario: resolved.inputs.request.source.text.clone(),
         files: files(&resolved.inputs),
+        setting: json(setting),
         robots: robots(scenario),
         way_points: scenario.world.way_points.clone(),
         obstacles: obstacles(scenario),
@@ -102,10 +104,13 @@ fn files(inputs: &Inputs) -> BTreeMap<String, String> {
         faults,
         binary,
     };
-    let options = serde_json::to_string_pretty(&options)
-        .unwrap_or_else(|error| unreachable!("texts and lists can be written as JSON: {error}"));
-    files.insert(OPTIONS.to_string(), options);
+    files.insert(OPTIONS.to_string(), json(&options));
     files
+}
+
+fn json(value: &impl Serialize) -> String {
+    serde_json::to_string_pretty(value)
+        .unwrap_or_else(|error| unreachable!("plain data can be written as JSON: {error}"))
 }
 
 fn robots(scenario: &Scenario) -> Vec<RobotEntry> {

@@ -194,14 +194,11 @@ impl Report {
 }
 
 impl Breach {
-    fn of(violation: &Violation, scenario: &Scenario) -> Breach {
+    /// A violation, told with the names of robots.
+    pub fn of(violation: &Violation, name: impl Fn(RobotId) -> String) -> Breach {
         Breach {
             at_seconds: violation.at.seconds(),
-            robots: violation
-                .robots
-                .iter()
-                .map(|&robot| scenario.fleet.name(robot))
-                .collect(),
+            robots: violation.robots.iter().copied().map(name).collect(),
             text: violation.text.clone(),
         }
     }
@@ -219,7 +216,7 @@ fn properties(run: &Run, scenario: &Scenario) -> Vec<Property> {
         violations: verdict.violations,
         first: verdict
             .first
-            .map(|violation| Breach::of(&violation, scenario)),
+            .map(|violation| Breach::of(&violation, |robot| scenario.fleet.name(robot))),
         excused: excused(&verdict.excused),
     };
     run.verdicts().into_iter().map(property).collect()

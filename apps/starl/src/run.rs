@@ -23,9 +23,10 @@ pub fn run(arguments: &RunArguments, registry: &Registry) -> Result<bool, Failur
     } = target::read(arguments, registry)?;
     let scenario = application.scenario();
     let stop = stop_on_interrupt();
-    let mut outputs = Outputs::open(arguments, application.resolved(), &files, picture)?;
-    let threads = threads::count(arguments.threads, scenario.fleet.len());
     let mut run = start(&application)?;
+    let setting = run.setting();
+    let mut outputs = Outputs::open(arguments, application.resolved(), &setting, &files, picture)?;
+    let threads = threads::count(arguments.threads, scenario.fleet.len());
     run.set_parallel(threads > 1);
     let shown = !arguments.quiet && !arguments.json;
     let progress = Progress::new(shown, scenario.duration);

@@ -277,6 +277,10 @@ impl Checker for Barrier {
         Kinds::REPORTS
     }
 
+    fn is_owed(&self, property: &str) -> bool {
+        property == PROGRESS && !self.due.is_empty()
+    }
+
     fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
         self.excused.of(property)
     }

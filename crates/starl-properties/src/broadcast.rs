@@ -176,6 +176,10 @@ impl Checker for Broadcast {
         }
     }
 
+    fn is_owed(&self, property: &str) -> bool {
+        property == DELIVERY && self.outstanding.oldest().is_some()
+    }
+
     fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
         self.excused.of(property)
     }

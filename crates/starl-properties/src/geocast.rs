@@ -203,6 +203,14 @@ impl Checker for Geocast {
         }
     }
 
+    fn needs(&self, _: &str) -> Kinds {
+        Kinds::MOVED
+    }
+
+    fn is_owed(&self, property: &str) -> bool {
+        property == INCLUSION && self.outstanding.oldest().is_some()
+    }
+
     fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
         self.excused.of(property)
     }

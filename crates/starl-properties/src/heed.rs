@@ -5,10 +5,12 @@ use starl_core::Event;
 use std::ops::BitOr;
 
 /// Kinds of events.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Kinds(u32);
 
 impl Kinds {
+    /// None.
+    pub const NONE: Kinds = Kinds(0);
     /// All.
     pub const ALL: Kinds = Kinds(u32::MAX);
     /// [`Event::Moved`].
@@ -46,6 +48,11 @@ impl Kinds {
             Event::Failed(_) => Kinds::FAILED,
             _ => Kinds::OTHER,
         }
+    }
+
+    /// Whether all of the other are among these.
+    pub fn hold(self, other: Kinds) -> bool {
+        self.0 & other.0 == other.0
     }
 
     /// Whether the two have one in common.

@@ -71,6 +71,19 @@ pub trait Checker: dyn_clone::DynClone + fmt::Debug + Send + Sync {
         true
     }
 
+    /// The kinds of events without which the property cannot be judged, besides those of primitives and faults.
+    fn needs(&self, property: &str) -> Kinds {
+        let _ = property;
+        Kinds::NONE
+    }
+
+    /// Whether something is owed whose time is not up, so that the property can be broken without anything more being
+    /// done.
+    fn is_owed(&self, property: &str) -> bool {
+        let _ = property;
+        false
+    }
+
     /// How often something was excused that speaks against a property, and why.
     fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
         let _ = property;

@@ -318,6 +318,10 @@ impl Checker for NoCollision {
         Kinds::MOVED | Kinds::COLLIDED | Kinds::FAULT
     }
 
+    fn needs(&self, _: &str) -> Kinds {
+        Kinds::MOVED
+    }
+
     fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
         self.excused.of(property)
     }

@@ -14,6 +14,8 @@ pub struct Watch {
     used: Vec<String>,
     /// Those of the records that were shown last.
     kinds: Vec<Kinds>,
+    /// Those of all records.
+    seen: Kinds,
 }
 
 /// What is said of one property.
@@ -30,6 +32,10 @@ pub struct Verdict {
     pub open: bool,
     /// Whether anything took place that it speaks of: a property of a primitive that nobody used says nothing.
     pub used: bool,
+    /// Whether records of all kinds came that it is judged by.
+    pub has_evidence: bool,
+    /// Whether something is owed whose time was not up, so that it could still be broken.
+    pub owed: bool,
     /// How often something was excused that speaks against it, by reason.
     pub excused: Vec<(Excuse, u64)>,
 }
@@ -53,6 +59,7 @@ impl Watch {
         self.kinds.clear();
         self.kinds
             .extend(records.iter().map(|record| Kinds::of(&record.event)));
+        self.seen = self.kinds.iter().fold(self.seen, |seen, &kind| seen | kind);
         for record in records {
             if let Event::Primitive { event, .. } = &record.event
                 && !self.is_known(event.primitive())
@@ -109,21 +116,29 @@ impl Watch {
         let checked = self.checkers.iter().flat_map(|checker| {
             let properties = checker.properties().iter();
             properties.map(|&property| {
+                let verdict = self.verdict(property.into());
                 let used = self.is_used(property) && checker.has_subject(property);
-                (Name::from(property), false, used, checker.excused(property))
+                Verdict {
+                    used: used || verdict.used,
+                    has_evidence: self.seen.hold(checker.needs(property)),
+                    owed: checker.is_owed(property),
+                    excused: checker.excused(property),
+                    ..verdict
+                }
             })
         });
         let monitored = self.monitors.iter().flat_map(|monitor| {
             let properties = monitor.properties().into_iter().enumerate();
-            properties.map(|(index, property)| (property, monitor.is_open(index), true, Vec::new()))
-        });
-        checked
-            .chain(monitored)
-            .map(|(property, open, used, excused)| Verdict {
-                excused,
-                ..self.verdict(property, open, used)
+            properties.map(|(index, property)| {
+                let verdict = self.verdict(property);
+                Verdict {
+                    open: monitor.is_open(index) && verdict.first.is_none(),
+                    used: true,
+                    ..verdict
+                }
             })
-            .collect()
+        });
+        checked.chain(monitored).collect()
     }
 
     /// Whether the primitive that a checker's property is called after has been used. What is called after none
@@ -138,16 +153,19 @@ impl Watch {
         self.used.iter().any(|used| used == primitive)
     }
 
-    fn verdict(&self, property: Name, open: bool, used: bool) -> Verdict {
+    /// What violations say of a property.
+    fn verdict(&self, property: Name) -> Verdict {
         let mut against = self.violations.iter().filter(|v| v.property == property);
         let first = against.next().cloned();
         let violations = usize::from(first.is_some()) + against.count();
         Verdict {
             property,
             violations,
-            open: open && first.is_none(),
-            used: used || first.is_some(),
+            open: false,
+            used: first.is_some(),
             first,
+            has_evidence: true,
+            owed: false,
             excused: Vec::new(),
         }
     }

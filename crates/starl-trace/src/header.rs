@@ -23,6 +23,8 @@ pub struct Header {
     pub scenario: String,
     /// The texts of files that the scenario names, by the names it has for them.
     pub files: BTreeMap<String, String>,
+    /// What properties of the run are to be judged by, as JSON; empty where the host does not say.
+    pub setting: String,
     /// The robots, in the order of their numbers.
     pub robots: Vec<RobotEntry>,
     /// The application's way-points.

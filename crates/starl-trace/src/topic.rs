@@ -128,5 +128,7 @@ pub(crate) const METADATA: &str = "starl";
 pub(crate) const SCENARIO: &str = "starl/scenario.toml";
 /// Attachments of files that the scenario names have this before the name.
 pub(crate) const FILES: &str = "starl/files/";
+/// The attachment with what properties are judged by.
+pub(crate) const SETTING: &str = "starl/setting.json";
 /// The attachment with the fleet and the world, the last before the records.
 pub(crate) const WORLD: &str = "starl/world.json";

@@ -188,6 +188,13 @@ fn write_header<W: Write>(output: &mut Output<W>, header: &Header) -> Result<(),
             text.as_bytes(),
         )?;
     }
+    if !header.setting.is_empty() {
+        output.attach(
+            topic::SETTING,
+            "application/json",
+            header.setting.as_bytes(),
+        )?;
+    }
     let mut json = Json::default();
     header::encode_world(&mut json, header);
     if !json.is_finite() {

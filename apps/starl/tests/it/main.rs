@@ -21,3 +21,4 @@ mod run_programs;
 mod same_seed_same_run;
 mod support;
 mod test_command;
+mod verify_trace;

@@ -223,6 +223,10 @@ impl Checker for BroadcastOrder {
         }
     }
 
+    fn is_owed(&self, property: &str) -> bool {
+        property == AGREEMENT && self.agreement.is_owed()
+    }
+
     fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
         self.excused.of(property)
     }

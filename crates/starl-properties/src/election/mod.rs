@@ -144,6 +144,10 @@ impl Checker for Election {
         Kinds::REPORTS | Kinds::SENT | Kinds::DELIVERED
     }
 
+    fn is_owed(&self, property: &str) -> bool {
+        matches!(property, AGREEMENT | PROGRESS) && !self.due.is_empty()
+    }
+
     fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
         self.excused.of(property)
     }

@@ -145,6 +145,11 @@ impl Checker for Mutex {
         Kinds::REPORTS | Kinds::SENT | Kinds::DELIVERED
     }
 
+    fn is_owed(&self, property: &str) -> bool {
+        matches!(property, NON_INTERFERENCE | PROGRESS)
+            && self.locks.values().any(|locks| !locks.waiting.is_empty())
+    }
+
     fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
         self.excused.of(property)
     }

@@ -205,6 +205,21 @@ impl Checker for ReachAvoid {
         }
     }
 
+    fn needs(&self, property: &str) -> Kinds {
+        match property {
+            PROGRESS => Kinds::NONE,
+            _ => Kinds::MOVED,
+        }
+    }
+
+    fn is_owed(&self, property: &str) -> bool {
+        property == PROGRESS
+            && self.robots.iter().any(|watch| {
+                let mut commands = watch.commands.iter();
+                commands.any(|command| command.phase == Phase::Active && !command.overdue)
+            })
+    }
+
     fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
         self.excused.of(property)
     }

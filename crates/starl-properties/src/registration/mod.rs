@@ -177,6 +177,10 @@ impl Checker for Registration {
         Kinds::REPORTS
     }
 
+    fn is_owed(&self, property: &str) -> bool {
+        matches!(property, PROGRESS | CONVERGENCE) && !self.due.is_empty()
+    }
+
     fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
         self.excused.of(property)
     }

@@ -223,6 +223,10 @@ impl Checker for SharedMemory {
         Kinds::REPORTS | Kinds::SENT | Kinds::DELIVERED
     }
 
+    fn is_owed(&self, property: &str) -> bool {
+        property == CONVERGENCE && !self.owed.is_empty()
+    }
+
     fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
         self.excused.of(property)
     }

@@ -117,7 +117,7 @@ fn with_leases_a_robot_without_a_majority_has_no_leader() {
 fn with_leases_robots_that_wait_for_one_that_remembers_have_no_leader() {
     let mut story = three("leases");
     for robot in 0..3 {
-        story.report(1000, robot, ("election", "vote"), []);
+        story.report(1000, robot, ("election", "vote"), [("anew", false.into())]);
         shows(&mut story, 1100, robot, 2);
     }
     story.fault(2000, Some(2), "crash");
@@ -144,7 +144,7 @@ fn with_leases_who_voted_within_a_second_may_have_voted_before() {
     let verdict = |millis| {
         let mut story = three("leases");
         story.fault(100, Some(2), "crash");
-        story.report(millis, 0, ("election", "vote"), []);
+        story.report(millis, 0, ("election", "vote"), [("anew", false.into())]);
         story.verdict(30_000)
     };
     assert_none(&verdict(900));

@@ -24,7 +24,12 @@ fn begins(story: &mut Story, millis: u64, robot: u32) {
     ];
     story.report(millis, robot, ("election", "start"), fields);
     story.report(millis, robot, ("election", "elect"), []);
-    story.report(millis + 1, robot, ("election", "vote"), []);
+    story.report(
+        millis + 1,
+        robot,
+        ("election", "vote"),
+        [("anew", false.into())],
+    );
 }
 
 fn shows(story: &mut Story, millis: u64, robot: u32, leader: u32, epoch: i64) {

@@ -6,6 +6,7 @@ mod broadcast_order;
 mod documented;
 mod election_bounds;
 mod election_leaders;
+mod excuses;
 mod geocast_exclusion;
 mod geocast_inclusion;
 mod mutex_progress;

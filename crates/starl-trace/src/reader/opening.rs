@@ -97,6 +97,8 @@ fn attachment(body: &[u8], header: &mut Header) -> Result<bool, Fault> {
     }
     if name == topic::SCENARIO {
         header.scenario = text()?;
+    } else if name == topic::SETTING {
+        header.setting = text()?;
     } else if let Some(file) = name.strip_prefix(topic::FILES) {
         header.files.insert(file.into(), text()?);
     }

@@ -3,7 +3,7 @@
 use starl_core::event::{Event, Fault, Fields, Hit, PrimitiveEvent, Value};
 use starl_core::motion::{Body, Workspace};
 use starl_core::{Area, Destination, Duration, Obstacle, Point, Port, Pose, Record, RobotId, Time};
-use starl_properties::{Checker, Setting, Violation, checkers};
+use starl_properties::{Checker, Excuse, Setting, Violation, Watch, checkers};
 
 /// The engine's step: how often checkers are told the time.
 const STEP_MS: u64 = 25;
@@ -312,6 +312,19 @@ impl Story {
         seen_read.sort_by_key(key);
         assert_eq!(seen_live, seen_read);
         seen_live
+    }
+
+    /// What is excused of a property until then, by reason.
+    pub fn excused(&self, end: u64, property: &str) -> Vec<(Excuse, u64)> {
+        let mut records = self.records.clone();
+        records.sort_by_key(|record| (record.at, record.robot));
+        let mut watch = Watch::new(checkers(&self.setting));
+        watch.observe(&records, ms(end));
+        let excused = watch.excused().into_iter();
+        excused
+            .filter(|(of, ..)| of == property)
+            .map(|(_, excuse, count)| (excuse, count))
+            .collect()
     }
 }
 

@@ -53,6 +53,7 @@ pub fn header() -> Header {
             group: 3,
         }],
         obstacles: obstacles(),
+        setting: "{\"step\":25}".into(),
     }
 }
 

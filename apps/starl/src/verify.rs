@@ -1,0 +1,174 @@
+//! `starl verify`: judges the properties of a run by its trace alone, whichever host wrote it.
+//!
+//! Each record is shown to the checkers that watch every run, in the steps in which a simulator would show them. What
+//! cannot be judged is said to be so, with the reason.
+
+mod account;
+
+use crate::args::VerifyArguments;
+use crate::failure::Failure;
+use crate::replay::{self, open, unreadable};
+use crate::{console, json};
+use account::Account;
+use starl_catalog::programs::Registry;
+use starl_core::event::{Event, Name};
+use starl_core::motion::{Body, Workspace};
+use starl_core::{Record, Time};
+use starl_properties::{Setting, Violation, Watch, checkers};
+use starl_trace::{Header, TraceError};
+use std::path::Path;
+
+/// What was read of a trace, and what the checkers say of it.
+struct Judged {
+    header: Header,
+    setting: Setting,
+    watch: Watch,
+    /// Violations of properties that were watched on the running programs, as the host recorded them.
+    recorded: Vec<Violation>,
+    records: u64,
+    /// Up to when there are records.
+    end: Time,
+    /// Why the trace ends before its run did; none where it does not.
+    cut: Option<String>,
+}
+
+/// Judges a trace; whether nothing is violated.
+pub fn verify(arguments: &VerifyArguments, registry: &Registry) -> Result<bool, Failure> {
+    let path = arguments.trace.as_path();
+    let account = Account::of(path, &judge(path, registry)?);
+    match arguments.json {
+        true => json::print(&account)?,
+        false => console::print(&account.text())?,
+    }
+    Ok(account.violated == 0)
+}
+
+fn judge(path: &Path, registry: &Registry) -> Result<Judged, Failure> {
+    let mut reader = open(path)?;
+    let header = reader.header().clone();
+    let setting = setting(path, &header, registry)?;
+    let mut steps = Steps::new(&setting);
+    let mut recorded = Vec::new();
+    let (mut records, mut end, mut cut) = (0, Time::ZERO, None);
+    for record in &mut reader {
+        let record = match record {
+            Ok(record) => record,
+            Err(error @ (TraceError::Truncated(_) | TraceError::NoEnd(_))) => {
+                cut = Some(error.to_string());
+                break;
+            }
+            Err(error) => return Err(unreadable(path, &error)),
+        };
+        records += 1;
+        end = end.max(record.at);
+        if let Event::Violated { property, text } = &record.event {
+            if setting.monitored.contains(property) {
+                recorded.push(violation(&record, property, text));
+            }
+        } else {
+            steps.take(record);
+        }
+    }
+    match reader.summary() {
+        Some(summary) => end = summary.outcome.end,
+        None if cut.is_none() => cut = Some(TraceError::NoEnd(reader.progress()).to_string()),
+        None => {}
+    }
+    Ok(Judged {
+        watch: steps.finish(end),
+        header,
+        setting,
+        recorded,
+        records,
+        end,
+        cut,
+    })
+}
+
+fn violation(record: &Record, property: &Name, text: &str) -> Violation {
+    Violation {
+        property: property.clone(),
+        at: record.at,
+        robots: record.robot.into_iter().collect(),
+        text: text.to_string(),
+    }
+}
+
+/// What to judge by: what the host wrote, what the recorded inputs say, or the robots and obstacles with the bounds
+/// that are usual.
+fn setting(path: &Path, header: &Header, registry: &Registry) -> Result<Setting, Failure> {
+    if !header.setting.is_empty() {
+        let setting: Setting = serde_json::from_str(&header.setting).map_err(|error| {
+            Failure::file(path, format!("the attachment starl/setting.json: {error}"))
+        })?;
+        return match setting.step.is_zero() {
+            true => Err(Failure::file(
+                path,
+                "the attachment starl/setting.json: `step` must be greater than 0",
+            )),
+            false => Ok(setting),
+        };
+    }
+    let recorded = replay::inputs(path, header, registry).ok();
+    let run = recorded.and_then(|application| application.run().ok());
+    Ok(run.map_or_else(|| of_world(header), |run| run.setting()))
+}
+
+fn of_world(header: &Header) -> Setting {
+    let bodies = header.robots.iter().map(|robot| Body {
+        radius: robot.radius,
+        height: robot.height,
+        workspace: match robot.flies {
+            true => Workspace::Air { lowest: 0.0 },
+            false => Workspace::Ground,
+        },
+    });
+    let obstacles = header.obstacles.iter();
+    Setting {
+        bodies: bodies.collect(),
+        obstacles: obstacles
+            .map(|obstacle| (obstacle.clone(), Time::NEVER))
+            .collect(),
+        ..Setting::default()
+    }
+}
+
+/// Shows records to checkers as a simulator does: those of a step together, then that the step is over.
+struct Steps {
+    watch: Watch,
+    step: u64,
+    /// The number of the step under way, and its records.
+    number: u64,
+    records: Vec<Record>,
+}
+
+impl Steps {
+    fn new(setting: &Setting) -> Steps {
+        Steps {
+            watch: Watch::new(checkers(setting)),
+            step: setting.step.0,
+            number: 0,
+            records: Vec::new(),
+        }
+    }
+
+    fn take(&mut self, record: Record) {
+        let number = record.at.0 / self.step;
+        // What is dropped in a sender's queue is on record ahead of its time.
+        if number > self.number && !matches!(record.event, Event::Dropped { .. }) {
+            self.close(Time(number.saturating_mul(self.step)));
+            self.number = number;
+        }
+        self.records.push(record);
+    }
+
+    fn close(&mut self, now: Time) {
+        self.watch.observe(&self.records, now);
+        self.records.clear();
+    }
+
+    fn finish(mut self, end: Time) -> Watch {
+        self.close(end);
+        self.watch
+    }
+}
