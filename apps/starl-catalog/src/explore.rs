@@ -6,8 +6,8 @@ use crate::Application;
 use starl_core::Duration;
 use starl_core::motion::Obstacles;
 use starl_explore::{Bounds, Member, Model, Setup};
+use starl_properties::Setting;
 use starl_sim::engine::StartError;
-use starl_sim::properties::{self, Setting};
 use starl_sim::scenario::{self, Goal, Scenario};
 
 /// A bound that never runs out: nothing is too late in an exploration.
@@ -39,9 +39,11 @@ impl Application {
             }));
         }
         members.truncate(robots);
+        // Checkers that never find anything too late.
         let setting = Setting {
             bodies: members.iter().map(|member| member.body).collect(),
-            ..Setting::of(scenario)
+            properties: scenario.properties.without_bounds(FOREVER),
+            ..starl_sim::setting(scenario)
         };
         let invariants = match scenario.properties.program {
             true => self.programs.invariants(scenario, members.len()),
@@ -60,17 +62,10 @@ impl Application {
                 all_finish: scenario.goal == Goal::AllFinished,
             },
             bounds,
-            checkers: properties::checkers(&timeless(scenario), &setting),
+            checkers: starl_properties::checkers(&setting),
             invariants,
         })
     }
-}
-
-/// The scenario with checkers that never find anything too late.
-fn timeless(scenario: &Scenario) -> Scenario {
-    let mut scenario = scenario.clone();
-    scenario.properties = scenario.properties.without_bounds(FOREVER);
-    scenario
 }
 
 /// The obstacles that robots know from the start.

@@ -12,5 +12,5 @@ mod parameters;
 pub mod programs;
 mod start;
 
-pub use parameters::Complaint;
+pub use parameters::{Complaint, Parameters};
 pub use start::{Application, Refusal, read};

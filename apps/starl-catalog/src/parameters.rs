@@ -25,7 +25,7 @@ pub struct Parameters<'a> {
 
 impl<'a> Parameters<'a> {
     /// The parameters of a group of robots.
-    pub fn new(given: &'a BTreeMap<String, Parameter>) -> Parameters<'a> {
+    pub(crate) fn new(given: &'a BTreeMap<String, Parameter>) -> Parameters<'a> {
         Parameters {
             given,
             known: Vec::new(),
@@ -34,7 +34,7 @@ impl<'a> Parameters<'a> {
     }
 
     /// What was built from the parameters, if all of them are known and were as they should be.
-    pub fn finish<T>(self, built: T) -> Result<T, Complaint> {
+    pub(crate) fn finish<T>(self, built: T) -> Result<T, Complaint> {
         let unknown = self
             .given
             .keys()

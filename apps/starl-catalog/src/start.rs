@@ -6,7 +6,7 @@
 use crate::examples::WithExamples;
 use crate::language::{Findings, Programs};
 use crate::parameters::Complaint;
-use crate::programs;
+use crate::programs::Registry;
 use starl_core::Program;
 use starl_lang::diagnostic::Colour;
 use starl_sim::engine::StartError;
@@ -20,6 +20,7 @@ use std::fmt;
 pub struct Application {
     resolved: Resolved,
     pub(crate) programs: Programs,
+    registry: Registry,
     warnings: Vec<Findings>,
 }
 
@@ -32,11 +33,16 @@ pub struct Refusal {
     pub problems: Vec<Problem>,
 }
 
-/// Reads a scenario, its programs and their parameters included.
+/// Reads a scenario, its programs and their parameters included. Names of programs that are no files are looked up
+/// in the registry.
 ///
 /// # Errors
 /// All that is wrong with it.
-pub fn read(request: &Request, loader: &dyn Loader) -> Result<Application, Refusal> {
+pub fn read(
+    request: &Request,
+    loader: &dyn Loader,
+    registry: &Registry,
+) -> Result<Application, Refusal> {
     let loader = &WithExamples(loader);
     let mut resolved = read::scenario(request, loader)?;
     let (programs, review) = Programs::compile(&mut resolved, loader);
@@ -50,6 +56,7 @@ pub fn read(request: &Request, loader: &dyn Loader) -> Result<Application, Refus
     let application = Application {
         resolved,
         programs,
+        registry: registry.clone(),
         warnings: review.findings,
     };
     for (index, group) in application.scenario().fleet.groups.iter().enumerate() {
@@ -83,6 +90,11 @@ impl Application {
     /// What the scenario says.
     pub fn scenario(&self) -> &Scenario {
         &self.resolved.scenario
+    }
+
+    /// The programs in Rust that it may name.
+    pub fn registry(&self) -> &Registry {
+        &self.registry
     }
 
     /// What the compiler warns of.
@@ -134,7 +146,7 @@ impl Application {
     fn make(&self, group: &Group, fleet: &Fleet) -> Result<Box<dyn Program>, Complaint> {
         match self.programs.make(group, fleet) {
             Some(program) => Ok(Box::new(program?)),
-            None => programs::make(group),
+            None => self.registry.make(group),
         }
     }
 }

@@ -11,6 +11,7 @@
 
 use serde::{Deserialize, Serialize};
 use starl_catalog::examples;
+use starl_catalog::programs::Registry;
 use starl_sim::read;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -90,8 +91,8 @@ fn carry_out(request: &Request) -> Result<Answer, String> {
         robots: request.robots.clone(),
         ..read::Request::new(example.source())
     };
-    let application =
-        starl_catalog::read(&wanted, example).map_err(|refusal| refusal.to_string())?;
+    let application = starl_catalog::read(&wanted, example, &Registry::default())
+        .map_err(|refusal| refusal.to_string())?;
     let mut run = application.run().map_err(|error| error.message)?;
     while !run.is_over() {
         run.step();

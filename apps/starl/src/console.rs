@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::output::reason;
 use starl_lang::diagnostic::Colour;
 use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::path::{Path, PathBuf};
 
 /// Writes text to standard output.
 pub fn print(text: &str) -> Result<(), Failure> {
@@ -20,6 +21,13 @@ pub fn print(text: &str) -> Result<(), Failure> {
         ))),
         _ => Ok(()),
     }
+}
+
+/// What this command is called: `starl`, or the name of a program that brings the command with programs of its own.
+pub fn command() -> String {
+    let path = std::env::args_os().next().map(PathBuf::from);
+    let name = path.as_deref().and_then(Path::file_stem);
+    name.map_or_else(|| "starl".to_string(), |name| name.display().to_string())
 }
 
 /// Writes a message to the error stream.

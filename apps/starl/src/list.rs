@@ -5,15 +5,15 @@ use crate::failure::Failure;
 use crate::{console, json};
 use serde::Serialize;
 use starl_catalog::examples::EXAMPLES;
-use starl_catalog::programs::{PLANNERS, PROGRAMS};
+use starl_catalog::programs::{PLANNERS, Registry};
 use starl_core::{Command, Point};
 use starl_motion::models;
 use std::fmt::{self, Write};
 
 #[derive(Serialize)]
-struct Listing {
+struct Listing<'r> {
     examples: Vec<Example>,
-    programs: Vec<Named>,
+    programs: Vec<Named<'r>>,
     models: Vec<Model>,
     planners: Vec<&'static str>,
 }
@@ -26,9 +26,9 @@ struct Example {
 }
 
 #[derive(Serialize)]
-struct Named {
-    name: &'static str,
-    summary: &'static str,
+struct Named<'r> {
+    name: &'r str,
+    summary: &'r str,
 }
 
 #[derive(Serialize)]
@@ -99,7 +99,7 @@ const COMMANDS: [(&str, Command); 11] = [
 ];
 
 /// Shows what there is.
-pub fn list(arguments: &ListArguments) -> Result<bool, Failure> {
+pub fn list(arguments: &ListArguments, registry: &Registry) -> Result<bool, Failure> {
     let listing = Listing {
         examples: EXAMPLES
             .iter()
@@ -109,11 +109,12 @@ pub fn list(arguments: &ListArguments) -> Result<bool, Failure> {
                 programs: example.programs().collect(),
             })
             .collect(),
-        programs: PROGRAMS
+        programs: registry
+            .entries()
             .iter()
             .map(|program| Named {
-                name: program.name,
-                summary: program.summary,
+                name: &program.name,
+                summary: &program.summary,
             })
             .collect(),
         models: models::KINDS.iter().filter_map(model).collect(),
@@ -155,8 +156,8 @@ fn model(kind: &models::Kind) -> Option<Model> {
     })
 }
 
-fn write(text: &mut String, listing: &Listing) -> fmt::Result {
-    writeln!(text, "Examples, for `starl run NAME`:")?;
+fn write(text: &mut String, listing: &Listing<'_>) -> fmt::Result {
+    writeln!(text, "Examples, for `{} run NAME`:", console::command())?;
     for Example {
         name,
         summary,

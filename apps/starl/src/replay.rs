@@ -10,6 +10,7 @@ use crate::output::reason;
 use crate::report::Ending;
 use crate::{recording, run, threads};
 use starl_catalog::Application;
+use starl_catalog::programs::Registry;
 use starl_core::Record;
 use starl_sim::Run;
 use starl_trace::{Comparison, Difference, Header, Reader, Summary, TraceError};
@@ -18,10 +19,10 @@ use std::io::BufReader;
 use std::path::Path;
 
 /// Compares a trace with a run again; whether they are the same.
-pub fn replay(arguments: &ReplayArguments) -> Result<bool, Failure> {
+pub fn replay(arguments: &ReplayArguments, registry: &Registry) -> Result<bool, Failure> {
     let path = arguments.trace.as_path();
     let (header, summary) = read_through(path)?;
-    let application = inputs(path, &header)?;
+    let application = inputs(path, &header, registry)?;
     let threads = threads::count(arguments.threads, application.scenario().fleet.len());
     let mut run = run::start(&application)?;
     run.set_parallel(threads > 1);
@@ -64,7 +65,7 @@ fn read_through(path: &Path) -> Result<(Header, Summary), Failure> {
 }
 
 /// What the recorded run was started with.
-pub fn inputs(path: &Path, header: &Header) -> Result<Application, Failure> {
+pub fn inputs(path: &Path, header: &Header, registry: &Registry) -> Result<Application, Failure> {
     let because = |what: String| {
         Failure::file(
             path,
@@ -72,7 +73,8 @@ pub fn inputs(path: &Path, header: &Header) -> Result<Application, Failure> {
         )
     };
     let inputs = recording::inputs(header).map_err(because)?;
-    starl_catalog::read(&inputs.request, &inputs).map_err(|refusal| because(refusal.to_string()))
+    starl_catalog::read(&inputs.request, &inputs, registry)
+        .map_err(|refusal| because(refusal.to_string()))
 }
 
 /// Runs again up to the recorded end.

@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 use starl_core::RobotId;
 use starl_core::event::Name;
-use starl_sim::properties::Violation;
+use starl_properties::{Excuse, Violation};
 use starl_sim::{Outcome, Run, Scenario};
 
 /// All that is told of a run. As JSON its fields are described in `docs/reference/command.md`.
@@ -64,6 +64,14 @@ pub struct Property {
     pub verdict: &'static str,
     pub violations: usize,
     pub first: Option<Breach>,
+    pub excused: Vec<Excused>,
+}
+
+/// How often something that speaks against a property was excused for one reason.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Excused {
+    pub reason: &'static str,
+    pub count: u64,
 }
 
 /// The verdict on a property of a primitive that the run did not use.
@@ -200,7 +208,7 @@ impl Breach {
 }
 
 fn properties(run: &Run, scenario: &Scenario) -> Vec<Property> {
-    let property = |verdict: starl_sim::Verdict| Property {
+    let property = |verdict: starl_properties::Verdict| Property {
         property: verdict.property,
         verdict: match (verdict.violations, verdict.open, verdict.used) {
             (0, _, false) => UNUSED,
@@ -212,8 +220,34 @@ fn properties(run: &Run, scenario: &Scenario) -> Vec<Property> {
         first: verdict
             .first
             .map(|violation| Breach::of(&violation, scenario)),
+        excused: excused(&verdict.excused),
     };
     run.verdicts().into_iter().map(property).collect()
+}
+
+/// What was excused, for people and programs.
+pub fn excused(excused: &[(Excuse, u64)]) -> Vec<Excused> {
+    let counted = excused.iter().map(|(excuse, count)| Excused {
+        reason: excuse.text(),
+        count: *count,
+    });
+    counted.collect()
+}
+
+/// What was excused, as a remark on a verdict; nothing where nothing was.
+pub fn remark(excused: &[Excused]) -> String {
+    let total: u64 = excused.iter().map(|excused| excused.count).sum();
+    let reasons: Vec<String> = excused
+        .iter()
+        .map(|Excused { reason, count }| match excused.len() {
+            1 => (*reason).to_string(),
+            _ => format!("{reason} ({count})"),
+        })
+        .collect();
+    match total {
+        0 => String::new(),
+        _ => format!("; {total} excused: {}", reasons.join(", ")),
+    }
 }
 
 fn failures(run: &Run, scenario: &Scenario) -> Vec<Failed> {

@@ -8,6 +8,7 @@ use crate::report::{Circumstances, Report};
 use crate::target::Selection;
 use crate::{console, json, summary, target, threads};
 use starl_catalog::Application;
+use starl_catalog::programs::Registry;
 use starl_sim::Run;
 use starl_sim::engine::StartError;
 use std::sync::Arc;
@@ -15,11 +16,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// Runs what the arguments say; whether the goal was reached and no property violated.
-pub fn run(arguments: &RunArguments) -> Result<bool, Failure> {
+pub fn run(arguments: &RunArguments, registry: &Registry) -> Result<bool, Failure> {
     let picture = arguments.plot.as_deref().map(Picture::of).transpose()?;
     let Selection {
         application, files, ..
-    } = target::read(arguments)?;
+    } = target::read(arguments, registry)?;
     let scenario = application.scenario();
     let stop = stop_on_interrupt();
     let mut outputs = Outputs::open(arguments, application.resolved(), &files, picture)?;
@@ -111,7 +112,7 @@ fn tell(arguments: &RunArguments, report: &Report) -> Result<(), Failure> {
 /// A command line that does the same run again.
 fn command_line(arguments: &RunArguments, seed: u64) -> String {
     let mut words = vec![
-        "starl".to_string(),
+        console::command(),
         "run".to_string(),
         quoted(&arguments.target),
     ];

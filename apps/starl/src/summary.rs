@@ -1,7 +1,7 @@
 //! The summary that people read, within 80 columns.
 
 use crate::console::{grouped, rounded};
-use crate::report::{Breach, Ending, Failed, Property, Report, Robot, UNUSED};
+use crate::report::{Breach, Ending, Excused, Failed, Property, Report, Robot, UNUSED, remark};
 use starl_sim::Outcome;
 use std::fmt::{self, Write};
 
@@ -165,11 +165,12 @@ fn properties(text: &mut String, properties: &[Property]) -> fmt::Result {
         property,
         verdict,
         violations,
+        excused,
         ..
     } in used()
     {
         match violations {
-            0 => writeln!(text, "{property:width$}  {verdict}")?,
+            0 => verdict_line(text, property, width, verdict, excused)?,
             1 => writeln!(text, "{property:width$}  VIOLATED")?,
             n => writeln!(
                 text,
@@ -183,6 +184,28 @@ fn properties(text: &mut String, properties: &[Property]) -> fmt::Result {
         1 => writeln!(text, "1 more is about what this run did not use"),
         unused => writeln!(text, "{unused} more are about what this run did not use"),
     }
+}
+
+/// A verdict, and what was excused: beside it, or below it where there is no room.
+fn verdict_line(
+    text: &mut String,
+    property: &str,
+    width: usize,
+    verdict: &str,
+    excused: &[Excused],
+) -> fmt::Result {
+    const COLUMNS: usize = 80;
+    let line = format!("{property:width$}  {verdict}{}", remark(excused));
+    if line.chars().count() <= COLUMNS {
+        return writeln!(text, "{line}");
+    }
+    let total: u64 = excused.iter().map(|excused| excused.count).sum();
+    let total = grouped(total);
+    writeln!(text, "{property:width$}  {verdict}; {total} excused:")?;
+    for Excused { reason, count } in excused {
+        writeln!(text, "{:width$}    {}: {reason}", "", grouped(*count))?;
+    }
+    Ok(())
 }
 
 /// More programs that cannot go on are counted, not listed.

@@ -7,6 +7,7 @@ use crate::origin::Origin;
 use crate::output::reason;
 use starl_catalog::examples::{self, DEFAULT_SCENARIO, EXAMPLES};
 use starl_catalog::language::{Findings, SUFFIX};
+use starl_catalog::programs::Registry;
 use starl_catalog::{Application, Refusal};
 use starl_sim::read::{Inputs, Override, Request, Source, suggest};
 use std::fs::File;
@@ -33,7 +34,7 @@ pub struct Selection {
 }
 
 /// Reads what the arguments name.
-pub fn read(arguments: &RunArguments) -> Result<Selection, Failure> {
+pub fn read(arguments: &RunArguments, registry: &Registry) -> Result<Selection, Failure> {
     let Target {
         scenario,
         origin,
@@ -55,7 +56,7 @@ pub fn read(arguments: &RunArguments) -> Result<Selection, Failure> {
         faults,
         ..Request::new(scenario)
     };
-    let application = starl_catalog::read(&request, &origin)
+    let application = starl_catalog::read(&request, &origin, registry)
         .map_err(|refusal| tell(&refusal, |findings| origin.name(findings)))?;
     if let Some(key) = key {
         check_that_it_runs(&arguments.target, &key, &application)?;
@@ -224,7 +225,7 @@ fn scenario(name: &str) -> Result<(Source, Origin), Failure> {
 pub fn no_example(name: &str, other: &str) -> Failure {
     let names: Vec<&str> = EXAMPLES.iter().map(|example| example.name).collect();
     let help = suggest::help(name, &names, "the examples are");
-    let help = help.unwrap_or_else(|| "`starl list` names the examples".into());
+    let help = help.unwrap_or_else(|| format!("`{} list` names the examples", console::command()));
     Failure(format!(
         "{name}: there is no example or {other} called this; {help}"
     ))

@@ -39,7 +39,7 @@ pub enum Input {
 /// A building block of programs: a pure state machine that answers inputs with effects.
 ///
 /// A program owns its primitives as fields, calls their methods, and reads their flags. Inputs reach
-/// them through [`crate::Program::primitives`]: a message or timer goes to the one primitive whose
+/// those that it shows by [`crate::Primitives`]: a message or timer goes to the one primitive whose
 /// port it names, every other input to all of them, before the program itself sees it. What a failure
 /// detector among them finds out reaches all of them next.
 pub trait Primitive {

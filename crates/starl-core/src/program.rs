@@ -1,6 +1,6 @@
 //! The contract of a robot's program.
 
-use crate::{Message, Order, Primitive, Random, Robot, TimerKey};
+use crate::{Message, Order, Primitives, Random, Robot, TimerKey};
 use core::any::Any;
 use core::fmt;
 use dyn_clone::DynClone;
@@ -19,12 +19,12 @@ pub enum Status {
     Failed,
 }
 
-/// A robot's program: a pure state machine that owns its primitives.
+/// A robot's program: a pure state machine that owns its primitives, and shows them by [`Primitives`].
 ///
 /// The host calls [`Program::start`] once, then [`Program::activate`] every control period: one pass
 /// over the guarded actions in the order written, each enabled action firing once (thesis, section
 /// 2.2). [`Program::receive`] runs when a message arrives.
-pub trait Program: DynClone + Send + Sync {
+pub trait Program: Primitives + DynClone + Send + Sync {
     /// Runs once, before anything else, and again when the robot restarts after a crash (on a fresh
     /// copy of the program).
     fn start(&mut self, robot: &mut Robot<'_>) {
@@ -49,11 +49,6 @@ pub trait Program: DynClone + Send + Sync {
     /// ([`Order::WAY_POINTS`]).
     fn told(&mut self, robot: &mut Robot<'_>, order: &Order) {
         let _ = (robot, order);
-    }
-
-    /// Shows each primitive that the program owns to `visit`, always in the same order.
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        let _ = visit;
     }
 
     /// Overwrites the program's variables at random, within their types, as a transient fault would

@@ -1,7 +1,7 @@
 //! The handle through which a program sees and moves its robot (the thesis's global variable holder).
 
 use crate::effect::Effects;
-use crate::event::{Fields, Level, Mark, MarkShape, Name, Value};
+use crate::event::{Fields, Level, Mark, MarkShape, Name, PrimitiveEvent, Value};
 use crate::message::{self, Message, Payload};
 use crate::motion::{Body, Obstacles, PlanRequest};
 use crate::{
@@ -201,20 +201,11 @@ impl<'a> Robot<'a> {
         self.push(Effect::Record(Event::Program { name, fields }));
     }
 
-    /// Reports a command to, or an outcome of, the primitive instance at `port`.
-    pub fn emit_primitive<const N: usize>(
-        &mut self,
-        primitive: &'static str,
-        port: Port,
-        name: &'static str,
-        fields: [(&'static str, Value); N],
-    ) {
-        self.push(Effect::Record(Event::Primitive {
-            primitive: primitive.into(),
-            port,
-            name: name.into(),
-            fields: named(fields),
-        }));
+    /// For primitives: reports a command to, or an outcome of, the instance at `port`. A primitive that is not the
+    /// platform's makes its events by [`PrimitiveEvent::named`].
+    pub fn report(&mut self, port: Port, event: impl Into<PrimitiveEvent>) {
+        let event = event.into();
+        self.push(Effect::Record(Event::Primitive { port, event }));
     }
 
     /// Writes a line to the robot's log.

@@ -6,7 +6,7 @@ use crate::robot::{Local, Surroundings};
 use crate::robots::Outcome;
 use crate::search::{HEAD, Search};
 use starl_core::RobotId;
-use starl_sim::properties::Violation;
+use starl_properties::Violation;
 
 /// The property that is violated where nothing can happen any more and not all robots have finished.
 pub const STUCK: &str = "explore.stuck";

@@ -34,7 +34,7 @@ pub use step::{Datagram, Step};
 pub use walk::{Impossible, Moment, Walk};
 
 use starl_core::{Event, RobotId, Time};
-use starl_sim::properties::{Checker, Violation};
+use starl_properties::{Checker, Violation};
 
 /// What is explored, how far, and what is to hold.
 #[derive(Clone)]

@@ -7,6 +7,7 @@ use crate::bounds::Clocks;
 use crate::model::{Member, Model};
 use crate::step::Datagram;
 use crate::texts::fingerprint;
+use starl_core::event::Fault;
 use starl_core::random::hash_key;
 use starl_core::{
     Agent, Destination, Duration, Estimate, Event, Input, Message, MotionRequest, Port, Random,
@@ -206,7 +207,7 @@ impl Turn {
     fn start(&mut self, surroundings: &Surroundings) {
         let local = &mut self.local;
         if local.life > 0 {
-            self.events.push(Event::Fault("restart".into()));
+            self.events.push(Event::Fault(Fault::Restart));
         }
         let agent = surroundings.agent(local.robot(), local.life);
         let now = surroundings.time(local.clock);
@@ -220,7 +221,7 @@ impl Turn {
     fn crash(&mut self) {
         self.local.node.crash();
         self.local.history = 0;
-        self.events.push(Event::Fault("crash".into()));
+        self.events.push(Event::Fault(Fault::Crash));
     }
 
     fn feed(&mut self, input: Input, surroundings: &Surroundings) {

@@ -3,7 +3,7 @@
 use crate::robot::{Local, Surroundings};
 use starl_core::motion::Obstacles;
 use starl_core::{Pose, RobotId, Time, WayPoint};
-use starl_sim::properties::Violation;
+use starl_properties::Violation;
 use std::any::Any;
 
 /// Judges states one by one, whatever came before.

@@ -14,9 +14,9 @@ use crate::step::Step;
 use crate::table::Table;
 use crate::walk::Walk;
 use crate::watch::Watches;
+use starl_core::event::PrimitiveEvent;
 use starl_core::{Event, RobotId};
-use starl_sim::properties::Violation;
-use std::collections::BTreeSet;
+use starl_properties::Violation;
 
 /// A search under way.
 #[derive(Clone)]
@@ -204,17 +204,12 @@ impl Search {
         }
     }
 
-    /// What primitives have told of in some behaviour: their kinds, and the names of the events. About what
-    /// never happens nothing is found out.
-    pub fn told(&self) -> BTreeSet<(&str, &str)> {
-        let events = self.robots.all_events();
-        let told = events.filter_map(|event| match event {
-            Event::Primitive {
-                primitive, name, ..
-            } => Some((&**primitive, &**name)),
+    /// What primitives have told of in some behaviour. About what never happens nothing is found out.
+    pub fn told(&self) -> impl Iterator<Item = &PrimitiveEvent> {
+        self.robots.all_events().filter_map(|event| match event {
+            Event::Primitive { event, .. } => Some(event),
             _ => None,
-        });
-        told.collect()
+        })
     }
 
     fn go_on(&mut self) {

@@ -13,7 +13,7 @@ use crate::step::{Datagram, Step};
 use crate::watch::{self, Checkers};
 use starl_core::event::DropReason;
 use starl_core::{Destination, Event, Payload, Record, RobotId, Time};
-use starl_sim::properties::Violation;
+use starl_properties::Violation;
 use std::cmp::Reverse;
 use std::fmt;
 

@@ -11,7 +11,7 @@
 use crate::table::Table;
 use crate::texts::Texts;
 use starl_core::{Duration, Event, Record, RobotId, Time};
-use starl_sim::properties::{Checker, Violation};
+use starl_properties::{Checker, Violation};
 
 /// A state of all checkers.
 pub(crate) type Checkers = Vec<Box<dyn Checker>>;

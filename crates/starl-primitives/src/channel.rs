@@ -3,7 +3,8 @@
 use crate::reliable::{Arrival, MessageId, Notice, Notices, Options, Reliable};
 use alloc::collections::VecDeque;
 use alloc::vec::Vec;
-use starl_core::{Input, Payload, Port, Robot, RobotId};
+use starl_core::event::{BroadcastEvent, PrimitiveEvent, TransferEvent, UnicastEvent};
+use starl_core::{Duration, Input, Payload, Port, Robot, RobotId};
 
 /// Failures that nobody asks for are kept up to this number, the latest.
 const MOST_FAILURES: usize = 64;
@@ -18,23 +19,31 @@ pub struct Failure {
     pub unreached: Vec<RobotId>,
 }
 
+/// Which primitive sends and reports.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Carrier {
+    Unicast,
+    Broadcast,
+    Geocast,
+}
+
 /// An end of the protocol that reports under the name of a primitive.
 #[derive(Clone, Debug)]
 pub(crate) struct Channel {
     pub reliable: Reliable,
     pub port: Port,
-    pub primitive: &'static str,
+    carrier: Carrier,
     failures: VecDeque<Failure>,
 }
 
 impl Channel {
-    pub fn new(primitive: &'static str, name: &str, options: Options) -> Channel {
+    pub fn new(carrier: Carrier, name: &str, options: Options) -> Channel {
         let port = Port::named(name);
         let reliable = Reliable::new(port, options);
         Channel {
             reliable,
             port,
-            primitive,
+            carrier,
             failures: VecDeque::new(),
         }
     }
@@ -73,9 +82,9 @@ impl Channel {
         self.settle(robot, notices)
     }
 
-    /// How long copies of a message are sent, in seconds, for trace events.
-    pub fn retry_span(&self) -> f64 {
-        self.reliable.options().retry_span().seconds()
+    /// How long copies of a message are sent.
+    pub fn retry_span(&self) -> Duration {
+        self.reliable.options().retry_span()
     }
 
     /// The failures since the last call.
@@ -90,9 +99,16 @@ impl Channel {
             match notice {
                 Notice::Arrived(_) | Notice::Settled { .. } => heard.push(notice),
                 Notice::Repeated { message, to } => self.report_repeated(robot, message, &to),
-                Notice::Acknowledged(message) => self.report_acknowledged(robot, message),
+                Notice::Acknowledged(id) => {
+                    let (message, to) = (id.numbered(), id.to);
+                    self.report(robot, TransferEvent::Acknowledged { message, to });
+                }
                 Notice::Failed { message, unreached } => {
-                    self.report_failed(robot, message, &unreached);
+                    let fail = TransferEvent::Fail {
+                        message: message.numbered(),
+                        to: unreached.clone(),
+                    };
+                    self.report(robot, fail);
                     if self.failures.len() == MOST_FAILURES {
                         self.failures.pop_front();
                     }
@@ -104,76 +120,18 @@ impl Channel {
     }
 
     fn report_repeated(&self, robot: &mut Robot<'_>, message: MessageId, to: &[RobotId]) {
-        for &peer in to {
-            robot.emit_primitive(
-                self.primitive,
-                self.port,
-                "retransmit",
-                [
-                    ("number", message.number.into()),
-                    ("incarnation", message.incarnation.into()),
-                    ("to", peer.into()),
-                ],
-            );
+        let message = message.numbered();
+        for &to in to {
+            self.report(robot, TransferEvent::Retransmit { message, to });
         }
     }
 
-    fn report_acknowledged(&self, robot: &mut Robot<'_>, message: MessageId) {
-        let MessageId {
-            incarnation,
-            to,
-            number,
-        } = message;
-        let (number, incarnation) = (
-            ("number", number.into()),
-            ("incarnation", incarnation.into()),
-        );
-        match to {
-            None => robot.emit_primitive(
-                self.primitive,
-                self.port,
-                "acknowledged",
-                [number, incarnation],
-            ),
-            Some(to) => robot.emit_primitive(
-                self.primitive,
-                self.port,
-                "acknowledged",
-                [number, incarnation, ("to", to.into())],
-            ),
-        }
+    fn report(&self, robot: &mut Robot<'_>, event: TransferEvent) {
+        let event = match self.carrier {
+            Carrier::Unicast => UnicastEvent::from(event).into(),
+            Carrier::Broadcast => BroadcastEvent::from(event).into(),
+            Carrier::Geocast => PrimitiveEvent::Geocast(event.into()),
+        };
+        robot.report(self.port, event);
     }
-
-    fn report_failed(&self, robot: &mut Robot<'_>, message: MessageId, unreached: &[RobotId]) {
-        robot.emit_primitive(
-            self.primitive,
-            self.port,
-            "fail",
-            [
-                ("number", message.number.into()),
-                ("incarnation", message.incarnation.into()),
-                ("to", unreached.to_vec().into()),
-            ],
-        );
-    }
-}
-
-/// Reports what became of a message at its receiver.
-pub(crate) fn report_arrival(
-    robot: &mut Robot<'_>,
-    primitive: &'static str,
-    port: Port,
-    name: &'static str,
-    arrival: &Arrival,
-) {
-    robot.emit_primitive(
-        primitive,
-        port,
-        name,
-        [
-            ("from", arrival.from.into()),
-            ("number", arrival.number.into()),
-            ("incarnation", arrival.incarnation.into()),
-        ],
-    );
 }

@@ -15,13 +15,13 @@
 //! by that, whichever is safe.
 
 use crate::Failure;
-use crate::channel::{Channel, report_arrival};
+use crate::channel::{Carrier, Channel};
 use crate::reliable::{MessageId, Options, encode};
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 use serde::Serialize;
+use starl_core::event::{GeocastEvent, TransferEvent};
 use starl_core::{Area, Duration, Input, Payload, Port, Primitive, Robot, message};
-
-const KIND: &str = "geocast";
 
 /// Sends messages to the other robots in an area. What arrives is handed to
 /// [`starl_core::Program::receive`] with this primitive's port.
@@ -31,7 +31,7 @@ pub struct Geocast(Channel);
 impl Geocast {
     /// An instance; those of the same name on all robots talk to each other.
     pub fn new(name: &str, options: Options) -> Geocast {
-        Geocast(Channel::new(KIND, name, options))
+        Geocast(Channel::new(Carrier::Geocast, name, options))
     }
 
     /// Sends `content` to every other robot in the area. An area that is not valid holds nobody.
@@ -42,17 +42,12 @@ impl Geocast {
         area: &Area,
     ) -> MessageId {
         let message = self.0.reliable.next_to_all(robot);
-        robot.emit_primitive(
-            KIND,
-            self.0.port,
-            "geocast",
-            [
-                ("number", message.number.into()),
-                ("incarnation", message.incarnation.into()),
-                ("retry_span", self.0.retry_span().into()),
-                ("area", area.clone().into()),
-            ],
-        );
+        let geocast = GeocastEvent::Geocast {
+            message: message.numbered(),
+            retry_span: self.0.retry_span(),
+            area: Box::new(area.clone()),
+        };
+        robot.report(self.0.port, geocast);
         self.0
             .send_to_peers(robot, encode(&(area, encode(content))))
     }
@@ -86,8 +81,12 @@ impl Primitive for Geocast {
                 return;
             };
             let inside = area.is_valid() && area.contains(robot.position());
-            let name = if inside { "deliver" } else { "outside" };
-            report_arrival(robot, KIND, port, name, &arrival);
+            let (from, message) = arrival.numbered();
+            let event = match inside {
+                true => TransferEvent::Deliver { from, message }.into(),
+                false => GeocastEvent::Outside { from, message },
+            };
+            robot.report(port, event);
             if inside {
                 robot.deliver(arrival.from, port, content);
             }

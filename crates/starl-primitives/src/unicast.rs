@@ -3,12 +3,11 @@
 //! Property: as of Broadcast, for the one receiver.
 
 use crate::Failure;
-use crate::channel::{Channel, report_arrival};
+use crate::channel::{Carrier, Channel};
 use crate::reliable::{MessageId, Options, encode};
 use serde::Serialize;
+use starl_core::event::{TransferEvent, UnicastEvent};
 use starl_core::{Duration, Input, Port, Primitive, Robot, RobotId};
-
-const KIND: &str = "unicast";
 
 /// Sends messages to single robots. What arrives is handed to [`starl_core::Program::receive`] with
 /// this primitive's port.
@@ -18,7 +17,7 @@ pub struct Unicast(Channel);
 impl Unicast {
     /// An instance; those of the same name on all robots talk to each other.
     pub fn new(name: &str, options: Options) -> Unicast {
-        Unicast(Channel::new(KIND, name, options))
+        Unicast(Channel::new(Carrier::Unicast, name, options))
     }
 
     /// Sends `content` to one robot. A message to itself fails after the retries like one to a robot
@@ -30,17 +29,12 @@ impl Unicast {
         content: &T,
     ) -> MessageId {
         let message = self.0.reliable.next_to(robot, to);
-        robot.emit_primitive(
-            KIND,
-            self.0.port,
-            "send",
-            [
-                ("number", message.number.into()),
-                ("incarnation", message.incarnation.into()),
-                ("retry_span", self.0.retry_span().into()),
-                ("to", to.into()),
-            ],
-        );
+        let send = UnicastEvent::Send {
+            message: message.numbered(),
+            retry_span: self.0.retry_span(),
+            to,
+        };
+        robot.report(self.0.port, send);
         self.0.send(robot, to, encode(content))
     }
 
@@ -69,7 +63,11 @@ impl Primitive for Unicast {
     fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
         let port = self.0.port;
         self.0.handle(robot, input, |robot, arrival| {
-            report_arrival(robot, KIND, port, "deliver", &arrival);
+            let (from, message) = arrival.numbered();
+            robot.report(
+                port,
+                UnicastEvent::from(TransferEvent::Deliver { from, message }),
+            );
             robot.deliver(arrival.from, port, arrival.content);
         });
     }

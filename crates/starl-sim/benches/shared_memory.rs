@@ -12,7 +12,7 @@
     reason = "a benchmark reads the clock, nothing else does"
 )]
 
-use starl_core::{Command, Duration, Point, Pose, Primitive, Program, Robot, message};
+use starl_core::{Command, Duration, Point, Pose, Primitives, Program, Robot, message};
 use starl_motion::models;
 use starl_primitives::SharedMemory;
 use starl_primitives::shared_memory::Options;
@@ -31,7 +31,7 @@ const SIDE: f64 = 4.0;
 const SETTLING: u64 = 5;
 const MEASURED: u64 = 10;
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct Sharer {
     /// So many robots in a row share a memory.
     members: u32,
@@ -61,10 +61,6 @@ impl Program for Sharer {
         let positions = self.memory.all("position");
         let read = positions.filter_map(|(_, value)| message::decode::<Point>(value));
         self.known = read.count();
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.memory);
     }
 
     fn inspect(&self) -> Option<&dyn Any> {

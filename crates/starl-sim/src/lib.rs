@@ -7,7 +7,6 @@
 
 pub mod engine;
 pub mod profile;
-pub mod properties;
 pub mod read;
 pub mod run;
 pub mod scenario;
@@ -17,6 +16,6 @@ pub mod write;
 
 pub use engine::Simulation;
 pub use profile::Profile;
-pub use run::{Failure, Outcome, Run, Verdict};
+pub use run::{Failure, Outcome, Run, setting};
 pub use scenario::Scenario;
 pub use trial::{Finding, Trial};

@@ -2,24 +2,18 @@
 //! of it.
 
 use crate::engine::{Programs, Simulation, StartError};
-use crate::properties::{self, Checker, Kinds, Monitor, Setting, Violation, Witness};
 use crate::scenario::{Bounds, Goal, Group, Scenario};
 use starl_core::event::{Event, Name};
 use starl_core::{Record, RobotId, Time};
+use starl_properties::{Excuse, Monitor, Setting, Verdict, Violation, Watch};
 
 /// A scenario under way and under watch.
 #[derive(Clone)]
 pub struct Run {
     simulation: Simulation,
-    checkers: Vec<Box<dyn Checker>>,
-    monitors: Vec<Box<dyn Monitor>>,
-    violations: Vec<Violation>,
+    watch: Watch,
     failures: Vec<Failure>,
-    /// The primitives that have reported something.
-    used: Vec<Name>,
     records: Vec<Record>,
-    /// Those of the records of the last step.
-    kinds: Vec<Kinds>,
 }
 
 /// What a run has come to.
@@ -47,22 +41,6 @@ impl Outcome {
     }
 }
 
-/// What the checkers and monitors say of one property.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Verdict {
-    /// The property.
-    pub property: Name,
-    /// How often it was violated.
-    pub violations: usize,
-    /// The first time.
-    pub first: Option<Violation>,
-    /// Whether it has not been violated, but would be if nothing more happened: it demands something
-    /// by a time that has not come.
-    pub open: bool,
-    /// Whether anything took place that it speaks of: a property of a primitive that nobody used says nothing.
-    pub used: bool,
-}
-
 /// A program that cannot go on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
@@ -77,25 +55,20 @@ pub struct Failure {
 impl Run {
     /// Sets up a run: see [`Simulation::new`].
     pub fn new(scenario: Scenario, programs: &Programs<'_>) -> Result<Run, StartError> {
-        let setting = Setting::of(&scenario);
-        let checkers = properties::checkers(&scenario, &setting);
+        let checkers = starl_properties::checkers(&setting(&scenario));
         let mut simulation = Simulation::new(scenario, programs)?;
         simulation.set_recording(true);
         Ok(Run {
             simulation,
-            checkers,
-            monitors: Vec::new(),
-            violations: Vec::new(),
+            watch: Watch::new(checkers),
             failures: Vec::new(),
-            used: Vec::new(),
             records: Vec::new(),
-            kinds: Vec::new(),
         })
     }
 
     /// Has the run watched by one more; to be called before the first step.
     pub fn add_monitor(&mut self, monitor: Box<dyn Monitor>) {
-        self.monitors.push(monitor);
+        self.watch.add_monitor(monitor);
     }
 
     /// The simulation.
@@ -111,21 +84,24 @@ impl Run {
     /// Advances by one physics step and returns what happened, violations included.
     pub fn step(&mut self) -> &[Record] {
         let before = self.simulation.now();
-        let known = self.violations.len();
+        let known = self.watch.violations().len();
         self.advance();
         self.records.clear();
         self.records.extend_from_slice(self.simulation.records());
-        self.records
-            .extend(self.violations[known..].iter().map(|violation| Record {
-                // A bound may have run out, or a pose been taken, a little earlier.
-                at: violation.at.max(before),
-                robot: violation.robots.first().copied(),
-                event: Event::Violated {
-                    property: violation.property.clone(),
-                    text: violation.text.clone().into(),
-                },
-            }));
-        if self.violations.len() > known {
+        self.records.extend(
+            self.watch.violations()[known..]
+                .iter()
+                .map(|violation| Record {
+                    // A bound may have run out, or a pose been taken, a little earlier.
+                    at: violation.at.max(before),
+                    robot: violation.robots.first().copied(),
+                    event: Event::Violated {
+                        property: violation.property.clone(),
+                        text: violation.text.clone().into(),
+                    },
+                }),
+        );
+        if self.watch.violations().len() > known {
             self.records.sort_by_key(|record| record.at);
         }
         &self.records
@@ -135,30 +111,8 @@ impl Run {
     pub fn advance(&mut self) {
         self.simulation.step();
         let records = self.simulation.records();
-        self.kinds.clear();
-        self.kinds
-            .extend(records.iter().map(|record| Kinds::of(&record.event)));
-        for record in records {
-            if let Event::Primitive { primitive, .. } = &record.event
-                && !self.used.contains(primitive)
-            {
-                self.used.push(primitive.clone());
-            }
-        }
-        for checker in &mut self.checkers {
-            let mut heeds = checker.heeds();
-            for (record, &kind) in records.iter().zip(&self.kinds) {
-                if heeds.meets(kind) {
-                    checker.observe(record, &mut self.violations);
-                    heeds = checker.heeds();
-                }
-            }
-            checker.advance(self.simulation.now(), &mut self.violations);
-        }
-        let witness = Witness::new(&self.simulation);
-        for monitor in &mut self.monitors {
-            monitor.observe(&witness, &mut self.violations);
-        }
+        self.watch.observe(records, self.simulation.now());
+        self.watch.witness(&self.simulation);
         self.failures
             .extend(self.simulation.records().iter().filter_map(Failure::of));
     }
@@ -189,7 +143,7 @@ impl Run {
             Outcome::Failed
         } else if !reached {
             Outcome::TimedOut
-        } else if self.violations.is_empty() {
+        } else if self.watch.violations().is_empty() {
             Outcome::Reached
         } else {
             Outcome::Violated
@@ -198,7 +152,20 @@ impl Run {
 
     /// All violations so far.
     pub fn violations(&self) -> &[Violation] {
-        &self.violations
+        self.watch.violations()
+    }
+
+    /// How often something was excused that speaks against a property, and why.
+    pub fn excused(&self) -> Vec<(Name, Excuse, u64)> {
+        self.watch.excused()
+    }
+
+    /// What the checkers know of the run: what a trace of it holds for others to judge it by.
+    pub fn setting(&self) -> Setting {
+        Setting {
+            monitored: self.watch.monitored().collect(),
+            ..setting(self.simulation.scenario())
+        }
     }
 
     /// All programs so far that cannot go on.
@@ -208,41 +175,7 @@ impl Run {
 
     /// What the checkers and monitors say of each property they watch.
     pub fn verdicts(&self) -> Vec<Verdict> {
-        let checked = self.checkers.iter().flat_map(|checker| {
-            let properties = checker.properties().iter();
-            properties.map(|&property| {
-                let used = self.is_used(property) && checker.has_subject(property);
-                (Name::from(property), false, used)
-            })
-        });
-        let monitored = self.monitors.iter().flat_map(|monitor| {
-            let properties = monitor.properties().into_iter().enumerate();
-            properties.map(|(index, property)| (property, monitor.is_open(index), true))
-        });
-        checked
-            .chain(monitored)
-            .map(|(property, open, used)| self.verdict(property, open, used))
-            .collect()
-    }
-
-    /// Whether the primitive that a checker's property is called after has been used. What is called after none
-    /// is about the world.
-    fn is_used(&self, property: &str) -> bool {
-        let primitive = property.split_once('.').map(|(primitive, _)| primitive);
-        primitive.is_none_or(|primitive| self.used.iter().any(|used| used == primitive))
-    }
-
-    fn verdict(&self, property: Name, open: bool, used: bool) -> Verdict {
-        let mut against = self.violations.iter().filter(|v| v.property == property);
-        let first = against.next().cloned();
-        let violations = usize::from(first.is_some()) + against.count();
-        Verdict {
-            property,
-            violations,
-            open: open && first.is_none(),
-            used: used || first.is_some(),
-            first,
-        }
+        self.watch.verdicts()
     }
 }
 
@@ -259,24 +192,30 @@ impl Failure {
     }
 }
 
-impl Setting {
-    /// What a scenario says of bodies and obstacles.
-    pub fn of(scenario: &Scenario) -> Setting {
-        let groups = &scenario.fleet.groups;
-        let body = |group: &Group| vec![group.model.body(); group.starts.len()];
-        let obstacles = scenario.world.obstacles.iter();
-        let walls = scenario
-            .world
-            .bounds
-            .as_ref()
-            .map_or(Vec::new(), Bounds::walls);
-        Setting {
-            walls: walls.len(),
-            bodies: groups.iter().flat_map(body).collect(),
-            obstacles: obstacles
-                .map(|entry| (entry.obstacle.clone(), entry.expires))
-                .chain(walls.into_iter().map(|wall| (wall, Time::NEVER)))
-                .collect(),
-        }
+/// What a scenario says of bodies, obstacles and what is to be checked.
+pub fn setting(scenario: &Scenario) -> Setting {
+    let groups = &scenario.fleet.groups;
+    let body = |group: &Group| vec![group.model.body(); group.starts.len()];
+    let obstacles = scenario.world.obstacles.iter();
+    let walls = scenario
+        .world
+        .bounds
+        .as_ref()
+        .map_or(Vec::new(), Bounds::walls);
+    let drifts = groups.iter().map(|group| group.clock.drift_ppm);
+    Setting {
+        walls: walls.len(),
+        bodies: groups.iter().flat_map(body).collect(),
+        obstacles: obstacles
+            .map(|entry| (entry.obstacle.clone(), entry.expires))
+            .chain(walls.into_iter().map(|wall| (wall, Time::NEVER)))
+            .collect(),
+        properties: scenario.properties,
+        monitored: Vec::new(),
+        step: scenario.physics.step,
+        pose_period: scenario.trace.pose_period,
+        estimate_period: scenario.positioning.period,
+        position_noise: scenario.positioning.position_noise,
+        clock_drift: drifts.fold(0.0, f64::max) * 1e-6,
     }
 }

@@ -3,6 +3,7 @@
 use crate::run::{Outcome, Run};
 use starl_core::Time;
 use starl_core::event::Name;
+use starl_properties::Excuse;
 use std::fmt;
 
 /// What went wrong in a run.
@@ -27,6 +28,8 @@ pub struct Trial {
     pub text: String,
     /// When the run ended.
     pub end: Time,
+    /// How often something was excused that speaks against a property, and why.
+    pub excused: Vec<(Name, Excuse, u64)>,
 }
 
 impl Trial {
@@ -56,6 +59,7 @@ impl Trial {
             finding,
             text,
             end: run.simulation().now(),
+            excused: run.excused(),
         }
     }
 }

@@ -9,6 +9,7 @@ use crate::json::from_base64;
 use crate::wire;
 use serde::Deserialize;
 use starl_core::event::{DropReason, Hit, Level, Mark, Name};
+use starl_core::event::{Fault, PrimitiveEvent};
 use starl_core::{Destination, Event, Intervention, Payload, Point, Port, Pose, RobotId};
 
 /// A decoded message: on which robot, and what happened. The error says what is wrong with it.
@@ -193,11 +194,10 @@ fn primitive(text: &[u8]) -> Decoded {
         fields: Vec<wire::Field>,
     }
     let message: Message = parse(text)?;
+    let fields = wire::fields(message.fields)?;
     let event = Event::Primitive {
-        primitive: message.primitive.into(),
         port: message.port,
-        name: message.name.into(),
-        fields: wire::fields(message.fields)?,
+        event: PrimitiveEvent::named(message.primitive, message.name, fields),
     };
     Ok((message.robot, event))
 }
@@ -246,7 +246,7 @@ fn fault(text: &[u8]) -> Decoded {
         text: String,
     }
     let Message { robot, text } = parse(text)?;
-    Ok((robot, Event::Fault(text.into())))
+    Ok((robot, Event::Fault(Fault::named(text.into()))))
 }
 
 fn discovered(text: &[u8]) -> Decoded {

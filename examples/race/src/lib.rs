@@ -19,7 +19,7 @@
 
 #![no_std]
 
-use starl_core::{Message, Primitive, Program, Random, Robot, WayPoint};
+use starl_core::{Message, Primitive, Primitives, Program, Random, Robot, WayPoint};
 use starl_primitives::{Broadcast, ReachAvoid, reach_avoid, reliable};
 
 /// What the robot does next.
@@ -43,7 +43,7 @@ pub struct Options {
 }
 
 /// The program of one robot.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Primitives)]
 pub struct Race {
     location: Location,
     /// The way-point to go to, counted from 0; their number when there are no more.
@@ -168,11 +168,6 @@ impl Program for Race {
                 self.location = Location::Pick;
             }
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.reach_avoid);
-        visit(&mut self.broadcast);
     }
 
     fn corrupt(&mut self, random: &mut Random) {

@@ -7,7 +7,7 @@ use starl_explore::{Invariant, Scene};
 use starl_lang::machine::{Claim, State};
 use starl_lang::robot::properties::{Fleet, Judge};
 use starl_lang::robot::{Code, RobotProgram};
-use starl_sim::properties::Violation;
+use starl_properties::Violation;
 use std::sync::Arc;
 
 /// The `always` properties of one program on the robots that run it. What is to come, or to follow, is

@@ -6,7 +6,7 @@ use starl_core::{Duration, Point, Pose, RobotId, WayPoint};
 use starl_lang::machine::State;
 use starl_lang::robot::properties::{Fleet, Judge, Standing};
 use starl_lang::robot::{Code, RobotProgram};
-use starl_sim::properties::{Monitor, Violation, Witness};
+use starl_properties::{Monitor, Violation, Witness};
 use std::sync::Arc;
 
 /// Watches the properties of one program on the robots that run it.
@@ -40,7 +40,7 @@ impl Monitor for ProgramMonitor {
         self.names.to_vec()
     }
 
-    fn observe(&mut self, witness: &Witness<'_>, violations: &mut Vec<Violation>) {
+    fn observe(&mut self, witness: &dyn Witness, violations: &mut Vec<Violation>) {
         let members = Members {
             witness,
             robots: &self.robots,
@@ -65,7 +65,7 @@ impl Monitor for ProgramMonitor {
 
 /// The robots that run the program, in the simulation.
 struct Members<'a> {
-    witness: &'a Witness<'a>,
+    witness: &'a dyn Witness,
     robots: &'a [RobotId],
 }
 
@@ -118,7 +118,7 @@ impl Fleet for Members<'_> {
     }
 
     fn way_points(&self) -> Option<&[WayPoint]> {
-        Some(&self.witness.scenario().world.way_points)
+        Some(self.witness.way_points())
     }
 
     fn obstacles(&self) -> Option<Obstacles> {

@@ -3,7 +3,7 @@
 //! same sum of repulsions).
 
 use starl_core::math::{self, radians};
-use starl_core::{Command, Program, Robot};
+use starl_core::{Command, Primitives, Program, Robot};
 
 /// Speed of the wheels that turn, metres per second.
 const SPEED: f64 = 0.05;
@@ -13,7 +13,7 @@ const NEGLIGIBLE: f64 = 0.1;
 const AHEAD: f64 = 7.5;
 
 /// The program of one robot; it remembers nothing.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Primitives)]
 pub struct Diffusion;
 
 impl Program for Diffusion {

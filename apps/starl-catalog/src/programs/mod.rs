@@ -1,10 +1,11 @@
-//! The programs that scenarios can name, and how each is made from its parameters.
+//! The programs in Rust that scenarios can name, and how each is made from its parameters.
 //!
-//! To add a program, add a line to [`PROGRAMS`].
+//! To add a program to those that we ship, add a line to [`Registry::default`].
 
 mod diffusion;
 mod radio;
 
+use crate::language::SUFFIX;
 use crate::parameters::{Complaint, Parameters};
 use diffusion::Diffusion;
 use radio::Radio;
@@ -14,34 +15,95 @@ use starl_primitives::{reach_avoid, reliable};
 use starl_race::Race;
 use starl_sim::read::suggest;
 use starl_sim::scenario::Group;
+use std::fmt;
+use std::sync::Arc;
+
+/// The programs in Rust that scenarios can name. A front end hands it to [`read`](crate::read), so that two
+/// front ends in one process may know different programs.
+#[derive(Clone, Debug)]
+pub struct Registry(Vec<Entry>);
 
 /// A program with its name.
+#[derive(Clone)]
 pub struct Entry {
     /// What scenarios call it.
-    pub name: &'static str,
+    pub name: String,
     /// What it does, in one line.
-    pub summary: &'static str,
-    make: fn(&mut Parameters<'_>) -> Box<dyn Program>,
+    pub summary: String,
+    make: Arc<Make>,
 }
 
-/// All programs.
-pub const PROGRAMS: [Entry; 3] = [
-    Entry {
-        name: "race",
-        summary: "run through the way-points; who is first sends all on",
-        make: race,
-    },
-    Entry {
-        name: "diffusion",
-        summary: "drive straight, turn away from what the proximity rays see",
-        make: |_| Box::new(Diffusion),
-    },
-    Entry {
-        name: "radio",
-        summary: "drive in circles and broadcast four bytes at every activation",
-        make: |_| Box::new(Radio::default()),
-    },
-];
+type Make = dyn Fn(&mut Parameters<'_>) -> Box<dyn Program> + Send + Sync;
+
+impl fmt::Debug for Entry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name)
+    }
+}
+
+impl Default for Registry {
+    /// The programs that StarL ships with.
+    fn default() -> Registry {
+        let race = "run through the way-points; who is first sends all on";
+        let diffusion = "drive straight, turn away from what the proximity rays see";
+        let radio = "drive in circles and broadcast four bytes at every activation";
+        Registry(Vec::new())
+            .with("race", race, |parameters| {
+                Race::new(race_options(parameters))
+            })
+            .with("diffusion", diffusion, |_| Diffusion)
+            .with("radio", radio, |_| Radio::default())
+    }
+}
+
+impl Registry {
+    /// With one more program: its name in scenarios, what it does in one line, and how a robot's program is
+    /// made from the parameters of its group.
+    ///
+    /// # Panics
+    /// If the name is empty, is taken, or ends in `.starl`, which names files.
+    #[must_use]
+    pub fn with<P: Program + 'static>(
+        mut self,
+        name: &str,
+        summary: &str,
+        make: impl Fn(&mut Parameters<'_>) -> P + Send + Sync + 'static,
+    ) -> Registry {
+        let is_free = self.entries().iter().all(|entry| entry.name != name);
+        assert!(is_free, "there is a program {name:?} already");
+        let is_name = !name.is_empty() && !name.ends_with(SUFFIX);
+        assert!(is_name, "{name:?} cannot be the name of a program in Rust");
+        self.0.push(Entry {
+            name: name.to_string(),
+            summary: summary.to_string(),
+            make: Arc::new(move |parameters| Box::new(make(parameters))),
+        });
+        self
+    }
+
+    /// All programs, in the order in which they were added.
+    pub fn entries(&self) -> &[Entry] {
+        &self.0
+    }
+
+    /// Makes the program of a group of robots.
+    ///
+    /// # Errors
+    /// Where there is no such program, or it does not take the parameters as they are.
+    pub fn make(&self, group: &Group) -> Result<Box<dyn Program>, Complaint> {
+        let Some(entry) = self.0.iter().find(|entry| entry.name == group.program) else {
+            let names: Vec<&str> = self.0.iter().map(|entry| &*entry.name).collect();
+            return Err(Complaint {
+                field: "program".to_string(),
+                message: format!("there is no program {:?}", group.program),
+                help: suggest::help(&group.program, &names, "there are").unwrap_or_default(),
+            });
+        };
+        let mut parameters = Parameters::new(&group.parameters);
+        let program = (entry.make)(&mut parameters);
+        parameters.finish(program)
+    }
+}
 
 /// The names of the planners.
 pub const PLANNERS: [(&str, Planner); 4] = [
@@ -51,31 +113,11 @@ pub const PLANNERS: [(&str, Planner); 4] = [
     ("rrt-star", Planner::RrtStar),
 ];
 
-/// Makes the program of a group of robots.
-///
-/// # Errors
-/// Where there is no such program, or it does not take the parameters as they are.
-pub fn make(group: &Group) -> Result<Box<dyn Program>, Complaint> {
-    let Some(entry) = PROGRAMS.iter().find(|entry| entry.name == group.program) else {
-        let names: Vec<&str> = PROGRAMS.iter().map(|entry| entry.name).collect();
-        return Err(Complaint {
-            field: "program".to_string(),
-            message: format!("there is no program {:?}", group.program),
-            help: suggest::help(&group.program, &names, "there are").unwrap_or_default(),
-        });
-    };
-    let mut parameters = Parameters::new(&group.parameters);
-    let program = (entry.make)(&mut parameters);
-    parameters.finish(program)
-}
-
-fn race(parameters: &mut Parameters<'_>) -> Box<dyn Program> {
-    let reach_avoid = reach_avoid_options(parameters);
-    let broadcast = reliable_options(parameters);
-    Box::new(Race::new(starl_race::Options {
-        reach_avoid,
-        broadcast,
-    }))
+fn race_options(parameters: &mut Parameters<'_>) -> starl_race::Options {
+    starl_race::Options {
+        reach_avoid: reach_avoid_options(parameters),
+        broadcast: reliable_options(parameters),
+    }
 }
 
 fn reach_avoid_options(parameters: &mut Parameters<'_>) -> reach_avoid::Options {
@@ -129,10 +171,14 @@ mod tests {
         }
     }
 
+    fn make(group: &Group) -> Result<Box<dyn Program>, Complaint> {
+        Registry::default().make(group)
+    }
+
     #[test]
     fn every_program_can_be_made_from_its_defaults() {
-        for entry in &PROGRAMS {
-            assert!(make(&group(entry.name, &[])).is_ok(), "{}", entry.name);
+        for entry in Registry::default().entries() {
+            assert!(make(&group(&entry.name, &[])).is_ok(), "{entry:?}");
         }
     }
 

@@ -1,10 +1,10 @@
 //! A robot that drives in circles, broadcasts four bytes at every activation and reads all that it
 //! hears.
 
-use starl_core::{Command, Destination, Message, Payload, Port, Program, Robot};
+use starl_core::{Command, Destination, Message, Payload, Port, Primitives, Program, Robot};
 
 /// The program of one robot.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Primitives)]
 pub struct Radio {
     /// Made of every byte heard so far, in order. It is what the robot sends next, so a run's digest
     /// shows whether every message was read.

@@ -3,6 +3,7 @@
 
 use crate::support::Case;
 use rayon::prelude::*;
+use starl_core::event::{MutexEvent, PrimitiveEvent};
 use starl_core::{Duration, Event, Time};
 use starl_sim::{Outcome, Run};
 
@@ -88,9 +89,9 @@ fn a_quorum_goes_on_after_crashes_and_partitions() {
         while !run.is_over() {
             for record in run.step() {
                 let is_entry = |event: &Event| match event {
-                    Event::Primitive {
-                        primitive, name, ..
-                    } => primitive == "mutex" && name == "enter",
+                    Event::Primitive { event, .. } => {
+                        matches!(event, PrimitiveEvent::Mutex(MutexEvent::Enter { .. }))
+                    }
                     Event::Fault(_) => true,
                     _ => false,
                 };

@@ -47,6 +47,7 @@ fn read(parameters: &str) -> Result<Application, Refusal> {
     starl_catalog::read(
         &Request::new(Source::new("run.toml", scenario)),
         &OneFile(program),
+        &starl_catalog::programs::Registry::default(),
     )
 }
 

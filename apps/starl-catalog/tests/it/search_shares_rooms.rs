@@ -3,6 +3,7 @@
 
 use crate::support::Case;
 use rayon::prelude::*;
+use starl_core::event::{PrimitiveEvent, ReachAvoidEvent};
 use starl_core::{Duration, Event, Point, RobotId, Time, Value};
 use std::collections::BTreeMap;
 
@@ -56,11 +57,10 @@ impl Story {
                     self.deeds.push((at, robot, deed, *room));
                 }
             }
-            Event::Primitive { name, fields, .. } if &**name == "path" => {
-                if let Some((_, Value::Path(path))) = fields.first() {
-                    self.paths.push((robot, path.to_vec()));
-                }
-            }
+            Event::Primitive {
+                event: PrimitiveEvent::ReachAvoid(ReachAvoidEvent::Path { path }),
+                ..
+            } => self.paths.push((robot, path.clone())),
             _ => {}
         }
     }

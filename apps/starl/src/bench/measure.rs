@@ -8,6 +8,7 @@ use crate::threads;
 use cpu_time::ProcessTime;
 use serde::Serialize;
 use starl_catalog::examples::EXAMPLES;
+use starl_catalog::programs::Registry;
 use starl_core::Time;
 use starl_sim::Simulation;
 use starl_sim::read::{Loader, Request, Source};
@@ -95,7 +96,8 @@ pub fn measure(workload: &Workload, threads: usize) -> Result<Figures, Failure> 
 
 fn start(name: &str, scenario: &str) -> Result<Simulation, Failure> {
     let source = Source::new(format!("the scenario of `{name}`"), scenario);
-    let application = starl_catalog::read(&Request::new(source), &Examples).map_err(refused)?;
+    let application = starl_catalog::read(&Request::new(source), &Examples, &Registry::default())
+        .map_err(refused)?;
     application
         .simulation()
         .map_err(|error| Failure(error.message))

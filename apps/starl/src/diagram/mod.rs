@@ -20,6 +20,7 @@ use crate::plot::drawing::Drawing;
 use crate::replay::{inputs, open, unreadable};
 use crate::target::{self, Selection};
 use starl_catalog::Application;
+use starl_catalog::programs::Registry;
 use starl_core::{Duration, Record, Time};
 use std::path::Path;
 use story::Story;
@@ -44,7 +45,7 @@ impl Diagram {
 }
 
 /// Draws what the arguments say.
-pub fn diagram(arguments: &DiagramArguments) -> Result<bool, Failure> {
+pub fn diagram(arguments: &DiagramArguments, registry: &Registry) -> Result<bool, Failure> {
     let picture = Picture::given_as(&arguments.out, "--out")?;
     let extent = Extent {
         last: span(arguments.last.as_deref(), "--last")?,
@@ -54,10 +55,13 @@ pub fn diagram(arguments: &DiagramArguments) -> Result<bool, Failure> {
     let target = Path::new(&arguments.target);
     let Diagram(drawing) = if target.extension().is_some_and(|suffix| suffix == "mcap") {
         refuse_to_overwrite(&arguments.out, target)?;
-        of_trace(target, &extent)?
+        of_trace(target, &extent, registry)?
     } else {
         let seed = arguments.seed.clone();
-        let selection = target::read(&arguments.changes.of(&arguments.target, seed, false))?;
+        let selection = target::read(
+            &arguments.changes.of(&arguments.target, seed, false),
+            registry,
+        )?;
         let Selection {
             application, files, ..
         } = selection;
@@ -96,9 +100,9 @@ pub fn of_records(application: &Application, records: &[Record]) -> Diagram {
 }
 
 /// A run as a trace tells it.
-fn of_trace(path: &Path, extent: &Extent) -> Result<Diagram, Failure> {
+fn of_trace(path: &Path, extent: &Extent, registry: &Registry) -> Result<Diagram, Failure> {
     let mut reader = open(path)?;
-    let application = inputs(path, reader.header())?;
+    let application = inputs(path, reader.header(), registry)?;
     let mut story = Story::of(application.scenario());
     for record in &mut reader {
         story.observe(&record.map_err(|error| unreadable(path, &error))?);

@@ -3,7 +3,7 @@
 //! The trace does not say who is in which part of a partition; the scenario does.
 
 use super::Extent;
-use starl_core::event::{DropReason, Event, Fields, Value};
+use starl_core::event::{DropReason, Event, Fault, ValueRef, borrowed};
 use starl_core::{Port, Record, RobotId, Time};
 use starl_sim::Scenario;
 use starl_sim::engine::timeline;
@@ -156,19 +156,17 @@ impl Story {
 
     fn mark_event(&mut self, event: &Event, robot: RobotId, at: Time) {
         let (text, kind) = match event {
-            Event::Primitive {
-                primitive,
-                port,
-                name,
-                fields,
-            } => {
+            Event::Primitive { port, event } => {
                 self.ports
                     .entry(*port)
-                    .or_insert_with(|| primitive.to_string());
-                (with_fields(name, fields), MarkKind::Primitive(*port))
+                    .or_insert_with(|| event.primitive().to_string());
+                let text = with_fields(event.name(), &event.fields());
+                (text, MarkKind::Primitive(*port))
             }
             Event::Action(name) => (name.to_string(), MarkKind::Program),
-            Event::Program { name, fields } => (with_fields(name, fields), MarkKind::Program),
+            Event::Program { name, fields } => {
+                (with_fields(name, &borrowed(fields)), MarkKind::Program)
+            }
             Event::Finished => ("finished".to_string(), MarkKind::End),
             Event::Failed(_) => ("failed".to_string(), MarkKind::Fault),
             _ => return,
@@ -211,11 +209,11 @@ impl Story {
         }
     }
 
-    fn part(&mut self, fault: &str, at: Time) {
+    fn part(&mut self, fault: &Fault, at: Time) {
         if let Some(last) = self.partitions.last_mut() {
             last.to = last.to.min(at);
         }
-        if fault == "partition" {
+        if *fault == Fault::Partition {
             self.partitions.push(Partition {
                 from: at,
                 to: Time::NEVER,
@@ -224,10 +222,10 @@ impl Story {
         }
     }
 
-    fn fault(&mut self, fault: &str, robot: RobotId, at: Time) {
+    fn fault(&mut self, fault: &Fault, robot: RobotId, at: Time) {
         match fault {
-            "crash" => self.outages.push((robot, at, Time::NEVER)),
-            "restart" => {
+            Fault::Crash => self.outages.push((robot, at, Time::NEVER)),
+            Fault::Restart => {
                 let mut outages = self.outages.iter_mut().rev();
                 if let Some((_, _, to)) = outages.find(|outage| outage.0 == robot) {
                     *to = (*to).min(at);
@@ -247,8 +245,8 @@ impl Story {
 }
 
 /// What an event is called, with the values that fit on a label.
-fn with_fields(name: &str, fields: &Fields) -> String {
-    let shown = fields.iter().filter_map(|(_, value)| short(value));
+fn with_fields(name: &str, fields: &[(&str, ValueRef<'_>)]) -> String {
+    let shown = fields.iter().filter_map(|(_, value)| short(*value));
     let words: Vec<String> = std::iter::once(name.to_string()).chain(shown).collect();
     let text = words.join(" ");
     match text.chars().count() > LONGEST {
@@ -260,13 +258,13 @@ fn with_fields(name: &str, fields: &Fields) -> String {
 /// Longest label, letters.
 const LONGEST: usize = 26;
 
-fn short(value: &Value) -> Option<String> {
+fn short(value: ValueRef<'_>) -> Option<String> {
     match value {
-        Value::Text(text) => Some(text.to_string()),
-        Value::Robot(robot) => Some(robot.to_string()),
-        Value::Int(number) if number.unsigned_abs() < 100_000 => Some(number.to_string()),
-        Value::Bool(flag) => Some(flag.to_string()),
-        Value::Robots(robots) => {
+        ValueRef::Text(text) => Some(text.to_string()),
+        ValueRef::Robot(robot) => Some(robot.to_string()),
+        ValueRef::Int(number) if number.unsigned_abs() < 100_000 => Some(number.to_string()),
+        ValueRef::Bool(flag) => Some(flag.to_string()),
+        ValueRef::Robots(robots) => {
             let names: Vec<String> = robots.iter().map(RobotId::to_string).collect();
             Some(format!("{{{}}}", names.join(" ")))
         }

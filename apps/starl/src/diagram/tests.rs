@@ -2,7 +2,7 @@
 
 use super::story::Story;
 use super::*;
-use starl_core::event::{DropReason, Fields, Value};
+use starl_core::event::{DropReason, Fault, MutexEvent};
 use starl_core::{Destination, Event, Payload, Port, Record, RobotId};
 use starl_sim::Scenario;
 
@@ -48,24 +48,20 @@ fn story() -> Teller {
         from: RobotId(0),
         sequence,
     };
-    let fields: Fields = [("resource".into(), Value::Text("door".into()))]
-        .into_iter()
-        .collect();
+    let resource = "door".into();
     let acquire = Event::Primitive {
-        primitive: "mutex".into(),
         port: PORT,
-        name: "acquire".into(),
-        fields,
+        event: MutexEvent::Acquire { resource }.into(),
     };
     teller
         .tell(10, Some(0), acquire)
         .sent(10, 0, 0)
         .dropped(10, 2, DropReason::Loss)
         .tell(30, Some(1), delivered(0))
-        .tell(500, Some(2), Event::Fault("crash".into()))
-        .tell(900, Some(2), Event::Fault("restart".into()))
-        .tell(1000, None, Event::Fault("partition".into()))
-        .tell(2000, None, Event::Fault("heal".into()));
+        .tell(500, Some(2), Event::Fault(Fault::Crash))
+        .tell(900, Some(2), Event::Fault(Fault::Restart))
+        .tell(1000, None, Event::Fault(Fault::Partition))
+        .tell(2000, None, Event::Fault(Fault::Heal));
     teller
 }
 

@@ -174,7 +174,8 @@ impl Account {
         if let Some(saved) = &self.saved {
             let _ = write!(
                 text,
-                "\nkept in {saved}; to replay it: starl explore --replay {saved}\n"
+                "\nkept in {saved}; to replay it: {} explore --replay {saved}\n",
+                crate::console::command()
             );
         }
         text

@@ -1,7 +1,7 @@
 //! Events in words.
 
-use starl_core::event::Fields;
-use starl_core::{Event, Record, Value};
+use starl_core::event::{ValueRef, borrowed};
+use starl_core::{Event, Record};
 
 /// One line about what happened; none of what matters to nobody here.
 pub fn line(record: &Record) -> Option<String> {
@@ -19,13 +19,11 @@ pub fn line(record: &Record) -> Option<String> {
             }
         }
         Event::Action(name) => format!("action {name}"),
-        Event::Program { name, fields } => format!("{name}{}", details(fields)),
-        Event::Primitive {
-            primitive,
-            name,
-            fields,
-            ..
-        } => format!("{primitive} {name}{}", details(fields)),
+        Event::Program { name, fields } => format!("{name}{}", details(&borrowed(fields))),
+        Event::Primitive { event, .. } => {
+            let (primitive, name) = (event.primitive(), event.name());
+            format!("{primitive} {name}{}", details(&event.fields()))
+        }
         Event::Log { text, .. } => format!("log: {text}"),
         Event::Finished => "has finished".to_string(),
         Event::Failed(reason) => format!("failed: {reason}"),
@@ -34,22 +32,22 @@ pub fn line(record: &Record) -> Option<String> {
     Some(format!("robot {robot}: {what}"))
 }
 
-fn details(fields: &Fields) -> String {
+fn details(fields: &[(&str, ValueRef<'_>)]) -> String {
     let shown = fields
         .iter()
-        .map(|(name, value)| format!(" {name}={}", words(value)));
+        .map(|(name, value)| format!(" {name}={}", words(*value)));
     shown.collect()
 }
 
-fn words(value: &Value) -> String {
+fn words(value: ValueRef<'_>) -> String {
     match value {
-        Value::Bool(flag) => flag.to_string(),
-        Value::Int(number) => number.to_string(),
-        Value::Float(number) => number.to_string(),
-        Value::Text(text) => text.to_string(),
-        Value::Time(time) => time.to_string(),
-        Value::Robot(robot) => robot.to_string(),
-        Value::Robots(robots) => {
+        ValueRef::Bool(flag) => flag.to_string(),
+        ValueRef::Int(number) => number.to_string(),
+        ValueRef::Float(number) => number.to_string(),
+        ValueRef::Text(text) => text.to_string(),
+        ValueRef::Time(time) => time.to_string(),
+        ValueRef::Robot(robot) => robot.to_string(),
+        ValueRef::Robots(robots) => {
             let names: Vec<String> = robots.iter().map(ToString::to_string).collect();
             format!("[{}]", names.join(", "))
         }

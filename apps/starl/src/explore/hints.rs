@@ -4,32 +4,63 @@
 //! A tick of 981 ms suits the primitives' leases of 2 s and 3 s: what a robot believes to hold ends a hundredth
 //! earlier for each clock, and so a tick before what others have granted it.
 
+use starl_core::event::{
+    BarrierEvent, ElectionEvent, MutexEvent, PrimitiveEvent, RegistrationEvent,
+};
 use starl_explore::{Bounds, Clocks};
 use std::collections::BTreeSet;
 
-/// What robots ask a primitive for: the primitive, the event of asking, that of getting, and how it is put.
-const WISHES: [(&str, &str, &str, &str); 4] = [
-    ("election", "elect", "leader", "nobody is ever elected"),
-    ("mutex", "acquire", "enter", "nobody ever gets a resource"),
-    (
-        "registration",
-        "register",
-        "agree",
-        "nobody is ever agreed on",
-    ),
-    (
-        "barrier",
-        "arrive",
-        "pass",
-        "nobody ever passes the barrier",
-    ),
-];
+/// What robots ask primitives for, and how it is put that they get it in no behaviour.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Wish {
+    Leader,
+    Resource,
+    List,
+    Passage,
+}
+
+impl Wish {
+    const ALL: [Wish; 4] = [Wish::Leader, Wish::Resource, Wish::List, Wish::Passage];
+
+    /// The wish that an event tells of, and whether it tells that it has come true.
+    fn of(event: &PrimitiveEvent) -> Option<(Wish, bool)> {
+        match event {
+            PrimitiveEvent::Election(ElectionEvent::Elect) => Some((Wish::Leader, false)),
+            PrimitiveEvent::Election(ElectionEvent::Leader { .. }) => Some((Wish::Leader, true)),
+            PrimitiveEvent::Mutex(MutexEvent::Acquire { .. }) => Some((Wish::Resource, false)),
+            PrimitiveEvent::Mutex(MutexEvent::Enter { .. }) => Some((Wish::Resource, true)),
+            PrimitiveEvent::Registration(RegistrationEvent::Register { .. }) => {
+                Some((Wish::List, false))
+            }
+            PrimitiveEvent::Registration(RegistrationEvent::Agree { .. }) => {
+                Some((Wish::List, true))
+            }
+            PrimitiveEvent::Barrier(BarrierEvent::Arrive { .. }) => Some((Wish::Passage, false)),
+            PrimitiveEvent::Barrier(BarrierEvent::Pass { .. }) => Some((Wish::Passage, true)),
+            _ => None,
+        }
+    }
+
+    fn in_vain(self) -> &'static str {
+        match self {
+            Wish::Leader => "nobody is ever elected",
+            Wish::Resource => "nobody ever gets a resource",
+            Wish::List => "nobody is ever agreed on",
+            Wish::Passage => "nobody ever passes the barrier",
+        }
+    }
+}
 
 /// Hints, by what primitives told of in some behaviour, all of them or those of a part.
-pub fn hints(bounds: &Bounds, told: &BTreeSet<(&str, &str)>, is_complete: bool) -> Vec<String> {
-    let in_vain = WISHES.iter().filter(|(primitive, asks, gets, _)| {
-        told.contains(&(*primitive, *asks)) && !told.contains(&(*primitive, *gets))
-    });
+pub fn hints<'a>(
+    bounds: &Bounds,
+    told: impl Iterator<Item = &'a PrimitiveEvent>,
+    is_complete: bool,
+) -> Vec<String> {
+    let wishes: BTreeSet<(Wish, bool)> = told.filter_map(Wish::of).collect();
+    let in_vain = Wish::ALL
+        .into_iter()
+        .filter(|wish| wishes.contains(&(*wish, false)) && !wishes.contains(&(*wish, true)));
     let advice = match (bounds.clocks, is_complete) {
         (Clocks::Still, true) => {
             "clocks stand still, so leases and other waits do not end: let them tick, e.g. --tick \
@@ -43,7 +74,8 @@ pub fn hints(bounds: &Bounds, told: &BTreeSet<(&str, &str)>, is_complete: bool) 
         (Clocks::Ticking { .. }, false) => "it may come later",
     };
     in_vain
-        .map(|(.., words)| {
+        .map(|wish| {
+            let words = wish.in_vain();
             format!("in these behaviours {words}, and nothing is shown about it; {advice}")
         })
         .collect()

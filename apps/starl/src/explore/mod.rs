@@ -21,6 +21,7 @@ use account::Account;
 use progress::Progress;
 use record::Recording;
 use starl_catalog::Application;
+use starl_catalog::programs::Registry;
 use starl_explore::{End, Search, Setup};
 use std::fs::File;
 use std::process::ExitCode;
@@ -34,10 +35,10 @@ const ROBOTS: usize = 3;
 const STRIDE: u32 = 500;
 
 /// Explores what the arguments say, or goes a way that was found before.
-pub fn run(arguments: &ExploreArguments) -> Result<ExitCode, Failure> {
+pub fn run(arguments: &ExploreArguments, registry: &Registry) -> Result<ExitCode, Failure> {
     match (&arguments.replay, &arguments.target) {
-        (Some(path), _) => replay::replay(path, arguments.diagram.as_deref()),
-        (None, Some(target)) => explore(target, arguments),
+        (Some(path), _) => replay::replay(path, arguments.diagram.as_deref(), registry),
+        (None, Some(target)) => explore(target, arguments, registry),
         (None, None) => Err(Failure(
             "name what to explore: an example, a scenario file or a program; or --replay FILE"
                 .into(),
@@ -45,8 +46,12 @@ pub fn run(arguments: &ExploreArguments) -> Result<ExitCode, Failure> {
     }
 }
 
-fn explore(target: &str, arguments: &ExploreArguments) -> Result<ExitCode, Failure> {
-    let application = target::read(&as_run(target, arguments))?.application;
+fn explore(
+    target: &str,
+    arguments: &ExploreArguments,
+    registry: &Registry,
+) -> Result<ExitCode, Failure> {
+    let application = target::read(&as_run(target, arguments), registry)?.application;
     let recording = Recording {
         robots: robots(arguments, &application)?,
         bounds: bounds::read(arguments)?,
@@ -78,7 +83,7 @@ fn explore(target: &str, arguments: &ExploreArguments) -> Result<ExitCode, Failu
     }
     if !matches!(end, Some(End::Violated(_))) {
         let is_complete = end == Some(End::Complete);
-        account.hints = hints::hints(&recording.bounds, &search.told(), is_complete);
+        account.hints = hints::hints(&recording.bounds, search.told(), is_complete);
     }
     account.seconds = begun.elapsed().as_secs_f64();
     if let Some(End::Violated(found)) = &end {

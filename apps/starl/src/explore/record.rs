@@ -6,8 +6,9 @@ use crate::run::start_error;
 use crate::target;
 use serde::{Deserialize, Serialize};
 use starl_catalog::Application;
+use starl_catalog::programs::Registry;
 use starl_explore::{Bounds, Counterexample, Setup, Step, Walk};
-use starl_sim::properties::Violation;
+use starl_properties::Violation;
 use starl_sim::read::Inputs;
 use std::path::Path;
 
@@ -85,7 +86,7 @@ pub fn write(inputs: &Inputs, recording: &Recording, found: &Counterexample) -> 
 }
 
 /// Reads the file.
-pub fn read(path: &Path) -> Result<(Kept, Application, Setup), Failure> {
+pub fn read(path: &Path, registry: &Registry) -> Result<(Kept, Application, Setup), Failure> {
     let kept: Kept = serde_json::from_str(&target::text(path)?)
         .map_err(|error| Failure::file(path, format!("is no counterexample: {error}")))?;
     if kept.counterexample_layout != LAYOUT {
@@ -97,7 +98,7 @@ pub fn read(path: &Path) -> Result<(Kept, Application, Setup), Failure> {
             ),
         ));
     }
-    let application = starl_catalog::read(&kept.inputs.request, &kept.inputs)
+    let application = starl_catalog::read(&kept.inputs.request, &kept.inputs, registry)
         .map_err(|refusal| Failure::file(path, format!("its inputs are refused: {refusal}")))?;
     let setup = kept.recording.setup(&application)?;
     Ok((kept, application, setup))

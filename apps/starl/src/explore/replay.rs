@@ -7,9 +7,10 @@ use crate::diagram;
 use crate::failure::Failure;
 use crate::output::Output;
 use starl_catalog::Application;
+use starl_catalog::programs::Registry;
 use starl_core::{Event, Record, Time};
 use starl_explore::{Counterexample, STUCK, Setup};
-use starl_sim::properties::Violation;
+use starl_properties::Violation;
 use std::fs::File;
 use std::path::Path;
 use std::process::ExitCode;
@@ -49,8 +50,12 @@ pub fn sheet(path: Option<&Path>) -> Result<Option<Sheet>, Failure> {
 }
 
 /// `starl explore --replay`: exit status 1 where the violation shows again, 0 where it does not.
-pub fn replay(path: &Path, drawing: Option<&Path>) -> Result<ExitCode, Failure> {
-    let (kept, application, setup) = record::read(path)?;
+pub fn replay(
+    path: &Path,
+    drawing: Option<&Path>,
+    registry: &Registry,
+) -> Result<ExitCode, Failure> {
+    let (kept, application, setup) = record::read(path, registry)?;
     let sheet = sheet(drawing)?;
     let wanted = Violation {
         property: kept.property.into(),

@@ -6,12 +6,15 @@
 use super::search::Case;
 use super::subject::Subject;
 use crate::args::TestArguments;
+use crate::console;
 use crate::diagram;
 use crate::failure::Failure;
 use crate::origin::Origin;
 use crate::output::Output;
 use crate::progress::Count;
 use crate::run::quoted;
+use starl_catalog::Application;
+use starl_catalog::programs::Registry;
 use starl_core::{Duration, Time};
 use starl_sim::read::{Request, Source};
 use starl_sim::shrink::{Limits, shrink};
@@ -70,6 +73,7 @@ impl Counterexample {
         let judge = Judge {
             path: &path,
             finding: &case.finding,
+            registry: subject.application.registry(),
             head: head(subject, case, arguments),
         };
         let mut original = subject.scenario(case.profile, case.seed);
@@ -126,6 +130,7 @@ impl Counterexample {
 struct Judge<'a> {
     path: &'a Path,
     finding: &'a Finding,
+    registry: &'a Registry,
     /// Comments at the head of the file.
     head: String,
 }
@@ -136,9 +141,10 @@ impl Judge<'_> {
     }
 
     /// The scenario as it is read from its file.
-    fn application(&self, scenario: &Scenario) -> Option<starl_catalog::Application> {
+    fn application(&self, scenario: &Scenario) -> Option<Application> {
         let source = Source::new(self.path.display().to_string(), self.text(scenario));
-        starl_catalog::read(&Request::new(source), &Origin::file(self.path)).ok()
+        let origin = Origin::file(self.path);
+        starl_catalog::read(&Request::new(source), &origin, self.registry).ok()
     }
 
     /// What comes of a scenario, if it fails in the same way.
@@ -175,7 +181,10 @@ fn one_line(text: &str) -> String {
 
 /// The command line that finds a run again.
 fn again(subject: &Subject, case: &Case, arguments: &TestArguments) -> String {
-    let mut words = vec!["starl test".to_string(), quoted(&subject.target)];
+    let mut words = vec![
+        format!("{} test", console::command()),
+        quoted(&subject.target),
+    ];
     let changes = &arguments.changes;
     let options = [
         ("--scenario", changes.scenario.clone()),

@@ -16,12 +16,13 @@ use counterexample::Counterexample;
 use report::Report;
 use search::Search;
 use starl_catalog::examples::EXAMPLES;
+use starl_catalog::programs::Registry;
 use starl_sim::profile::Profile;
 use std::sync::atomic::Ordering;
 use subject::Subject;
 
 /// Tests what the arguments say; whether nothing went wrong.
-pub fn test(arguments: &TestArguments) -> Result<bool, Failure> {
+pub fn test(arguments: &TestArguments, registry: &Registry) -> Result<bool, Failure> {
     let stop = stop_on_interrupt();
     let profiles = profiles(&arguments.profile)?;
     let targets: Vec<String> = match arguments.all {
@@ -33,7 +34,7 @@ pub fn test(arguments: &TestArguments) -> Result<bool, Failure> {
     };
     let subjects: Result<Vec<Subject>, Failure> = targets
         .iter()
-        .map(|target| Subject::read(target, arguments))
+        .map(|target| Subject::read(target, arguments, registry))
         .collect();
     let search = Search {
         subjects: subjects?,

@@ -4,6 +4,7 @@ use super::counterexample::{Counterexample, Size};
 use super::search::{Case, Found, Search};
 use crate::console::{counted, grouped, rounded};
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// All that is told. As JSON its fields are described in `docs/reference/command.md`.
@@ -39,6 +40,15 @@ pub struct Row {
     pub violated: u64,
     pub failed: u64,
     pub wrong: u64,
+    pub excused: Vec<Excused>,
+}
+
+/// How often something that speaks against a property was excused for one reason.
+#[derive(Debug, Serialize)]
+pub struct Excused {
+    pub property: String,
+    pub reason: &'static str,
+    pub count: u64,
 }
 
 /// A way in which a target goes wrong.
@@ -177,6 +187,7 @@ impl Report {
                     "  {:12} {runs:>10} {reached:>10} {timed_out:>10} {violated:>10} {failed:>10}{wrong}",
                     row.profile
                 )?;
+                row.write_excused(text)?;
             }
         }
         let interrupted = if self.interrupted {
@@ -193,6 +204,20 @@ impl Report {
             rounded(self.runs_per_second),
             rounded(self.runs_per_processor_second)
         )
+    }
+}
+
+impl Row {
+    /// What was excused, by reason.
+    fn write_excused(&self, text: &mut String) -> std::fmt::Result {
+        let mut reasons: BTreeMap<&str, u64> = BTreeMap::new();
+        for Excused { reason, count, .. } in &self.excused {
+            *reasons.entry(reason).or_default() += count;
+        }
+        for (reason, count) in reasons {
+            writeln!(text, "    {} excused: {reason}", grouped(count))?;
+        }
+        Ok(())
     }
 }
 
@@ -226,7 +251,12 @@ impl Finding {
                     self.after.words(),
                     grouped(self.trials)
                 )?;
-                writeln!(text, "  to see it: starl run {}", crate::run::quoted(path))?;
+                writeln!(
+                    text,
+                    "  to see it: {} run {}",
+                    crate::console::command(),
+                    crate::run::quoted(path)
+                )?;
             }
             None => {
                 let why = match self.trials {
@@ -249,7 +279,8 @@ fn targets(search: &Search, found: &Found) -> Vec<Target> {
         let scenario = subject.application.scenario();
         let rows = search.profiles.iter().map(|&profile| {
             let tally = found.tallies.get(&(index, profile));
-            let tally = tally.copied().unwrap_or_default();
+            let tally = tally.cloned().unwrap_or_default();
+            let excused = tally.excused.into_iter();
             Row {
                 profile: profile.name(),
                 runs: tally.runs,
@@ -258,6 +289,13 @@ fn targets(search: &Search, found: &Found) -> Vec<Target> {
                 violated: tally.violated,
                 failed: tally.failed,
                 wrong: tally.wrong,
+                excused: excused
+                    .map(|((property, excuse), count)| Excused {
+                        property: property.to_string(),
+                        reason: excuse.text(),
+                        count,
+                    })
+                    .collect(),
             }
         });
         Target {

@@ -4,6 +4,7 @@
 use super::subject::Subject;
 use crate::progress::Count;
 use starl_core::event::Name;
+use starl_properties::Excuse;
 use starl_sim::profile::Profile;
 use starl_sim::{Finding, Outcome, Trial};
 use std::collections::BTreeMap;
@@ -30,7 +31,7 @@ pub struct Case {
 }
 
 /// How runs of one subject with one profile ended.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Tally {
     pub runs: u64,
     pub reached: u64,
@@ -39,6 +40,8 @@ pub struct Tally {
     pub failed: u64,
     /// Those among them that are held to be wrong.
     pub wrong: u64,
+    /// How often something was excused that speaks against a property, and why.
+    pub excused: BTreeMap<(Name, Excuse), u64>,
 }
 
 /// What came of the runs.
@@ -120,6 +123,9 @@ impl Found {
             Outcome::Violated => tally.violated += 1,
             Outcome::Failed => tally.failed += 1,
         }
+        for (property, excuse, count) in trial.excused {
+            *tally.excused.entry((property, excuse)).or_default() += count;
+        }
         let Some(finding) = trial.finding else { return };
         tally.wrong += 1;
         let case = Case {
@@ -155,6 +161,9 @@ impl Found {
             sum.violated += tally.violated;
             sum.failed += tally.failed;
             sum.wrong += tally.wrong;
+            for (excused, count) in tally.excused {
+                *sum.excused.entry(excused).or_default() += count;
+            }
         }
         for (key, case) in other.first {
             self.keep(key, case);

@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::origin::Origin;
 use crate::target::{self, Selection};
 use starl_catalog::Application;
+use starl_catalog::programs::Registry;
 use starl_core::Duration;
 use starl_sim::profile::Profile;
 use starl_sim::scenario::Goal;
@@ -25,9 +26,13 @@ pub struct Subject {
 
 impl Subject {
     /// Reads a target, and runs it once to see how long it takes.
-    pub fn read(target: &str, arguments: &TestArguments) -> Result<Subject, Failure> {
+    pub fn read(
+        target: &str,
+        arguments: &TestArguments,
+        registry: &Registry,
+    ) -> Result<Subject, Failure> {
         let quiet = arguments.quiet || arguments.json;
-        let selection = target::read(&arguments.changes.of(target, None, quiet))?;
+        let selection = target::read(&arguments.changes.of(target, None, quiet), registry)?;
         let Selection {
             application,
             origin,

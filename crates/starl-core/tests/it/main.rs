@@ -6,3 +6,4 @@ mod geometry_obstacle;
 mod geometry_path;
 mod geometry_polygon;
 mod timers;
+mod typed_events;

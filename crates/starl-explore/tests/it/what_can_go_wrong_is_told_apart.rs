@@ -2,12 +2,14 @@
 //! program that keeps something to itself.
 
 use crate::support::{search, setup};
-use starl_core::{Destination, Duration, Message, Port, Program, Robot, RobotId, TimerKey, timers};
+use starl_core::{
+    Destination, Duration, Message, Port, Primitives, Program, Robot, RobotId, TimerKey, timers,
+};
 use starl_explore::{Bounds, Clocks, End, FAILED, STUCK, Step};
 use std::fmt::Write;
 
 /// Robot 0 greets robot 1 once; whoever has greeted or was greeted finishes.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Primitives)]
 struct Greeter {
     /// Greets again when this fires.
     patience: Option<Duration>,
@@ -152,7 +154,7 @@ fn bounds_that_cut_are_told() {
 }
 
 /// Counts activations and says so at the third, but does not show the count.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Primitives)]
 struct Secretive(u32);
 
 impl Program for Secretive {
@@ -176,7 +178,7 @@ fn a_program_that_does_not_write_its_state_is_found_out() {
 }
 
 /// The same count, but without a claim to show it: it is told apart by what has happened to it.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Primitives)]
 struct Silent(u32);
 
 impl Program for Silent {
@@ -201,7 +203,7 @@ fn a_program_that_claims_nothing_is_told_apart_by_its_past() {
 }
 
 /// Finishes when two of its timers have fired, and fails if the later one comes first.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Primitives)]
 struct Timed {
     fired: Vec<Alarm>,
 }

@@ -18,7 +18,7 @@ use alloc::vec::Vec;
 use core::any::Any;
 use core::{fmt, mem};
 use starl_core::random::hash_key;
-use starl_core::{Message, Port, Primitive, Program, Random, Robot};
+use starl_core::{Message, Port, Primitive, Primitives, Program, Random, Robot};
 
 /// A StarL program on one robot.
 ///
@@ -218,6 +218,29 @@ fn handle_reports(
     Ok(())
 }
 
+/// Not derived: which primitives a program holds its code says, and what they do is told to the program.
+impl Primitives for RobotProgram {
+    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
+        let forms = self.code.instances().iter();
+        for ((number, form), slot) in forms.enumerate().zip(&mut self.bound) {
+            let Some(seat) = slot else { continue };
+            let Some(port) = seat.port else { continue };
+            visit(&mut Attended {
+                seat,
+                port,
+                form,
+                number: number as u32,
+                reports: &mut self.reports,
+                rests: &mut self.rests,
+            });
+        }
+        let rests = &mut self.rests;
+        self.services.primitives(&self.code, &mut |primitive| {
+            visit(&mut Disturbing { primitive, rests });
+        });
+    }
+}
+
 impl Program for RobotProgram {
     fn start(&mut self, robot: &mut Robot<'_>) {
         self.phase = Phase::Running;
@@ -265,26 +288,6 @@ impl Program for RobotProgram {
         } else {
             self.run(robot, Part::Message(message));
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        let forms = self.code.instances().iter();
-        for ((number, form), slot) in forms.enumerate().zip(&mut self.bound) {
-            let Some(seat) = slot else { continue };
-            let Some(port) = seat.port else { continue };
-            visit(&mut Attended {
-                seat,
-                port,
-                form,
-                number: number as u32,
-                reports: &mut self.reports,
-                rests: &mut self.rests,
-            });
-        }
-        let rests = &mut self.rests;
-        self.services.primitives(&self.code, &mut |primitive| {
-            visit(&mut Disturbing { primitive, rests });
-        });
     }
 
     fn corrupt(&mut self, random: &mut Random) {

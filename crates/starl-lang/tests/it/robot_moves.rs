@@ -1,7 +1,8 @@
 //! ReachAvoid in a program: its settings, its flags, and what stops it.
 
 use crate::robot_support::{World, compile};
-use starl_core::{Event, Obstacle, Point, Value};
+use starl_core::event::{PrimitiveEvent, ReachAvoidEvent};
+use starl_core::{Event, Obstacle, Point};
 
 const MOVES: &str = r#"
 program Moves
@@ -30,12 +31,16 @@ fn it_goes_there_with_the_settings_of_the_binding() {
     assert_eq!(world.get(0, "reached").to_string(), "true");
     assert!(world.nodes[0].finished);
     let starts = world.events_of(0).filter_map(|event| match event {
-        Event::Primitive { name, fields, .. } if name == "start" => Some(fields.clone()),
+        Event::Primitive {
+            event:
+                PrimitiveEvent::ReachAvoid(ReachAvoidEvent::Start {
+                    target, vicinity, ..
+                }),
+            ..
+        } => Some((*target, *vicinity)),
         _ => None,
     });
-    let fields = starts.last().unwrap_or_default();
-    assert!(fields.contains(&("vicinity".into(), Value::Float(0.2))));
-    assert!(fields.contains(&("target".into(), Value::Point(Point::planar(3.0, 0.0)))));
+    assert_eq!(starts.last(), Some((Point::planar(3.0, 0.0), 0.2)));
 }
 
 #[test]
@@ -62,17 +67,18 @@ fn it_follows_a_list_of_points() {
     let mut world = World::of(&compile(FOLLOWS), 1);
     world.steps(1);
     let paths = world.events_of(0).filter_map(|event| match event {
-        Event::Primitive { name, fields, .. } if name == "path" => Some(fields.clone()),
+        Event::Primitive {
+            event: PrimitiveEvent::ReachAvoid(ReachAvoidEvent::Path { path }),
+            ..
+        } => Some(path.clone()),
         _ => None,
     });
-    let path = Value::from(vec![
+    let path = vec![
         Point::ZERO,
         Point::planar(1.0, 0.0),
         Point::planar(1.0, 2.0),
-    ]);
-    let paths: Vec<_> = paths.collect();
-    assert_eq!(paths.len(), 1);
-    assert!(paths[0].contains(&("path".into(), path)), "{paths:?}");
+    ];
+    assert_eq!(paths.collect::<Vec<_>>(), [path]);
 }
 
 const STOPS: &str = r#"
@@ -97,7 +103,13 @@ fn stop_stops_whatever_moves_the_robot() {
     world.step();
     assert_eq!(world.int(0, "step"), 2);
     let stops = world.events_of(0).filter(|event| {
-        matches!(event, Event::Primitive { primitive, name, .. } if primitive == "reach_avoid" && name == "stop")
+        matches!(
+            event,
+            Event::Primitive {
+                event: PrimitiveEvent::ReachAvoid(ReachAvoidEvent::Stop),
+                ..
+            }
+        )
     });
     assert_eq!(stops.count(), 1);
     assert!(world.nodes[0].halts > 0);

@@ -2,6 +2,7 @@
 //! and whoever crashes; without `atomic` it is not.
 
 use crate::robot_support::{self, World, compile};
+use starl_core::event::{PrimitiveEvent, RegisterEvent};
 use starl_core::{Agent, Event, Input, Port, Random};
 use starl_lang::machine::Value;
 use starl_lang::robot::Code;
@@ -124,17 +125,19 @@ fn partitions_delay_it_are_told_and_lose_nothing() {
 
 /// Whether a robot is storing something: what it says of registers ends with an update.
 fn is_storing(world: &World, robot: usize) -> bool {
-    let names = world
+    let events = world
         .events_of(robot as u32)
         .filter_map(|event| match event {
             Event::Primitive {
-                primitive, name, ..
-            } if primitive == "register" && name != "up" => Some(name.to_string()),
+                event: PrimitiveEvent::Register(event),
+                ..
+            } if !matches!(event, RegisterEvent::Up { .. }) => Some(event),
             _ => None,
         });
-    names
-        .last()
-        .is_some_and(|name| name == "update" || name == "no_quorum")
+    matches!(
+        events.last(),
+        Some(RegisterEvent::Update { .. } | RegisterEvent::NoQuorum { .. })
+    )
 }
 
 #[test]

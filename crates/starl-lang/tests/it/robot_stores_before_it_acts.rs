@@ -2,6 +2,7 @@
 //! that it depends on changes, and what does not matter to it goes on. Robots that die keep nobody waiting.
 
 use crate::robot_support::{self, PERIOD, World, compile};
+use starl_core::event::{MutexEvent, PrimitiveEvent};
 use starl_core::{Agent, Duration, Event, Input, Random};
 use starl_lang::machine::Value;
 
@@ -109,12 +110,12 @@ add()
 fn holds(world: &World, robot: u32) -> bool {
     let last = world.events_of(robot).filter_map(|event| match event {
         Event::Primitive {
-            primitive, name, ..
-        } if primitive == "mutex" => Some(name.to_string()),
+            event: PrimitiveEvent::Mutex(event),
+            ..
+        } => Some(event),
         _ => None,
     });
-    last.last()
-        .is_some_and(|name| name == "enter" || name == "hold")
+    matches!(last.last(), Some(MutexEvent::Enter { .. }))
 }
 
 #[test]
@@ -152,8 +153,9 @@ fn told(world: &World, wanted: &str) -> usize {
     let records = world.records.iter();
     let is_it = |event: &Event| match event {
         Event::Primitive {
-            primitive, name, ..
-        } => primitive == "register" && name == wanted,
+            event: PrimitiveEvent::Register(event),
+            ..
+        } => event.name() == wanted,
         _ => false,
     };
     records.filter(|(_, _, event)| is_it(event)).count()

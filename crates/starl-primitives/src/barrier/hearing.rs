@@ -8,9 +8,10 @@
 //! it may have restarted and passed generations meanwhile.
 
 use super::packet::Packet;
-use super::{Barrier, GREATEST, KIND, Peer};
+use super::{Barrier, GREATEST, Peer};
 use alloc::vec::Vec;
-use starl_core::{Message, Robot, RobotId, Value};
+use starl_core::event::BarrierEvent;
+use starl_core::{Message, Robot, RobotId};
 
 impl Barrier {
     pub(super) fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
@@ -173,10 +174,11 @@ impl Barrier {
         if self.others(robot).any(is_missing) && !self.others(robot).any(has_passed) {
             return;
         }
-        let generation = ("generation", Value::Int(self.generation as i64));
-        let all: Vec<RobotId> = self.all(robot).into_iter().collect();
-        let fields = [generation, ("participants", all.into())];
-        robot.emit_primitive(KIND, self.port, "pass", fields);
+        let pass = BarrierEvent::Pass {
+            generation: self.generation,
+            participants: self.all(robot).into_iter().collect(),
+        };
+        robot.report(self.port, pass);
         self.waits = false;
         self.generation = next;
         self.due = None;

@@ -42,10 +42,8 @@ pub use options::Options;
 
 use crate::incarnation::Incarnation;
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::vec::Vec;
+use starl_core::event::BarrierEvent;
 use starl_core::{Input, Port, Primitive, Robot, RobotId, Time, TimerKey, timers};
-
-const KIND: &str = "barrier";
 
 /// Greater numbers are none that robots could have counted to.
 const GREATEST: u64 = 1 << 62;
@@ -125,8 +123,8 @@ impl Barrier {
         if self.waits {
             return;
         }
-        let all: Vec<RobotId> = self.all(robot).into_iter().collect();
-        robot.emit_primitive(KIND, self.port, "arrive", [("participants", all.into())]);
+        let participants = self.all(robot).into_iter().collect();
+        robot.report(self.port, BarrierEvent::Arrive { participants });
         (self.waits, self.has_come) = (true, true);
         self.repetitions = 0;
         self.move_on(robot);

@@ -1,9 +1,10 @@
 //! What a robot says of itself, when, and to whom.
 
 use super::packet::Packet;
-use super::{Barrier, GREATEST, KIND, Peer};
+use super::{Barrier, GREATEST, Peer};
 use alloc::vec::Vec;
-use starl_core::{Destination, Robot, RobotId, Value};
+use starl_core::event::BarrierEvent;
+use starl_core::{Destination, Robot, RobotId};
 
 impl Barrier {
     /// Tells those that need it how far this robot is. While it waits it does so once it has heard all,
@@ -97,8 +98,8 @@ impl Barrier {
     }
 
     pub(super) fn report_waiting(&self, robot: &mut Robot<'_>) {
-        let generation = ("generation", Value::Int(self.generation as i64));
-        robot.emit_primitive(KIND, self.port, "wait", [generation]);
+        let generation = self.generation;
+        robot.report(self.port, BarrierEvent::Wait { generation });
     }
 
     /// Undoes what only a corruption of the state can have brought about.

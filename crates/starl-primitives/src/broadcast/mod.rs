@@ -15,17 +15,16 @@ mod total;
 pub use order::Order;
 
 use crate::Failure;
-use crate::channel::{Channel, report_arrival};
+use crate::channel::{Carrier, Channel};
 use crate::reliable::{MessageId, Options, encode};
 use alloc::boxed::Box;
 use alloc::collections::VecDeque;
 use alloc::vec::Vec;
 use causal::Causal;
 use serde::Serialize;
+use starl_core::event::{BroadcastEvent, TransferEvent};
 use starl_core::{Duration, Input, Port, Primitive, Random, Robot, RobotId};
 use total::Total;
-
-const KIND: &str = "broadcast";
 
 /// Sends messages to all other robots of the application. What arrives is handed to
 /// [`starl_core::Program::receive`] with this primitive's port.
@@ -87,7 +86,7 @@ impl Broadcast {
             first_in_first_out: order != Order::Unordered,
             ..options
         };
-        let channel = Channel::new(KIND, name, options);
+        let channel = Channel::new(Carrier::Broadcast, name, options);
         let way = match order {
             Order::Unordered | Order::Fifo => Way::Acknowledged(Box::new(channel)),
             Order::Causal => Way::Causal(Box::new(Causal::new(channel))),
@@ -109,20 +108,12 @@ impl Broadcast {
             Way::Causal(causal) => causal.channel.reliable.next_to_all(robot),
             Way::Total(total) => total.next(robot),
         };
-        let number = ("number", message.number.into());
-        let incarnation = ("incarnation", message.incarnation.into());
-        let retry_span = ("retry_span", self.options().retry_span().seconds().into());
-        let port = self.port();
-        match self.order.name() {
-            None => {
-                let fields = [number, incarnation, retry_span];
-                robot.emit_primitive(KIND, port, "broadcast", fields);
-            }
-            Some(order) => {
-                let fields = [number, incarnation, retry_span, ("order", order.into())];
-                robot.emit_primitive(KIND, port, "broadcast", fields);
-            }
-        }
+        let broadcast = BroadcastEvent::Broadcast {
+            message: message.numbered(),
+            retry_span: self.options().retry_span(),
+            order: self.order.promised(),
+        };
+        robot.report(self.port(), broadcast);
         match &mut self.way {
             Way::Acknowledged(channel) => channel.send_to_peers(robot, encode(content)),
             Way::Causal(causal) => causal.broadcast(robot, encode(content)),
@@ -206,7 +197,11 @@ impl Primitive for Broadcast {
             Way::Acknowledged(channel) => {
                 let port = channel.port;
                 channel.handle(robot, input, |robot, arrival| {
-                    report_arrival(robot, KIND, port, "deliver", &arrival);
+                    let (from, message) = arrival.numbered();
+                    robot.report(
+                        port,
+                        BroadcastEvent::from(TransferEvent::Deliver { from, message }),
+                    );
                     robot.deliver(arrival.from, port, arrival.content);
                 });
             }

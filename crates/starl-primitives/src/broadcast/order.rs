@@ -1,5 +1,7 @@
 //! In which order messages are handed to programs.
 
+use starl_core::event::messaging;
+
 /// The order of messages. Each demands what those before it do, but for total order, which does not
 /// demand causal order across senders (Hadzilacos and Toueg 1994).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,12 +19,12 @@ pub enum Order {
 
 impl Order {
     /// What records call it; none where there is no order.
-    pub(super) fn name(self) -> Option<&'static str> {
+    pub(super) fn promised(self) -> Option<messaging::Order> {
         match self {
             Order::Unordered => None,
-            Order::Fifo => Some("fifo"),
-            Order::Causal => Some("causal"),
-            Order::Total => Some("total"),
+            Order::Fifo => Some(messaging::Order::Fifo),
+            Order::Causal => Some(messaging::Order::Causal),
+            Order::Total => Some(messaging::Order::Total),
         }
     }
 }

@@ -37,9 +37,8 @@ use bully::Bully;
 use leases::Leases;
 use packet::Packet;
 use rules::{Leadership, Rules};
+use starl_core::event::ElectionEvent;
 use starl_core::{Input, Port, Primitive, Random, Robot, RobotId, Time};
-
-const KIND: &str = "election";
 
 /// Changes that nobody asks for are kept up to this number, the latest.
 const MOST_CHANGES: usize = 16;
@@ -139,7 +138,7 @@ impl LeaderElection {
     pub fn elect(&mut self, robot: &mut Robot<'_>) {
         self.begin(robot);
         self.called = true;
-        robot.emit_primitive(KIND, self.port, "elect", []);
+        robot.report(self.port, ElectionEvent::Elect);
         if self.takes_part {
             self.run(robot, |rules, scene| rules.elect(scene));
         }
@@ -151,7 +150,7 @@ impl LeaderElection {
         self.begin(robot);
         if self.called {
             self.called = false;
-            robot.emit_primitive(KIND, self.port, "resign", []);
+            robot.report(self.port, ElectionEvent::Resign);
             self.run(robot, |rules, scene| rules.resign(scene));
         }
         self.settle(robot);

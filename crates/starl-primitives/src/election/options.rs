@@ -2,28 +2,7 @@
 
 use starl_core::{Duration, Random, Time};
 
-/// How a leader is found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Algorithm {
-    /// Votes of a majority, leases and epochs.
-    #[default]
-    Leases,
-    /// The greatest of the random ballots wins (thesis, section 3.4.2).
-    Ballots,
-    /// The greatest robot that is up wins (Garcia-Molina 1982).
-    Bully,
-}
-
-impl Algorithm {
-    /// Its name in records.
-    pub fn name(self) -> &'static str {
-        match self {
-            Algorithm::Leases => "leases",
-            Algorithm::Ballots => "ballots",
-            Algorithm::Bully => "bully",
-        }
-    }
-}
+pub use starl_core::event::agreement::Algorithm;
 
 /// Settings of [`super::LeaderElection`]; all participants should have the same. Times run on the robot's
 /// own clock.

@@ -2,7 +2,8 @@
 
 use super::epoch::Epoch;
 use super::rules::{Leadership, Rules, Scene};
-use super::{Algorithm, Change, KIND, LeaderElection, MOST_CHANGES};
+use super::{Algorithm, Change, LeaderElection, MOST_CHANGES};
+use starl_core::event::ElectionEvent;
 use starl_core::{Duration, Robot, RobotId, Time, TimerKey, timers};
 
 timers! {
@@ -24,15 +25,11 @@ impl LeaderElection {
             participants.push(robot.id());
             participants.sort_unstable();
         }
-        robot.emit_primitive(
-            KIND,
-            self.port,
-            "start",
-            [
-                ("algorithm", self.options.algorithm.name().into()),
-                ("participants", participants.into()),
-            ],
-        );
+        let start = ElectionEvent::Start {
+            algorithm: self.options.algorithm,
+            participants,
+        };
+        robot.report(self.port, start);
     }
 
     /// Finds out who the participants are.
@@ -94,18 +91,11 @@ impl LeaderElection {
         let change = match (before, now_shown) {
             (None, None) => return,
             (Some(before), None) => {
-                robot.emit_primitive(KIND, self.port, "lost", []);
+                robot.report(self.port, ElectionEvent::Lost);
                 Change::Lost(before.leader)
             }
             (_, Some(Leadership { leader, epoch })) => {
-                let leader_field = ("leader", leader.into());
-                match epoch {
-                    None => robot.emit_primitive(KIND, self.port, "leader", [leader_field]),
-                    Some(epoch) => {
-                        let epoch = ("epoch", (epoch as i64).into());
-                        robot.emit_primitive(KIND, self.port, "leader", [leader_field, epoch]);
-                    }
-                }
+                robot.report(self.port, ElectionEvent::Leader { leader, epoch });
                 Change::Elected(leader)
             }
         };
@@ -132,7 +122,7 @@ impl LeaderElection {
             self.leaderless = None;
         }
         if failed && !self.failed {
-            robot.emit_primitive(KIND, self.port, "fail", []);
+            robot.report(self.port, ElectionEvent::Fail);
         }
         self.failed = failed;
         due

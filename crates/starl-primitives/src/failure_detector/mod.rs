@@ -28,13 +28,13 @@ use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use arrivals::Arrivals;
 use serde::{Deserialize, Serialize};
+use starl_core::event::FailureDetectorEvent;
+use starl_core::event::agreement::Suspicion;
 use starl_core::random::hash_key;
 use starl_core::{
     Destination, Duration, Input, Message, Port, Primitive, Random, Robot, RobotId, TimerKey,
     timers,
 };
-
-const KIND: &str = "failure_detector";
 
 timers! {
     enum Alarm {
@@ -160,7 +160,7 @@ impl FailureDetector {
             .map(|(&peer, _)| peer)
             .collect();
         for peer in silent {
-            self.suspect(robot, peer, "silence");
+            self.suspect(robot, peer, Suspicion::Silence);
         }
     }
 
@@ -193,19 +193,18 @@ impl FailureDetector {
         arrivals.last = now;
         let was_suspected = arrivals.is_suspected;
         if before.is_some() && !was_suspected {
-            self.suspect(robot, message.from, "restart");
+            self.suspect(robot, message.from, Suspicion::Restart);
         }
         if before.is_some() || was_suspected {
             self.trust(robot, message.from);
         }
     }
 
-    fn suspect(&mut self, robot: &mut Robot<'_>, peer: RobotId, reason: &'static str) {
+    fn suspect(&mut self, robot: &mut Robot<'_>, peer: RobotId, reason: Suspicion) {
         if let Some(arrivals) = self.peers.get_mut(&peer) {
             arrivals.is_suspected = true;
         }
-        let fields = [("peer", peer.into()), ("reason", reason.into())];
-        robot.emit_primitive(KIND, self.port, "suspect", fields);
+        robot.report(self.port, FailureDetectorEvent::Suspect { peer, reason });
         robot.suspect(peer);
     }
 
@@ -213,7 +212,7 @@ impl FailureDetector {
         if let Some(arrivals) = self.peers.get_mut(&peer) {
             arrivals.is_suspected = false;
         }
-        robot.emit_primitive(KIND, self.port, "trust", [("peer", peer.into())]);
+        robot.report(self.port, FailureDetectorEvent::Trust { peer });
         robot.trust(peer);
     }
 

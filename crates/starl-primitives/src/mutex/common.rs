@@ -4,12 +4,11 @@
 use super::{Options, Resources};
 use crate::incarnation::Incarnation;
 use alloc::collections::BTreeSet;
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
-use starl_core::event::Name;
-use starl_core::{Port, Random, Robot, RobotId, TimerKey, Value, timers};
-
-const KIND: &str = "mutex";
+use starl_core::event::MutexEvent;
+use starl_core::{Port, Random, Robot, RobotId, TimerKey, timers};
 
 /// A clock this far ahead is none that robots' requests could have driven it to.
 const FURTHEST: u64 = 1 << 45;
@@ -113,22 +112,42 @@ impl Common {
         TimerKey::new(self.port, alarm)
     }
 
-    pub fn report(&self, robot: &mut Robot<'_>, event: &'static str, resources: &Resources) {
+    /// Reports an event of each of these resources.
+    pub fn report(
+        &self,
+        robot: &mut Robot<'_>,
+        event: fn(Arc<str>) -> MutexEvent,
+        resources: &Resources,
+    ) {
         for resource in resources {
-            let name = Value::Text(Name::Owned((**resource).into()));
-            robot.emit_primitive(KIND, self.port, event, [("resource", name)]);
+            robot.report(self.port, event(Arc::from(&**resource)));
         }
+    }
+
+    /// Reports that what is held is held from now on.
+    pub fn report_entered(&self, robot: &mut Robot<'_>) {
+        let enter = |resource| MutexEvent::Enter {
+            resource,
+            fencing: None,
+            drift: None,
+        };
+        self.report(robot, enter, &self.held);
+    }
+
+    /// Reports that resources are held no longer.
+    pub fn report_expired(&self, robot: &mut Robot<'_>, resources: &Resources) {
+        self.report(robot, |resource| MutexEvent::Expire { resource }, resources);
     }
 
     /// Reports that what is held was granted with this number.
     pub fn report_numbered(&self, robot: &mut Robot<'_>, number: u64) {
         for resource in &self.held {
-            let fields = [
-                ("resource", Value::Text(Name::Owned((**resource).into()))),
-                ("fencing", Value::Int(number as i64)),
-                ("drift", Value::Float(self.options.drift)),
-            ];
-            robot.emit_primitive(KIND, self.port, "enter", fields);
+            let enter = MutexEvent::Enter {
+                resource: Arc::from(&**resource),
+                fencing: Some(number),
+                drift: Some(self.options.drift),
+            };
+            robot.report(self.port, enter);
         }
     }
 

@@ -33,6 +33,7 @@ use alloc::collections::BTreeSet;
 use arbitration::Arbitration;
 use common::Common;
 use permission::Permission;
+use starl_core::event::MutexEvent;
 use starl_core::{Input, Port, Primitive, Random, Robot, RobotId};
 
 /// Names of resources.
@@ -117,7 +118,8 @@ impl Mutex {
         self.withdraw(robot);
         if !resources.is_empty() {
             let common = &mut self.common;
-            common.report(robot, "acquire", &resources);
+            let acquire = |resource| MutexEvent::Acquire { resource };
+            common.report(robot, acquire, &resources);
             each!(&mut self.protocol, state => state.acquire(common, robot, resources));
         }
         Ok(())
@@ -130,7 +132,7 @@ impl Mutex {
         let left: Resources = common.held.intersection(resources).cloned().collect();
         if !left.is_empty() {
             common.held.retain(|resource| !resources.contains(resource));
-            common.report(robot, "release", &left);
+            common.report(robot, |resource| MutexEvent::Release { resource }, &left);
             each!(&mut self.protocol, state => state.released(common, robot));
         }
         let waits = |wanted: &Resources| !wanted.is_disjoint(resources);
@@ -201,7 +203,8 @@ impl Mutex {
 
     fn withdraw(&mut self, robot: &mut Robot<'_>) {
         if let Some(wanted) = self.wanted() {
-            self.common.report(robot, "withdraw", wanted);
+            let withdraw = |resource| MutexEvent::Withdraw { resource };
+            self.common.report(robot, withdraw, wanted);
             each!(&mut self.protocol, state => state.withdraw(&mut self.common, robot));
         }
     }

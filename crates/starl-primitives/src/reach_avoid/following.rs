@@ -3,6 +3,8 @@
 use super::route::Route;
 use super::{Command, Options, Phase, ReachAvoid};
 use alloc::sync::Arc;
+use starl_core::event::ReachAvoidEvent;
+use starl_core::event::moving::Trouble;
 use starl_core::motion::{Body, Obstacles};
 use starl_core::{Obstacle, Point, Robot};
 
@@ -39,7 +41,7 @@ impl ReachAvoid {
         self.failed = true;
         robot.cancel_timer(self.timer());
         robot.halt();
-        self.report(robot, "failed", [("position", position.into())]);
+        robot.report(self.port, ReachAvoidEvent::Failed { position });
         true
     }
 
@@ -67,7 +69,7 @@ impl ReachAvoid {
         self.done = true;
         robot.cancel_timer(self.timer());
         robot.track(end, None);
-        self.report(robot, "done", [("position", position.into())]);
+        robot.report(self.port, ReachAvoidEvent::Done { position });
         true
     }
 
@@ -95,7 +97,7 @@ impl ReachAvoid {
                 .any(|(from, to)| news().any(|o| blocks(o, from, to, body, 0.0)))
             {
                 robot.halt();
-                self.replan(robot, "obstacle on the path", false);
+                self.replan(robot, Trouble::Obstacle, false);
                 return true;
             }
         }
@@ -106,7 +108,7 @@ impl ReachAvoid {
         if route.cross_track(position) > self.options.off_path
             || settled && either(&command.unsafe_set, &command.known).any(blocked)
         {
-            self.replan(robot, "off the path", false);
+            self.replan(robot, Trouble::OffPath, false);
             return true;
         }
         false
@@ -177,11 +179,11 @@ impl ReachAvoid {
                 self.request(robot, around_robots);
             }
             Phase::Planning => self.no_path(robot),
-            Phase::Pausing => self.replan(robot, "no path", false),
+            Phase::Pausing => self.replan(robot, Trouble::NoPath, false),
             Phase::Following { route, mark, .. } => {
                 let left = to_go(route, robot.position(), robot.body());
                 if left > *mark - self.options.least_progress {
-                    self.replan(robot, "stuck", true);
+                    self.replan(robot, Trouble::Stuck, true);
                 } else {
                     *mark = left;
                     robot.set_timer(timer, self.options.stuck_after);

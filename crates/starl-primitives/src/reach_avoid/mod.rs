@@ -22,10 +22,10 @@ mod route;
 pub use options::Options;
 
 use route::Route;
+use starl_core::event::ReachAvoidEvent;
+use starl_core::event::moving::Trouble;
 use starl_core::motion::Obstacles;
-use starl_core::{Input, Point, Port, Primitive, Robot, Time, TimerKey, Value, timers};
-
-const KIND: &str = "reach_avoid";
+use starl_core::{Input, Point, Port, Primitive, Robot, Time, TimerKey, timers};
 
 timers! {
     enum Alarm {
@@ -81,7 +81,7 @@ enum Phase {
 
 impl Default for ReachAvoid {
     fn default() -> ReachAvoid {
-        ReachAvoid::new(KIND, Options::default())
+        ReachAvoid::new("reach_avoid", Options::default())
     }
 }
 
@@ -123,7 +123,7 @@ impl ReachAvoid {
     pub fn follow(&mut self, robot: &mut Robot<'_>, points: &[Point], unsafe_set: Obstacles) {
         let Some(&target) = points.last() else {
             self.clear();
-            return self.give_up(robot, "no points");
+            return self.give_up(robot, Trouble::NoPoints);
         };
         let was_active = self.clear();
         if !self.begin(robot, target, unsafe_set) {
@@ -142,17 +142,14 @@ impl ReachAvoid {
 
     /// Takes a command; says whether there is a way to be found for it.
     fn begin(&mut self, robot: &mut Robot<'_>, target: Point, unsafe_set: Obstacles) -> bool {
-        self.report(
-            robot,
-            "start",
-            [
-                ("target", target.into()),
-                ("vicinity", self.options.vicinity.into()),
-                ("unsafe_set", unsafe_set.clone().into()),
-            ],
-        );
+        let start = ReachAvoidEvent::Start {
+            target,
+            vicinity: self.options.vicinity,
+            unsafe_set: unsafe_set.clone(),
+        };
+        robot.report(self.port, start);
         if !target.is_finite() {
-            self.give_up(robot, "target is not finite");
+            self.give_up(robot, Trouble::NotFinite);
             return false;
         }
         self.command = Some(Command {
@@ -172,7 +169,7 @@ impl ReachAvoid {
     pub fn stop(&mut self, robot: &mut Robot<'_>) {
         if self.clear() {
             robot.cancel_timer(self.timer());
-            self.report(robot, "stop", []);
+            robot.report(self.port, ReachAvoidEvent::Stop);
         }
         robot.halt();
     }
@@ -216,15 +213,7 @@ impl ReachAvoid {
         self.command.take().is_some()
     }
 
-    fn report<const N: usize>(
-        &self,
-        robot: &mut Robot<'_>,
-        name: &'static str,
-        fields: [(&'static str, Value); N],
-    ) {
-        robot.emit_primitive(KIND, self.port, name, fields);
-    }
-
+    /// The one timer: what it is for depends on the phase.
     fn timer(&self) -> TimerKey {
         TimerKey::new(self.port, Alarm::TimeOut)
     }

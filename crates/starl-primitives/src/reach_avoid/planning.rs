@@ -6,6 +6,8 @@ use super::route::Route;
 use super::{Phase, ReachAvoid};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
+use starl_core::event::ReachAvoidEvent;
+use starl_core::event::moving::Trouble;
 use starl_core::motion::{Obstacles, Path, PlanRequest};
 use starl_core::{Obstacle, Robot};
 
@@ -54,12 +56,7 @@ impl ReachAvoid {
     }
 
     /// Plans again, if it may.
-    pub(super) fn replan(
-        &mut self,
-        robot: &mut Robot<'_>,
-        reason: &'static str,
-        around_robots: bool,
-    ) {
+    pub(super) fn replan(&mut self, robot: &mut Robot<'_>, reason: Trouble, around_robots: bool) {
         let Some(command) = &mut self.command else {
             return;
         };
@@ -67,7 +64,7 @@ impl ReachAvoid {
             return self.give_up(robot, reason);
         }
         command.replans += 1;
-        self.report(robot, "replan", [("reason", reason.into())]);
+        robot.report(self.port, ReachAvoidEvent::Replan { reason });
         self.plan(robot, around_robots);
     }
 
@@ -88,13 +85,13 @@ impl ReachAvoid {
         };
         command.plan_failures = 0;
         let mark = to_go(&route, position, &body);
-        let points = route.points().to_vec();
+        let path = route.points().to_vec();
         command.phase = Phase::Following {
             route,
             mark,
             since: robot.now(),
         };
-        self.report(robot, "path", [("path", points.into())]);
+        robot.report(self.port, ReachAvoidEvent::Path { path });
         robot.set_timer(self.timer(), self.options.stuck_after);
         self.advance(robot);
         self.track(robot);
@@ -108,7 +105,7 @@ impl ReachAvoid {
         };
         command.plan_failures = command.plan_failures.saturating_add(1);
         if command.plan_failures >= self.options.most_plan_failures {
-            return self.give_up(robot, "no path");
+            return self.give_up(robot, Trouble::NoPath);
         }
         command.phase = Phase::Pausing;
         robot.halt();
@@ -116,11 +113,11 @@ impl ReachAvoid {
     }
 
     /// Stops with all flags false.
-    pub(super) fn give_up(&mut self, robot: &mut Robot<'_>, reason: &'static str) {
+    pub(super) fn give_up(&mut self, robot: &mut Robot<'_>, reason: Trouble) {
         self.clear();
         robot.cancel_timer(self.timer());
         robot.halt();
-        self.report(robot, "give_up", [("reason", reason.into())]);
+        robot.report(self.port, ReachAvoidEvent::GiveUp { reason });
     }
 }
 

@@ -4,6 +4,7 @@ use super::operation::{Kind, Phase};
 use super::packet::{Content, Entry, QuestionId};
 use super::{Alarm, OperationId, Register, report};
 use alloc::vec::Vec;
+use starl_core::event::RegisterEvent;
 use starl_core::{Destination, Robot, RobotId};
 
 impl Register {
@@ -79,8 +80,8 @@ impl Register {
         operation.begun = operation.begun.min(now);
         if !operation.is_stuck && (is_hopeless || now.since(operation.begun) >= patience) {
             operation.is_stuck = true;
-            let (id, register) = (OperationId(number), &operation.register);
-            report::operation(robot, self.port, "no_quorum", id, register, None);
+            let operation = report::operation(OperationId(number), &operation.register);
+            robot.report(self.port, RegisterEvent::NoQuorum { operation });
         }
     }
 

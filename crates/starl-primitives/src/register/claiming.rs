@@ -25,6 +25,7 @@ use super::operation::{Kind, Operation, Phase};
 use super::tag::Tag;
 use super::version::Version;
 use super::{MOST_RESULTS, OperationError, OperationId, Register, report};
+use starl_core::event::RegisterEvent;
 use starl_core::{Payload, Robot};
 
 /// A register that this robot has claimed.
@@ -60,7 +61,8 @@ impl Register {
         }
         self.claimed.remove(register);
         let id = self.prepare(robot, register, Kind::Claim)?;
-        report::operation(robot, self.port, "claim", id, register, None);
+        let operation = report::operation(id, register);
+        robot.report(self.port, RegisterEvent::Claim { operation });
         self.claim_anew(robot, id.0);
         Ok(id)
     }
@@ -86,8 +88,12 @@ impl Register {
         };
         let id = self.prepare(robot, register, kind)?;
         let mut version = version.unwrap_or_default();
-        let found = version.value.as_ref();
-        report::update(robot, self.port, id, register, found, &value);
+        let update = RegisterEvent::Update {
+            operation: report::operation(id, register),
+            found: version.value.as_ref().map(report::value_hash),
+            value: report::value_hash(&value),
+        };
+        robot.report(self.port, update);
         version.tag = ballot;
         version.value = Some(value);
         let fleet = robot.fleet();

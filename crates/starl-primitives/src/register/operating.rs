@@ -6,6 +6,7 @@ use super::{
     Alarm, LONGEST_NAME, MOST_RESULTS, OperationError, OperationId, Register, Status, report,
 };
 use alloc::collections::{BTreeMap, BTreeSet};
+use starl_core::event::RegisterEvent;
 use starl_core::{Payload, Robot};
 
 impl Register {
@@ -20,7 +21,8 @@ impl Register {
     ) -> Result<OperationId, OperationError> {
         self.check(register, None)?;
         let id = self.prepare(robot, register, Kind::Read)?;
-        report::operation(robot, self.port, "read", id, register, None);
+        let operation = report::operation(id, register);
+        robot.report(self.port, RegisterEvent::Read { operation });
         self.set_out(robot, id);
         Ok(id)
     }
@@ -38,7 +40,11 @@ impl Register {
     ) -> Result<OperationId, OperationError> {
         self.check(register, Some(&value))?;
         let id = self.prepare(robot, register, Kind::Write(value.clone()))?;
-        report::operation(robot, self.port, "write", id, register, Some(&value));
+        let write = RegisterEvent::Write {
+            operation: report::operation(id, register),
+            value: report::value_hash(&value),
+        };
+        robot.report(self.port, write);
         self.set_out(robot, id);
         Ok(id)
     }
@@ -48,8 +54,8 @@ impl Register {
         self.results.remove(&operation.0);
         if let Some(withdrawn) = self.operations.remove(&operation.0) {
             robot.cancel_timer(self.timer(Alarm::Operation(operation.0)));
-            let register = &withdrawn.register;
-            report::operation(robot, self.port, "withdraw", operation, register, None);
+            let operation = report::operation(operation, &withdrawn.register);
+            robot.report(self.port, RegisterEvent::Withdraw { operation });
         }
     }
 
@@ -131,13 +137,17 @@ impl Register {
                 ..
             }
         );
+        let operation = report::operation(OperationId(number), register);
+        let value = result.as_ref().map(report::value_hash);
         let (event, status) = match (is_refused, is_lost) {
-            (true, _) => ("refused", Status::Refused),
-            (_, true) => ("lost", Status::Lost),
-            _ => ("done", Status::Done(result.clone())),
+            (true, _) => (RegisterEvent::Refused { operation, value }, Status::Refused),
+            (_, true) => (RegisterEvent::Lost { operation, value }, Status::Lost),
+            _ => (
+                RegisterEvent::Done { operation, value },
+                Status::Done(result),
+            ),
         };
-        let id = OperationId(number);
-        report::operation(robot, self.port, event, id, register, result.as_ref());
+        robot.report(self.port, event);
         self.results.insert(number, status);
         while self.results.len() > MOST_RESULTS {
             self.results.pop_first();

@@ -14,9 +14,10 @@
 use super::entering::{Heard, Standing};
 use super::lives::FIRST;
 use super::packet::{Content, Page, QuestionId};
-use super::{Alarm, Register, report};
+use super::{Alarm, Register};
 use alloc::string::String;
 use alloc::vec::Vec;
+use starl_core::event::RegisterEvent;
 use starl_core::{Destination, Robot, RobotId};
 
 impl Register {
@@ -158,7 +159,8 @@ impl Register {
                     self.standing = Standing::Up(life);
                     self.lives.learn(me, life);
                     robot.cancel_timer(self.timer(Alarm::Enter));
-                    report::up(robot, self.port, life);
+                    let life = life.min(i64::MAX as u64) as i64;
+                    robot.report(self.port, RegisterEvent::Up { life });
                     return self.answer_all_own(robot);
                 }
                 Some(_) => entering.next_stage(None),

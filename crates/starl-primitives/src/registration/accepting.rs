@@ -4,9 +4,10 @@
 
 use super::announcing::is_possible;
 use super::packet::{NO_VIEW, Packet, Roll, View, ViewId};
-use super::{Alarm, KIND, Registration, Stage};
+use super::{Alarm, Registration, Stage};
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
+use starl_core::event::RegistrationEvent;
 use starl_core::{Destination, Duration, Robot, RobotId};
 
 impl Registration {
@@ -59,7 +60,8 @@ impl Registration {
 
     fn accept(&mut self, robot: &mut Robot<'_>, view: View) {
         self.promise(robot, view.id);
-        self.report(robot, "accept", view.id, None);
+        let list = view.id.into();
+        robot.report(self.port, RegistrationEvent::Accept { list });
         self.stage = Stage::Accepted {
             view,
             repetitions: 0,
@@ -136,7 +138,11 @@ impl Registration {
         let members: BTreeSet<RobotId> = view.roll.keys().copied().collect();
         let listed: Vec<RobotId> = members.iter().copied().collect();
         self.rest(robot);
-        self.report(robot, "agree", view.id, Some(listed));
+        let agree = RegistrationEvent::Agree {
+            list: view.id.into(),
+            members: listed,
+        };
+        robot.report(self.port, agree);
         for peer in &members {
             if let Some(known) = self.peers.get_mut(peer) {
                 known.led_by = Some(view.id.coordinator);
@@ -163,7 +169,7 @@ impl Registration {
         self.stage = Stage::Open;
         self.rest(robot);
         if had_list {
-            robot.emit_primitive(KIND, self.port, "lose", []);
+            robot.report(self.port, RegistrationEvent::Lose);
             self.set(robot, Alarm::Patience, self.options.patience);
             self.begin_announcing(robot, true);
         }

@@ -51,14 +51,14 @@ pub use options::Options;
 pub use packet::ViewId;
 
 use crate::incarnation::Incarnation;
+use alloc::boxed::Box;
 use alloc::collections::{BTreeMap, BTreeSet};
 use packet::NO_VIEW;
 use roster::{Peer, Shunned};
 use stage::{Leaving, Own, Stage};
+use starl_core::event::RegistrationEvent;
 use starl_core::random::hash_key;
 use starl_core::{Area, Duration, Input, Port, Primitive, Robot, RobotId, Time, TimerKey, timers};
-
-const KIND: &str = "registration";
 
 /// Times beyond this, 146 years, are no times of ours.
 const LATEST: Time = Time(u64::MAX >> 2);
@@ -140,14 +140,11 @@ impl Registration {
             }
             return;
         }
-        let apart = ("apart", self.options.settle.seconds().into());
-        match &area {
-            None => robot.emit_primitive(KIND, self.port, "register", [apart]),
-            Some(area) => {
-                let area = ("area", area.clone().into());
-                robot.emit_primitive(KIND, self.port, "register", [apart, area]);
-            }
-        }
+        let register = RegistrationEvent::Register {
+            apart: self.options.settle,
+            area: area.clone().map(Box::new),
+        };
+        robot.report(self.port, register);
         self.leaving = None;
         self.stage = Stage::Open;
         self.own = Some(Own {
@@ -165,7 +162,7 @@ impl Registration {
     /// Takes part no longer (the thesis's undo_register): the others agree anew.
     pub fn unregister(&mut self, robot: &mut Robot<'_>) {
         let Some(own) = self.own.take() else { return };
-        robot.emit_primitive(KIND, self.port, "unregister", []);
+        robot.report(self.port, RegistrationEvent::Unregister);
         self.stage = Stage::Open;
         self.peers.clear();
         self.shunned.clear();
@@ -238,7 +235,7 @@ impl Registration {
     fn fail(&mut self, robot: &mut Robot<'_>) {
         if self.own.is_some() && self.members().is_none() && !self.failed {
             self.failed = true;
-            robot.emit_primitive(KIND, self.port, "fail", []);
+            robot.report(self.port, RegistrationEvent::Fail);
         }
     }
 

@@ -2,6 +2,7 @@
 
 use alloc::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
+use starl_core::event::agreement::ListId;
 use starl_core::{Area, Point, RobotId, Time};
 
 /// Names a list among all that are ever made: the later one is the greater.
@@ -14,6 +15,16 @@ pub struct ViewId {
     pub coordinator: RobotId,
     /// The coordinator's incarnation.
     pub incarnation: u32,
+}
+
+impl From<ViewId> for ListId {
+    fn from(id: ViewId) -> ListId {
+        ListId {
+            time: id.time,
+            coordinator: id.coordinator,
+            incarnation: id.incarnation,
+        }
+    }
 }
 
 /// Before all others.

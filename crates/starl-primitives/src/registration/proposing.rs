@@ -3,10 +3,10 @@
 //! Invariant: a list is committed only when all in it have accepted it.
 
 use super::packet::{Packet, Roll, View, ViewId};
-use super::{Alarm, KIND, Registration, Stage};
+use super::{Alarm, Registration, Stage};
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
-use starl_core::event::Value;
+use starl_core::event::RegistrationEvent;
 use starl_core::{Destination, Duration, Robot, RobotId};
 
 impl Registration {
@@ -37,7 +37,8 @@ impl Registration {
         };
         self.promise(robot, id);
         let members: Vec<RobotId> = roll.keys().copied().collect();
-        self.report(robot, "propose", id, Some(members));
+        let list = id.into();
+        robot.report(self.port, RegistrationEvent::Propose { list, members });
         let missing = roll.keys().copied().filter(|&peer| peer != robot.id());
         let missing: BTreeSet<RobotId> = missing.collect();
         let view = View { id, roll };
@@ -157,28 +158,5 @@ impl Registration {
     /// How far the times of lists are apart at least.
     pub(super) fn apart(&self) -> Duration {
         self.options.settle.max(Duration(1))
-    }
-
-    pub(super) fn report(
-        &self,
-        robot: &mut Robot<'_>,
-        event: &'static str,
-        id: ViewId,
-        members: Option<Vec<RobotId>>,
-    ) {
-        let time = ("time", Value::Time(id.time));
-        let coordinator = ("coordinator", id.coordinator.into());
-        let incarnation = ("incarnation", id.incarnation.into());
-        match members {
-            None => {
-                let fields = [time, coordinator, incarnation];
-                robot.emit_primitive(KIND, self.port, event, fields);
-            }
-            Some(members) => {
-                let members = ("members", members.into());
-                let fields = [time, coordinator, incarnation, members];
-                robot.emit_primitive(KIND, self.port, event, fields);
-            }
-        }
     }
 }

@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 use smallvec::SmallVec;
+use starl_core::event::messaging::MessageNumber;
 use starl_core::{Payload, RobotId};
 
 /// Names a message of this robot.
@@ -13,6 +14,16 @@ pub struct MessageId {
     pub to: Option<RobotId>,
     /// Counts from 1 what this incarnation sent to `to`.
     pub number: u32,
+}
+
+impl MessageId {
+    /// What events call it.
+    pub(crate) fn numbered(self) -> MessageNumber {
+        MessageNumber {
+            number: self.number,
+            incarnation: self.incarnation,
+        }
+    }
 }
 
 /// A message that reached this robot.
@@ -28,6 +39,17 @@ pub struct Arrival {
     pub number: u32,
     /// The sender's bytes.
     pub content: Payload,
+}
+
+impl Arrival {
+    /// What events call it: its sender, and which of its messages.
+    pub(crate) fn numbered(&self) -> (RobotId, MessageNumber) {
+        let message = MessageNumber {
+            number: self.number,
+            incarnation: self.incarnation,
+        };
+        (self.from, message)
+    }
 }
 
 /// What its owner learns from the protocol.

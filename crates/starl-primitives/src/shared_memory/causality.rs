@@ -12,13 +12,14 @@
 //! here copies are compared, and a write that was overwritten is not delivered to all. One that depends on
 //! it would have no way to what the overwritten one depended on, so all dependencies are sent.
 
+use super::SharedMemory;
 use super::packet::{Dependency, Write};
 use super::stamp::Stamp;
 use super::store::{Store, key};
-use super::{SharedMemory, report};
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use starl_core::Robot;
+use starl_core::event::SharedMemoryEvent;
 
 /// The writes that came before what they depend on, by the keys of their elements: the latest of each.
 pub(super) type Held = BTreeMap<u64, Write>;
@@ -51,7 +52,8 @@ impl SharedMemory {
     /// should say so.
     pub fn make_causal(&mut self, robot: &mut Robot<'_>, variable: &str) {
         if self.causal.insert(variable.into()) {
-            report::causal(robot, self.port, variable);
+            let variable = variable.into();
+            robot.report(self.port, SharedMemoryEvent::Causal { variable });
         }
     }
 

@@ -46,6 +46,7 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use causality::Held;
 use gossip::Gossip;
 use stamp::HybridClock;
+use starl_core::event::SharedMemoryEvent;
 use starl_core::{Input, Payload, Port, Primitive, Robot, RobotId, Time, TimerKey, timers};
 use store::Store;
 
@@ -118,15 +119,30 @@ impl SharedMemory {
     /// Says what a multi-writer variable holds before any write (the thesis's create). It is not sent:
     /// each robot that wants it says so itself, as robots with the same program do.
     pub fn initialize(&mut self, robot: &mut Robot<'_>, variable: &str, value: Payload) {
-        report::initial(robot, self.port, variable, false, &value);
+        self.report_initial(robot, variable, false, &value);
         self.initial.insert(variable.into(), value);
     }
 
     /// Says what the elements of a single-writer array hold before any write: see
     /// [`SharedMemory::initialize`].
     pub fn initialize_elements(&mut self, robot: &mut Robot<'_>, variable: &str, value: Payload) {
-        report::initial(robot, self.port, variable, true, &value);
+        self.report_initial(robot, variable, true, &value);
         self.initial_elements.insert(variable.into(), value);
+    }
+
+    fn report_initial(
+        &self,
+        robot: &mut Robot<'_>,
+        variable: &str,
+        single_writer: bool,
+        value: &Payload,
+    ) {
+        let initialize = SharedMemoryEvent::Initialize {
+            variable: variable.into(),
+            single_writer,
+            value: report::value_hash(value),
+        };
+        robot.report(self.port, initialize);
     }
 
     /// Writes a multi-writer variable (the thesis's put).

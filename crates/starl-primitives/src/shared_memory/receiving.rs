@@ -5,6 +5,7 @@ use super::packet::{Announcement, Content, Datagram, Part, Write};
 use super::store::Merged;
 use super::{LONGEST_NAME, SharedMemory, report};
 use alloc::vec::Vec;
+use starl_core::event::SharedMemoryEvent;
 use starl_core::{Message, Robot, RobotId};
 
 /// So often in a row a difference calls for haste while comparing changes nothing here: it may be one
@@ -67,7 +68,8 @@ impl SharedMemory {
                 self.note_change(robot);
                 self.repairs.remove(&key);
                 if let Some(element) = self.store.at(key) {
-                    report::element(robot, self.port, "update", element);
+                    let written = report::written(element);
+                    robot.report(self.port, SharedMemoryEvent::Update { written });
                 }
             }
             Merged::Known => {
@@ -79,7 +81,9 @@ impl SharedMemory {
             Merged::FromEarlierLife => {
                 if let Some(present) = self.store.at(key) {
                     let (address, value) = (present.address.clone(), present.value.clone());
-                    self.put(robot, key, address, value, "write_again");
+                    self.put(robot, key, address, value, |written| {
+                        SharedMemoryEvent::WriteAgain { written }
+                    });
                 }
             }
             Merged::Older | Merged::Refused => {}

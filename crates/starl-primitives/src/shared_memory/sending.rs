@@ -8,9 +8,10 @@
 use super::compare;
 use super::packet::{Announcement, Content, Datagram, FRAME_BYTES, KEY_BYTES, Part, Range, Write};
 use super::store::Element;
-use super::{Alarm, SharedMemory, report};
+use super::{Alarm, SharedMemory};
 use alloc::borrow::ToOwned;
 use alloc::vec::Vec;
+use starl_core::event::SharedMemoryEvent;
 use starl_core::{Destination, Duration, Robot, RobotId};
 
 /// Repairs go out in bursts of this many datagrams,
@@ -113,7 +114,7 @@ impl SharedMemory {
     pub(super) fn keep_time(&mut self, robot: &mut Robot<'_>) {
         let now = robot.now();
         if !self.gossip.begun {
-            report::start(robot, self.port);
+            robot.report(self.port, SharedMemoryEvent::Start);
             self.hurry(robot);
         }
         let pending = |due| due <= now + REPAIR_PAUSE && due + REPAIR_PAUSE >= now;

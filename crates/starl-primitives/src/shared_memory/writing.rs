@@ -3,6 +3,8 @@
 use super::stamp::HybridClock;
 use super::store::{self, Address, Element};
 use super::{Alarm, LONGEST_NAME, SharedMemory, Stamp, WriteError, report};
+use starl_core::event::SharedMemoryEvent;
+use starl_core::event::storing::Written;
 use starl_core::{Duration, Payload, Robot, RobotId};
 
 impl SharedMemory {
@@ -37,7 +39,8 @@ impl SharedMemory {
             || self.store.address(variable, owner),
             |element| element.address.clone(),
         );
-        Ok(self.put(robot, key, address, value, "write"))
+        let event = |written| SharedMemoryEvent::Write { written };
+        Ok(self.put(robot, key, address, value, event))
     }
 
     /// Makes a value the latest at its address.
@@ -47,7 +50,7 @@ impl SharedMemory {
         key: u64,
         address: Address,
         value: Payload,
-        event: &'static str,
+        event: fn(Written) -> SharedMemoryEvent,
     ) -> Stamp {
         let now = robot.now();
         if let Some(present) = self.store.at(key) {
@@ -71,7 +74,7 @@ impl SharedMemory {
             mine: true,
             touched: now,
         };
-        report::element(robot, self.port, event, &element);
+        robot.report(self.port, event(report::written(&element)));
         self.note_change(robot);
         self.store.put(element);
         self.unsent.insert(key);

@@ -4,6 +4,7 @@
 
 use crate::harness::elector::{ELECT, Elector, RESIGN, agreed, by, election, judge};
 use crate::harness::{Wire, World};
+use starl_core::event::{ElectionEvent, PrimitiveEvent};
 use starl_core::{Duration, Event, Random};
 use starl_primitives::election::Algorithm;
 
@@ -49,7 +50,12 @@ impl Troubled {
         let has_forgotten = |robot: &u32| {
             let crashed = self.crashes.iter().rfind(|(_, crashed)| crashed == robot);
             crashed.is_some_and(|&(crash, _)| {
-                let votes = |event: &Event| matches!(event, Event::Primitive { name, .. } if name == "vote");
+                let votes = |event: &Event| {
+                    let Event::Primitive { event, .. } = event else {
+                        return false;
+                    };
+                    matches!(event, PrimitiveEvent::Election(ElectionEvent::Vote { .. }))
+                };
                 let mut since = self.world.records[crash..].iter();
                 !since.any(|(_, who, event)| who.0 == *robot && votes(event))
             })

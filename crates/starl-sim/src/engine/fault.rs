@@ -2,6 +2,7 @@
 
 use super::{Stream, stream};
 use crate::scenario::{Fault, FaultKind, Scenario};
+use starl_core::event::{self, Event};
 use starl_core::{Duration, Random, RobotId, Time};
 
 /// All faults of a run in the order in which they set in. Faults of the same time keep the order of
@@ -91,18 +92,18 @@ pub fn timeline(scenario: &Scenario) -> Vec<Fault> {
     faults
 }
 
-/// What the trace calls a fault.
-pub fn name(kind: &FaultKind) -> &'static str {
-    match kind {
-        FaultKind::Crash(_) => "crash",
-        FaultKind::Restart(_) => "restart",
-        FaultKind::Partition(_) => "partition",
-        FaultKind::Heal => "heal",
-        FaultKind::StuckMotor(_) => "stuck motor",
-        FaultKind::FrozenSensor(_) => "frozen sensor",
-        FaultKind::Repair(_) => "repair",
-        FaultKind::CorruptState(_) => "corrupt state",
-    }
+/// What the trace tells of a fault.
+pub fn event(kind: &FaultKind) -> Event {
+    Event::Fault(match kind {
+        FaultKind::Crash(_) => event::Fault::Crash,
+        FaultKind::Restart(_) => event::Fault::Restart,
+        FaultKind::Partition(_) => event::Fault::Partition,
+        FaultKind::Heal => event::Fault::Heal,
+        FaultKind::StuckMotor(_) => event::Fault::StuckMotor,
+        FaultKind::FrozenSensor(_) => event::Fault::FrozenSensor,
+        FaultKind::Repair(_) => event::Fault::Repair,
+        FaultKind::CorruptState(_) => event::Fault::CorruptState,
+    })
 }
 
 /// Each robot's part of a network partitioned so; those in no group form part 0.

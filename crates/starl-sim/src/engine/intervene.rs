@@ -180,11 +180,11 @@ impl Simulation {
         let robots = match kind {
             FaultKind::Partition(groups) => {
                 self.shared.parts = fault::parts(groups, self.shared.bodies.len());
-                return self.note(at, Event::Fault(fault::name(kind).into()));
+                return self.note(at, fault::event(kind));
             }
             FaultKind::Heal => {
                 self.shared.parts.clear();
-                return self.note(at, Event::Fault(fault::name(kind).into()));
+                return self.note(at, fault::event(kind));
             }
             FaultKind::Crash(robots)
             | FaultKind::Restart(robots)
@@ -200,7 +200,7 @@ impl Simulation {
             if mind.is_gone {
                 continue;
             }
-            let event = Event::Fault(fault::name(kind).into());
+            let event = fault::event(kind);
             shard.log.record(&mut mind.account.digest, robot, at, event);
             self.impaired -= usize::from(mind.is_impaired());
             match kind {

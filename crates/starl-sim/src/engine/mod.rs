@@ -20,6 +20,7 @@ mod shard;
 mod shared;
 mod simulation;
 mod things;
+mod witness;
 
 pub use fault::timeline;
 pub use record::Tally;

@@ -4,7 +4,7 @@ use super::mind::{Account, Outgoing};
 use super::record::Log;
 use super::shared::{Kind, Shared};
 use super::things::Grip;
-use starl_core::event::DropReason;
+use starl_core::event::{DropReason, PrimitiveEvent, ReachAvoidEvent};
 use starl_core::{Duration, Event, RobotId, Time};
 use starl_host::{Datagram, Outlet, PlanJob, Workspace};
 use starl_motion::{Neighbour, State};
@@ -33,10 +33,11 @@ impl Outlet for Desk<'_> {
 
     fn record(&mut self, at: Time, event: Event) {
         if let Event::Primitive {
-            primitive, name, ..
+            event: PrimitiveEvent::ReachAvoid(ReachAvoidEvent::Done { .. }),
+            ..
         } = &event
         {
-            self.account.way_points += u32::from(primitive == "reach_avoid" && name == "done");
+            self.account.way_points += 1;
         }
         self.log
             .record(&mut self.account.digest, self.robot, at, event);

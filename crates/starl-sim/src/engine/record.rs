@@ -1,6 +1,6 @@
 //! What is kept of events: a digest a robot, counts, and the records themselves if wanted.
 
-use starl_core::event::DropReason;
+use starl_core::event::{DropReason, TransferEvent};
 use starl_core::{Digest, Event, Record, RobotId, Time};
 
 /// Counts of a run.
@@ -41,7 +41,10 @@ impl Tally {
                 ..
             } => self.lost += 1,
             Event::Dropped { .. } => self.dropped += 1,
-            Event::Primitive { name, .. } if name == "retransmit" => self.retransmitted += 1,
+            Event::Primitive { event, .. } => {
+                let is_again = matches!(event.transfer(), Some(TransferEvent::Retransmit { .. }));
+                self.retransmitted += u64::from(is_again);
+            }
             _ => {}
         }
     }

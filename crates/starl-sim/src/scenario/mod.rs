@@ -16,6 +16,7 @@ pub use fleet::{Clock, Detector, Fleet, Group, Parameter, Proximity, SensorSuite
 pub use network::{Link, LinkOverride, Network};
 pub use starl_core::FaultKind;
 pub use starl_core::intervention::DelayDistribution;
+pub use starl_properties::Properties;
 pub use world::{Bounds, Thing, World, WorldObstacle};
 
 use starl_core::{Duration, Point};
@@ -112,49 +113,6 @@ pub struct Wind {
     pub gust_period: Duration,
 }
 
-/// What is checked while a run goes on.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Properties {
-    /// Bodies never touch; default true.
-    pub no_collision: bool,
-    /// ReachAvoid's safety, goal and progress; default true.
-    pub reach_avoid: bool,
-    /// ReachAvoid's active flag falls within this time; default 180 s.
-    pub progress_bound: Duration,
-    /// Broadcasts reach every robot that is up; default true.
-    pub broadcast: bool,
-    /// The thesis's d1: within this time; default 35 s.
-    pub broadcast_bound: Duration,
-    /// Geocast's exclusion and inclusion; default true.
-    pub geocast: bool,
-    /// The thesis's d2; default 35 s.
-    pub geocast_bound: Duration,
-    /// Shared memory's integrity, order and convergence; default true.
-    pub shared_memory: bool,
-    /// Shared memories converge within this time; default 35 s.
-    pub shared_memory_bound: Duration,
-    /// Leader election: uniqueness, order, exclusion, soundness, agreement and progress; default true.
-    pub election: bool,
-    /// Robots agree on a leader within this time; default 35 s.
-    pub election_bound: Duration,
-    /// Mutex's safety, non-interference, progress and growing numbers; default true.
-    pub mutex: bool,
-    /// What is free is granted within this time; default 35 s.
-    pub mutex_bound: Duration,
-    /// Linearizability of registers; default true.
-    pub register: bool,
-    /// Registration: agreement, exclusion, soundness, progress and convergence; default true.
-    pub registration: bool,
-    /// Robots agree on who takes part within this time, the thesis's d2; default 35 s.
-    pub registration_bound: Duration,
-    /// Barrier: safety and progress; default true.
-    pub barrier: bool,
-    /// Robots pass within this time of the arrival of the last; default 35 s.
-    pub barrier_bound: Duration,
-    /// What programs in the StarL language say of themselves; default true.
-    pub program: bool,
-}
-
 /// What is recorded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trace {
@@ -189,72 +147,6 @@ impl Default for Motion {
             turn_noise: 0.0,
             noise_period: Duration::from_millis(500),
             avoidance: Some(avoidance::Options::default()),
-        }
-    }
-}
-
-impl Properties {
-    /// The same, with nothing ever too late: every bound of time is `forever`.
-    pub fn without_bounds(mut self, forever: Duration) -> Properties {
-        let Properties {
-            no_collision: _,
-            reach_avoid: _,
-            progress_bound,
-            broadcast: _,
-            broadcast_bound,
-            geocast: _,
-            geocast_bound,
-            shared_memory: _,
-            shared_memory_bound,
-            election: _,
-            election_bound,
-            mutex: _,
-            mutex_bound,
-            register: _,
-            registration: _,
-            registration_bound,
-            barrier: _,
-            barrier_bound,
-            program: _,
-        } = &mut self;
-        for bound in [
-            progress_bound,
-            broadcast_bound,
-            geocast_bound,
-            shared_memory_bound,
-            election_bound,
-            mutex_bound,
-            registration_bound,
-            barrier_bound,
-        ] {
-            *bound = forever;
-        }
-        self
-    }
-}
-
-impl Default for Properties {
-    fn default() -> Properties {
-        Properties {
-            no_collision: true,
-            reach_avoid: true,
-            progress_bound: Duration::from_seconds(180),
-            broadcast: true,
-            broadcast_bound: Duration::from_seconds(35),
-            geocast: true,
-            geocast_bound: Duration::from_seconds(35),
-            shared_memory: true,
-            shared_memory_bound: Duration::from_seconds(35),
-            election: true,
-            election_bound: Duration::from_seconds(35),
-            mutex: true,
-            mutex_bound: Duration::from_seconds(35),
-            register: true,
-            registration: true,
-            registration_bound: Duration::from_seconds(35),
-            barrier: true,
-            barrier_bound: Duration::from_seconds(35),
-            program: true,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::engine_support::{Drive, Wander, count, obstacle, run, scenario, simulate};
 use starl_core::event::Hit;
-use starl_core::{Command, Event, Obstacle, Point, Pose, Program, Robot, RobotId};
+use starl_core::{Command, Event, Obstacle, Point, Pose, Primitives, Program, Robot, RobotId};
 use starl_sim::Simulation;
 
 fn collisions(records: &[starl_core::Record]) -> Vec<(RobotId, Hit)> {
@@ -76,7 +76,7 @@ fn a_body_passes_under_what_is_above_it() {
 }
 
 /// Reports its bumper.
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct Feeler;
 
 impl Program for Feeler {

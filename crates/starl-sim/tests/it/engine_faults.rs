@@ -1,6 +1,7 @@
 //! Robots and network break, and mend, as the scenario says.
 
 use crate::engine_support::{Chatter, Drive, count, exact_delay, run, scenario, simulate};
+use starl_core::event;
 use starl_core::event::DropReason;
 use starl_core::{Command, Duration, Event, RobotId, Time};
 use starl_sim::Scenario;
@@ -158,14 +159,12 @@ fn random_crashes_come_at_their_rate_and_end() {
     scenario.faults.rates.restart_after = Duration::from_seconds(2);
     let mut simulation = simulate(scenario, Drive(Command::Stop));
     let records = run(&mut simulation, 55.0);
-    let named = |what: &'static str| {
-        count(
-            &records,
-            |event| matches!(event, Event::Fault(name) if name == what),
-        )
+    let told = |what: event::Fault| {
+        let is_it = |event: &Event| matches!(event, Event::Fault(fault) if *fault == what);
+        count(&records, is_it)
     };
     // 100 robots for 55 s at 0.02 a second.
-    let crashes = named("crash");
+    let crashes = told(event::Fault::Crash);
     assert!((80..=140).contains(&crashes), "{crashes} crashes");
-    assert!(named("restart") >= crashes - 10);
+    assert!(told(event::Fault::Restart) >= crashes - 10);
 }

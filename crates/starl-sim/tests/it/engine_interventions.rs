@@ -3,8 +3,8 @@
 use crate::engine_support::{Wander, count, exact_delay, obstacle, run, scenario, simulate};
 use starl_core::intervention::NetworkKnob;
 use starl_core::{
-    Command, ConvexPolygon, Event, FaultKind, Intervention, Obstacle, Order, Point, Pose, Program,
-    Record, Robot, RobotId, Time, WayPoint,
+    Command, ConvexPolygon, Event, FaultKind, Intervention, Obstacle, Order, Point, Pose,
+    Primitives, Program, Record, Robot, RobotId, Time, WayPoint,
 };
 use starl_sim::scenario::{Bounds, Occasion, ScenarioEvent};
 use starl_sim::{Scenario, Simulation};
@@ -22,7 +22,7 @@ fn wall(x: f64) -> Obstacle {
 }
 
 /// Reports what it is told, and does what it is told: an order `take` or `put_down` moves the gripper.
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct Listener;
 
 impl Program for Listener {

@@ -3,11 +3,11 @@
 
 use crate::engine_support::{scenario, simulate};
 use starl_core::motion::Body;
-use starl_core::{Command, Point, Pose, Program, Robot, RobotId};
+use starl_core::{Command, Point, Pose, Primitives, Program, Robot, RobotId};
 use starl_motion::models;
 
 /// Robots on the floor drive straight on, those in the air land.
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct LandOrLeave;
 
 impl Program for LandOrLeave {

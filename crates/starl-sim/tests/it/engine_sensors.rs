@@ -3,13 +3,14 @@
 use crate::engine_support::{obstacle, run, scenario, simulate};
 use starl_core::sensor::Detected;
 use starl_core::{
-    Command, ConvexPolygon, Duration, Event, Obstacle, Point, Program, Record, Robot, RobotId, Time,
+    Command, ConvexPolygon, Duration, Event, Obstacle, Point, Primitives, Program, Record, Robot,
+    RobotId, Time,
 };
 use starl_sim::Scenario;
 use starl_sim::scenario::{Detector, Proximity, Thing};
 
 /// Reports what it senses.
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct Watcher(Command);
 
 impl Program for Watcher {

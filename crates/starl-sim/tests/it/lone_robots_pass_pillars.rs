@@ -2,11 +2,11 @@
 //! avoidance or none: paths keep the body's radius clear, and the robot keeps to them.
 
 use crate::engine_support::{self, obstacle, scenario, simulate};
-use starl_core::{Event, Obstacle, Point, Primitive, Program, Robot};
+use starl_core::{Event, Obstacle, Point, Primitives, Program, Robot};
 use starl_primitives::ReachAvoid;
 
 /// Goes to the other side.
-#[derive(Clone, Default)]
+#[derive(Clone, Default, Primitives)]
 struct Passer(ReachAvoid);
 
 impl Program for Passer {
@@ -19,10 +19,6 @@ impl Program for Passer {
         if self.0.done() {
             robot.finish();
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.0);
     }
 }
 

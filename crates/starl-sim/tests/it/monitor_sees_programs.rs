@@ -3,14 +3,14 @@
 
 use crate::engine_support::scenario;
 use starl_core::event::Name;
-use starl_core::{Duration, Event, Program, Robot, Time};
-use starl_sim::properties::{Monitor, Violation, Witness};
+use starl_core::{Duration, Event, Primitives, Program, Robot, Time};
+use starl_properties::{Monitor, Violation, Witness};
 use starl_sim::scenario::{Fault, FaultKind};
 use starl_sim::{Outcome, Run};
 use std::any::Any;
 
 /// Counts its activations; the robots' number 1 fails at its third.
-#[derive(Clone, Default)]
+#[derive(Clone, Default, Primitives)]
 struct Counter(u32);
 
 impl Program for Counter {
@@ -40,7 +40,7 @@ impl Monitor for Limit {
         vec!["limit".into(), format!("all {}", "down").into()]
     }
 
-    fn observe(&mut self, witness: &Witness<'_>, violations: &mut Vec<Violation>) {
+    fn observe(&mut self, witness: &dyn Witness, violations: &mut Vec<Violation>) {
         let robots = witness.robots().iter();
         let counts = robots.clone().map(|&robot| {
             let program = witness.program(robot).expect("it shows itself");

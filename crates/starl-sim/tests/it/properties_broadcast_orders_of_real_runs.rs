@@ -2,8 +2,11 @@
 //! every fault, and those that promise too much are found out.
 
 use crate::engine_support::weather::{calm, chaotic, fleet, judge, lossy};
+use starl_core::event::messaging;
+use starl_core::event::messaging::MessageNumber;
+use starl_core::event::{BroadcastEvent, TransferEvent};
 use starl_core::{
-    Destination, Duration, Message, Port, Primitive, Program, Robot, RobotId, Time, message,
+    Destination, Duration, Message, Port, Primitives, Program, Robot, RobotId, Time, message,
 };
 use starl_primitives::Broadcast;
 use starl_primitives::broadcast::Order;
@@ -11,7 +14,7 @@ use starl_primitives::reliable::Options;
 use std::collections::BTreeMap;
 
 /// Broadcasts now and then for a minute and a half.
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct Teller {
     broadcast: Broadcast,
     begun: Option<Time>,
@@ -25,15 +28,11 @@ impl Program for Teller {
             self.broadcast.broadcast(robot, &0u8);
         }
     }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.broadcast);
-    }
 }
 
 /// Total order without a majority: the robot with the least number of those that were heard within a second
 /// says which message comes next.
-#[derive(Clone, Default)]
+#[derive(Clone, Default, Primitives)]
 struct Presumptuous {
     heard: BTreeMap<RobotId, Time>,
     sent: u32,
@@ -62,13 +61,18 @@ impl Presumptuous {
     fn hand_out(&mut self, robot: &mut Robot<'_>) {
         while let Some((from, number)) = self.waiting.remove(&self.place) {
             self.place += 1;
-            let fields = [
-                ("from", from.into()),
-                ("number", number.into()),
-                ("incarnation", 1u32.into()),
-            ];
-            robot.emit_primitive("broadcast", NAIVE, "deliver", fields);
+            let message = numbered(number);
+            let deliver = TransferEvent::Deliver { from, message };
+            robot.report(NAIVE, BroadcastEvent::from(deliver));
         }
+    }
+}
+
+fn numbered(number: u32) -> MessageNumber {
+    let incarnation = 1;
+    MessageNumber {
+        number,
+        incarnation,
     }
 }
 
@@ -82,12 +86,12 @@ impl Program for Presumptuous {
         if robot.random().chance(0.05) {
             self.sent += 1;
             let number = self.sent;
-            let fields = [
-                ("number", number.into()),
-                ("incarnation", 1u32.into()),
-                ("order", "total".into()),
-            ];
-            robot.emit_primitive("broadcast", NAIVE, "broadcast", fields);
+            let broadcast = BroadcastEvent::Broadcast {
+                message: numbered(number),
+                retry_span: Duration::ZERO,
+                order: Some(messaging::Order::Total),
+            };
+            robot.report(NAIVE, broadcast);
             let me = robot.id();
             match self.is_first(robot) {
                 true => self.give_place(robot, me, number),

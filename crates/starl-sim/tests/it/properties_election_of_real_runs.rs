@@ -2,16 +2,17 @@
 //! every fault, and elections that are made worse are found out.
 
 use crate::engine_support::weather::{WEATHERS, fleet, judge, lossy};
+use starl_core::event::ElectionEvent;
 use starl_core::{
-    Destination, Duration, Input, Message, Port, Primitive, Program, Random, Robot, RobotId, Time,
-    Value,
+    Destination, Duration, Input, Message, Port, Primitive, Primitives, Program, Random, Robot,
+    RobotId, Time,
 };
 use starl_primitives::election::{Algorithm, Options};
 use starl_primitives::{FailureDetector, LeaderElection, failure_detector};
 use starl_sim::Scenario;
 
 /// Stands all the time, and resigns now and then.
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct Elector {
     detector: FailureDetector,
     election: LeaderElection,
@@ -43,11 +44,6 @@ impl Program for Elector {
         }
     }
 
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.detector);
-        visit(&mut self.election);
-    }
-
     fn corrupt(&mut self, random: &mut Random) {
         self.election.corrupt(random);
     }
@@ -59,7 +55,7 @@ impl Program for Elector {
 struct Naive {
     /// So many votes of others make a leader.
     needed: usize,
-    count: i64,
+    count: u64,
     votes: Vec<RobotId>,
     leader: Option<RobotId>,
     heard: Time,
@@ -70,21 +66,21 @@ const NAIVE: Port = Port::named("naive");
 impl Naive {
     fn show(&mut self, robot: &mut Robot<'_>, leader: RobotId) {
         if self.leader.replace(leader) != Some(leader) {
-            let fields = [("leader", leader.into()), ("epoch", Value::Int(self.count))];
-            robot.emit_primitive("election", NAIVE, "leader", fields);
+            let epoch = Some(self.count);
+            robot.report(NAIVE, ElectionEvent::Leader { leader, epoch });
         }
         self.heard = robot.now();
     }
 
     fn hear(&mut self, robot: &mut Robot<'_>, message: &Message) {
         // A count, and whether it asks (0), votes (1) or leads (2).
-        match message.read::<(i64, u8)>() {
+        match message.read::<(u64, u8)>() {
             Some((count, 0)) if count > self.count => {
                 self.count = count;
                 self.votes.clear();
                 if self.leader == Some(robot.id()) {
                     self.leader = None;
-                    robot.emit_primitive("election", NAIVE, "lost", []);
+                    robot.report(NAIVE, ElectionEvent::Lost);
                 }
                 robot.transmit(Destination::Robot(message.from), NAIVE, &(count, 1u8));
             }
@@ -107,7 +103,7 @@ impl Naive {
             robot.transmit(Destination::All, NAIVE, &(self.count, 2u8));
         } else if robot.now().since(self.heard) > Duration::from_seconds(2) {
             if self.leader.take().is_some() {
-                robot.emit_primitive("election", NAIVE, "lost", []);
+                robot.report(NAIVE, ElectionEvent::Lost);
             }
             if robot.random().below(10) == 0 {
                 self.count += 1;
@@ -126,13 +122,13 @@ impl Primitive for Naive {
     fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
         match input {
             Input::Start => {
-                let fields = [
-                    ("algorithm", "leases".into()),
-                    ("participants", robot.fleet().to_vec().into()),
-                ];
-                robot.emit_primitive("election", NAIVE, "start", fields);
-                robot.emit_primitive("election", NAIVE, "elect", []);
-                robot.emit_primitive("election", NAIVE, "vote", []);
+                let start = ElectionEvent::Start {
+                    algorithm: Algorithm::Leases,
+                    participants: robot.fleet().to_vec(),
+                };
+                robot.report(NAIVE, start);
+                robot.report(NAIVE, ElectionEvent::Elect);
+                robot.report(NAIVE, ElectionEvent::Vote { anew: false });
                 self.heard = robot.now();
             }
             Input::Message(message) => self.hear(robot, message),
@@ -142,15 +138,11 @@ impl Primitive for Naive {
     }
 }
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct NaiveElector(Naive);
 
 impl Program for NaiveElector {
     fn activate(&mut self, _: &mut Robot<'_>) {}
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.0);
-    }
 }
 
 fn naive(needed: usize) -> NaiveElector {

@@ -3,13 +3,13 @@
 
 use crate::engine_support::{exact_delay, scenario};
 use starl_core::motion::Obstacles;
-use starl_core::{Area, Command, Duration, Message, Obstacle, Point, Primitive, Program, Robot};
+use starl_core::{Area, Command, Duration, Message, Obstacle, Point, Primitives, Program, Robot};
 use starl_primitives::reliable::Options;
 use starl_primitives::{Broadcast, Geocast, ReachAvoid};
 use starl_sim::{Run, Scenario};
 
 /// Robot 0 broadcasts, geocasts to the left half and goes 1 m ahead; the others stay.
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct Messenger {
     broadcast: Broadcast,
     geocast: Geocast,
@@ -59,12 +59,6 @@ impl Program for Messenger {
     fn receive(&mut self, robot: &mut Robot<'_>, _message: &Message) {
         self.received += 1;
         robot.log(starl_core::event::Level::Info, "received");
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.broadcast);
-        visit(&mut self.geocast);
-        visit(&mut self.motion);
     }
 }
 

@@ -2,7 +2,11 @@
 //! under every fault, and one that leaves out a part of the algorithm is found out.
 
 use crate::engine_support::weather::{calm, chaotic, fleet, judge, lossy};
-use starl_core::{Destination, Input, Message, Port, Primitive, Program, Robot, RobotId, Value};
+use starl_core::event::RegisterEvent;
+use starl_core::event::storing::Operation;
+use starl_core::{
+    Destination, Input, Message, Port, Primitive, Primitives, Program, Robot, RobotId,
+};
 use starl_primitives::Register;
 use starl_primitives::register::Options;
 use std::collections::BTreeSet;
@@ -14,8 +18,8 @@ trait Registers: Primitive + Clone + Send + Sync + 'static {
     fn write(&mut self, robot: &mut Robot<'_>, register: &'static str, value: u32);
 }
 
-#[derive(Clone)]
-struct User<R>(R);
+#[derive(Clone, Primitives)]
+struct User<R: Registers>(R);
 
 impl<R: Registers> Program for User<R> {
     fn activate(&mut self, robot: &mut Robot<'_>) {
@@ -30,10 +34,6 @@ impl<R: Registers> Program for User<R> {
             true => self.0.read(robot, register),
             false => self.0.write(robot, register, value),
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.0);
     }
 }
 
@@ -64,23 +64,32 @@ struct Naive {
 }
 
 impl Naive {
-    fn report(&self, robot: &mut Robot<'_>, name: &'static str, value: Option<u32>) {
-        let number = ("operation", self.number.into());
-        let register = ("register", "x".into());
-        match value {
-            None => robot.emit_primitive("register", NAIVE, name, [number, register]),
-            Some(value) => {
-                let value = ("value", Value::Int(value.into()));
-                robot.emit_primitive("register", NAIVE, name, [number, register, value]);
-            }
+    fn operation(&self) -> Operation {
+        Operation {
+            operation: self.number,
+            register: "x".into(),
         }
+    }
+
+    fn report_done(&self, robot: &mut Robot<'_>, value: Option<u32>) {
+        let done = RegisterEvent::Done {
+            operation: self.operation(),
+            value: value.map(i64::from),
+        };
+        robot.report(NAIVE, done);
     }
 
     fn begin(&mut self, robot: &mut Robot<'_>, is_write: bool, value: u32) {
         self.number += 1;
         match is_write {
-            true => self.report(robot, "write", Some(value)),
-            false => self.report(robot, "read", None),
+            true => {
+                let (operation, value) = (self.operation(), value.into());
+                robot.report(NAIVE, RegisterEvent::Write { operation, value });
+            }
+            false => {
+                let operation = self.operation();
+                robot.report(NAIVE, RegisterEvent::Read { operation });
+            }
         }
         let copy = match is_write {
             true => (self.copy.0 + 1, value),
@@ -125,7 +134,7 @@ impl Naive {
         }
         if answers.len() > robot.fleet().len() / 2 {
             let value = (latest.0 > 0).then_some(latest.1);
-            self.report(robot, "done", value);
+            self.report_done(robot, value);
             self.under_way = None;
         }
     }

@@ -2,12 +2,14 @@
 //! after the other under every fault, and robots that read and then write without a claim are found out.
 
 use crate::engine_support::weather::{calm, chaotic, fleet, judge, lossy};
-use starl_core::{Payload, Port, Primitive, Program, Robot};
+use starl_core::event::RegisterEvent;
+use starl_core::event::storing::Operation;
+use starl_core::{Payload, Port, Primitives, Program, Robot};
 use starl_primitives::Register;
 use starl_primitives::register::{OperationId, Options, Status};
 
 /// A program that reads a counter now and then, or counts it up.
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct Counter {
     register: Register,
     /// Whether it claims what it counts up; else it reads it and then writes it.
@@ -35,20 +37,10 @@ impl Counter {
         }
     }
 
-    fn report(&self, robot: &mut Robot<'_>, name: &'static str, found: u32) {
-        let fields = [
-            ("operation", self.number.into()),
-            ("register", "x".into()),
-            ("found", found.into()),
-            ("value", (found + 1).into()),
-        ];
-        match (name, found) {
-            // Nothing was written before.
-            ("update", 0) => {
-                let [number, register, _, value] = fields;
-                robot.emit_primitive("register", UNFENCED, name, [number, register, value]);
-            }
-            _ => robot.emit_primitive("register", UNFENCED, name, fields),
+    fn operation(&self) -> Operation {
+        Operation {
+            operation: self.number,
+            register: "x".into(),
         }
     }
 
@@ -58,7 +50,13 @@ impl Counter {
             true => self.register.write_claimed(robot, "x", value),
             false => {
                 self.number += 1;
-                self.report(robot, "update", found);
+                let update = RegisterEvent::Update {
+                    operation: self.operation(),
+                    // Nothing was written before.
+                    found: (found > 0).then_some(found.into()),
+                    value: i64::from(found + 1),
+                };
+                robot.report(UNFENCED, update);
                 self.register.write(robot, "x", value)
             }
         };
@@ -99,15 +97,15 @@ impl Program for Counter {
         self.step = match self.step {
             Step::Claiming(_) => Step::Writing(self.write(robot, value)),
             Step::Writing(_) if !self.claims => {
-                self.report(robot, "done", value - 1);
+                let done = RegisterEvent::Done {
+                    operation: self.operation(),
+                    value: Some(i64::from(value)),
+                };
+                robot.report(UNFENCED, done);
                 Step::Idle
             }
             _ => Step::Idle,
         };
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.register);
     }
 }
 

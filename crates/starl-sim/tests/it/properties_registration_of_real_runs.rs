@@ -2,13 +2,14 @@
 //! keep their promises under every fault.
 
 use crate::engine_support::weather::{WEATHERS, fleet};
-use starl_core::{Duration, Event, Primitive, Program, Random, Robot, Time};
+use starl_core::event::{BarrierEvent, PrimitiveEvent, RegistrationEvent};
+use starl_core::{Duration, Event, Primitives, Program, Random, Robot, Time};
 use starl_primitives::failure_detector::{self, FailureDetector};
 use starl_primitives::{Barrier, Registration, barrier, registration};
 use starl_sim::Run;
 
 /// Registers and leaves at random for the first minute, and comes to the barrier again and again.
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct Visitor {
     detector: FailureDetector,
     registration: Registration,
@@ -43,12 +44,6 @@ impl Program for Visitor {
         }
     }
 
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.detector);
-        visit(&mut self.registration);
-        visit(&mut self.barrier);
-    }
-
     fn corrupt(&mut self, random: &mut Random) {
         self.registration.corrupt(random);
         self.barrier.corrupt(random);
@@ -66,9 +61,12 @@ fn the_primitives_keep_their_promises_under_every_fault() {
             let (mut lists, mut crossings) = (0, 0);
             while !run.is_over() {
                 for record in run.step() {
-                    match &record.event {
-                        Event::Primitive { name, .. } if name == "agree" => lists += 1,
-                        Event::Primitive { name, .. } if name == "pass" => crossings += 1,
+                    let Event::Primitive { event, .. } = &record.event else {
+                        continue;
+                    };
+                    match event {
+                        PrimitiveEvent::Registration(RegistrationEvent::Agree { .. }) => lists += 1,
+                        PrimitiveEvent::Barrier(BarrierEvent::Pass { .. }) => crossings += 1,
                         _ => {}
                     }
                 }

@@ -2,17 +2,19 @@
 //! promises under every fault, and memories that are made worse are found out.
 
 use crate::engine_support::weather::{WEATHERS, fleet, judge};
+use starl_core::event::SharedMemoryEvent;
+use starl_core::event::storing::Written;
 use starl_core::{
-    Destination, Duration, Input, Message, Payload, Port, Primitive, Program, Random, Robot,
-    RobotId, Time, Value, message,
+    Destination, Duration, Input, Message, Payload, Port, Primitive, Primitives, Program, Random,
+    Robot, RobotId, Time, message,
 };
 use starl_primitives::SharedMemory;
 use starl_primitives::shared_memory::Options;
 use starl_sim::Scenario;
 
 /// Writes now and then.
-#[derive(Clone)]
-struct Writer<M> {
+#[derive(Clone, Primitives)]
+struct Writer<M: Memory> {
     memory: M,
     activations: u32,
 }
@@ -39,10 +41,6 @@ impl<M: Memory> Program for Writer<M> {
                 .write_own(robot, ["x", "y", "z"][draw as usize - 3], value),
             _ => {}
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.memory);
     }
 
     fn corrupt(&mut self, random: &mut Random) {
@@ -77,20 +75,20 @@ struct Naive {
 const NAIVE: Port = Port::named("naive");
 
 impl Naive {
-    fn report(&self, robot: &mut Robot<'_>, name: &'static str) {
+    fn report(&self, robot: &mut Robot<'_>, event: fn(Written) -> SharedMemoryEvent) {
         let Some((time, writer, value)) = self.held else {
             return;
         };
-        let fields = [
-            ("variable", "x".into()),
-            ("single_writer", false.into()),
-            ("time", time.into()),
-            ("count", 0u32.into()),
-            ("writer", writer.into()),
-            ("incarnation", 0u32.into()),
-            ("value", Value::Int(value.into())),
-        ];
-        robot.emit_primitive("shared_memory", NAIVE, name, fields);
+        let written = Written {
+            variable: "x".into(),
+            single_writer: false,
+            time,
+            count: 0,
+            writer,
+            incarnation: 0,
+            value: value.into(),
+        };
+        robot.report(NAIVE, event(written));
     }
 }
 
@@ -101,7 +99,7 @@ impl Primitive for Naive {
 
     fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
         match input {
-            Input::Start => robot.emit_primitive("shared_memory", NAIVE, "start", []),
+            Input::Start => robot.report(NAIVE, SharedMemoryEvent::Start),
             Input::Message(message) => self.take(robot, message),
             _ => {}
         }
@@ -117,7 +115,7 @@ impl Naive {
         if self.held.is_none_or(|held| key(held) < (time, writer)) {
             let value = if self.spoils { value ^ 1 } else { value };
             self.held = Some((time, writer, value));
-            self.report(robot, "update");
+            self.report(robot, |written| SharedMemoryEvent::Update { written });
         }
     }
 }
@@ -126,7 +124,7 @@ impl Memory for Naive {
     fn write(&mut self, robot: &mut Robot<'_>, _: &'static str, value: u32) {
         let write = (robot.now(), robot.id(), value);
         self.held = Some(write);
-        self.report(robot, "write");
+        self.report(robot, |written| SharedMemoryEvent::Write { written });
         let datagram: Payload = message::encode(&write);
         robot.transmit_bytes(Destination::All, NAIVE, datagram);
     }

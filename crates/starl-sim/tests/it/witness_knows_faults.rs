@@ -3,13 +3,13 @@
 
 use crate::engine_support::scenario;
 use starl_core::event::Name;
-use starl_core::{Duration, Program, Robot, RobotId, Time};
+use starl_core::{Duration, Primitives, Program, Robot, RobotId, Time};
+use starl_properties::{Monitor, Violation, Witness};
 use starl_sim::Run;
-use starl_sim::properties::{Monitor, Violation, Witness};
 use starl_sim::scenario::{Fault, FaultKind};
 use std::sync::{Arc, Mutex};
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 struct Idle;
 
 impl Program for Idle {
@@ -25,7 +25,7 @@ impl Monitor for Watch {
         Vec::new()
     }
 
-    fn observe(&mut self, witness: &Witness<'_>, _: &mut Vec<Violation>) {
+    fn observe(&mut self, witness: &dyn Witness, _: &mut Vec<Violation>) {
         let [now, calm] = [witness.now().0, witness.undisturbed().0].map(|time| time / 1_000_000);
         self.0.lock().unwrap().push((now, calm));
     }

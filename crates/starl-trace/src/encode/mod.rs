@@ -5,7 +5,7 @@ mod values;
 pub(crate) use values::{obstacles, way_points};
 
 use crate::json::Json;
-use starl_core::event::{DropReason, Hit, Level, Mark, MarkShape};
+use starl_core::event::{DropReason, Hit, Level, Mark, MarkShape, borrowed};
 use starl_core::{Destination, Event, Pose, RobotId};
 use values::{fields, obstacle};
 
@@ -61,18 +61,13 @@ pub(crate) fn event(json: &mut Json, robot: Option<RobotId>, event: &Event) {
             fields: details,
         } => {
             json.key("name").string(name);
-            fields(json, details);
+            fields(json, &borrowed(details));
         }
-        Event::Primitive {
-            primitive,
-            port,
-            name,
-            fields: details,
-        } => {
-            json.key("primitive").string(primitive);
+        Event::Primitive { port, event } => {
+            json.key("primitive").string(event.primitive());
             json.key("port").integer(port.0);
-            json.key("name").string(name);
-            fields(json, details);
+            json.key("name").string(event.name());
+            fields(json, &event.fields());
         }
         Event::Log {
             level: weight,
@@ -82,8 +77,8 @@ pub(crate) fn event(json: &mut Json, robot: Option<RobotId>, event: &Event) {
             json.key("text").string(text);
         }
         Event::Draw(drawn) => mark(json, drawn),
-        Event::Fault(text) => {
-            json.key("text").string(text);
+        Event::Fault(fault) => {
+            json.key("text").string(fault.name());
         }
         Event::Discovered(found) => {
             json.key("obstacle");

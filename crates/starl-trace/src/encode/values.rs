@@ -1,46 +1,47 @@
 //! Values, areas, obstacles and way-points as JSON. [`crate::wire`] reads what is written here.
 
 use crate::json::Json;
+use starl_core::event::ValueRef;
 use starl_core::geometry::HeightSpan;
-use starl_core::{Area, Fields, Obstacle, Shape, Value, WayPoint};
+use starl_core::{Area, Obstacle, Shape, WayPoint};
 
 /// Writes the details of an event as the member `fields`.
-pub(super) fn fields(json: &mut Json, fields: &Fields) {
+pub(super) fn fields(json: &mut Json, fields: &[(&str, ValueRef<'_>)]) {
     json.key("fields").mark(b'[');
     for (name, detail) in fields {
         json.item().mark(b'{').key("name").string(name);
-        value(json, detail);
+        value(json, *detail);
         json.mark(b'}');
     }
     json.mark(b']');
 }
 
-fn value(json: &mut Json, value: &Value) {
+fn value(json: &mut Json, value: ValueRef<'_>) {
     match value {
-        Value::Bool(value) => json.key("bool").boolean(*value),
-        Value::Int(value) => json.key("int").integer(*value),
-        Value::Float(value) if value.is_nan() => json.key("not_finite").string("nan"),
-        Value::Float(f64::INFINITY) => json.key("not_finite").string("inf"),
-        Value::Float(f64::NEG_INFINITY) => json.key("not_finite").string("-inf"),
-        Value::Float(value) => json.key("float").number(*value),
-        Value::Text(text) => json.key("text").string(text),
-        Value::Time(at) => json.key("time_ns").integer(at.0),
-        Value::Point(at) => json.key("point").point(*at),
-        Value::Path(points) => json.key("path").points(points),
-        Value::Robot(id) => json.key("robot").integer(id.0),
-        Value::Robots(ids) => {
+        ValueRef::Bool(value) => json.key("bool").boolean(value),
+        ValueRef::Int(value) => json.key("int").integer(value),
+        ValueRef::Float(value) if value.is_nan() => json.key("not_finite").string("nan"),
+        ValueRef::Float(f64::INFINITY) => json.key("not_finite").string("inf"),
+        ValueRef::Float(f64::NEG_INFINITY) => json.key("not_finite").string("-inf"),
+        ValueRef::Float(value) => json.key("float").number(value),
+        ValueRef::Text(text) => json.key("text").string(text),
+        ValueRef::Time(at) => json.key("time_ns").integer(at.0),
+        ValueRef::Point(at) => json.key("point").point(at),
+        ValueRef::Path(points) => json.key("path").points(points),
+        ValueRef::Robot(id) => json.key("robot").integer(id.0),
+        ValueRef::Robots(ids) => {
             json.key("robots").mark(b'[');
             for id in ids {
                 json.item().integer(id.0);
             }
             json.mark(b']')
         }
-        Value::Obstacles(list) => {
+        ValueRef::Obstacles(list) => {
             json.key("obstacles");
             obstacles(json, list);
             json
         }
-        Value::Area(region) => {
+        ValueRef::Area(region) => {
             json.key("area");
             area(json, region);
             json

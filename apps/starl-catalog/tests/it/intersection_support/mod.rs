@@ -1,6 +1,7 @@
 //! Runs of the intersection: what its cars did, read from the records.
 
 use crate::support::Case;
+use starl_core::event::{MutexEvent, PrimitiveEvent};
 use starl_core::{Event, RobotId, Time, Value};
 use starl_sim::{Outcome, Run};
 use std::collections::{BTreeMap, BTreeSet};
@@ -62,17 +63,12 @@ impl Traffic {
                 _ => {}
             },
             Event::Primitive {
-                primitive,
-                name,
-                fields,
+                event: PrimitiveEvent::Mutex(event),
                 ..
-            } if primitive == "mutex" => {
-                let Some((_, Value::Text(resource))) = fields.first() else {
-                    return;
-                };
-                let lock = match &**name {
-                    "enter" => Lock::Held(resource.to_string()),
-                    "release" => Lock::Released(resource.to_string()),
+            } => {
+                let lock = match event {
+                    MutexEvent::Enter { resource, .. } => Lock::Held(resource.to_string()),
+                    MutexEvent::Release { resource } => Lock::Released(resource.to_string()),
                     _ => return,
                 };
                 self.locks.push((at, robot, lock));

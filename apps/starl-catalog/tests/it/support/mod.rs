@@ -1,6 +1,7 @@
 //! Runs of the examples, as a test wants them.
 
 use starl_catalog::examples;
+use starl_catalog::programs::Registry;
 use starl_sim::Run;
 use starl_sim::read::{Override, Request, Source};
 
@@ -41,7 +42,7 @@ impl<'a> Case<'a> {
             faults: (!self.faults.is_empty()).then(|| Source::new("faults.toml", self.faults)),
             ..Request::new(example.source())
         };
-        let application = starl_catalog::read(&request, example).unwrap();
+        let application = starl_catalog::read(&request, example, &Registry::default()).unwrap();
         application.run().unwrap()
     }
 

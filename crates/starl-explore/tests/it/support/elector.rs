@@ -1,12 +1,12 @@
 //! Robots that stand for election.
 
-use starl_core::{Primitive, Program, Robot};
+use starl_core::{Primitives, Program, Robot};
 use starl_primitives::LeaderElection;
 use starl_primitives::election::Options;
 use std::fmt::Write;
 
 /// Stands from its first activation on.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Primitives)]
 pub struct Elector {
     election: LeaderElection,
     stands: bool,
@@ -28,10 +28,6 @@ impl Program for Elector {
             self.stands = true;
             self.election.elect(robot);
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.election);
     }
 
     fn write_state(&self, text: &mut dyn Write) -> bool {

@@ -1,14 +1,15 @@
 //! Robots that each enter a critical section once, and a checker that looks at what they say of it.
 
-use starl_core::{Event, Primitive, Program, Record, Robot, RobotId, Value};
+use starl_core::event::{Fault, MutexEvent, PrimitiveEvent};
+use starl_core::{Event, Primitives, Program, Record, Robot, RobotId};
 use starl_primitives::Mutex;
 use starl_primitives::mutex::{Options, Resources};
-use starl_sim::properties::{Checker, Violation};
+use starl_properties::{Checker, Violation};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Asks for its resources, gives them back at the activation after it got them, and finishes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Primitives)]
 pub struct Locker {
     mutex: Mutex,
     /// By robot.
@@ -47,10 +48,6 @@ impl Program for Locker {
         }
     }
 
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.mutex);
-    }
-
     fn write_state(&self, text: &mut dyn Write) -> bool {
         write!(text, "{:?} {}", self.mutex, self.stage).is_ok()
     }
@@ -68,12 +65,12 @@ impl Checker for Exclusion {
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
         let Some(robot) = record.robot else { return };
         match &record.event {
-            Event::Fault(fault) if fault == "crash" => self.0.retain(|_, holder| *holder != robot),
-            Event::Primitive { name, fields, .. } => {
-                let Some((_, Value::Text(resource))) = fields.first() else {
-                    return;
-                };
-                if name == "enter" {
+            Event::Fault(Fault::Crash) => self.0.retain(|_, holder| *holder != robot),
+            Event::Primitive {
+                event: PrimitiveEvent::Mutex(event),
+                ..
+            } => match event {
+                MutexEvent::Enter { resource, .. } => {
                     let before = self.0.insert(resource.to_string(), robot);
                     if let Some(holder) = before.filter(|holder| *holder != robot) {
                         violations.push(Violation {
@@ -83,10 +80,12 @@ impl Checker for Exclusion {
                             text: format!("robots {holder} and {robot} hold {resource}"),
                         });
                     }
-                } else if name == "release" || name == "expire" {
+                }
+                MutexEvent::Release { resource } | MutexEvent::Expire { resource } => {
                     self.0.remove(&**resource);
                 }
-            }
+                MutexEvent::Acquire { .. } | MutexEvent::Withdraw { .. } => {}
+            },
             _ => {}
         }
     }

@@ -7,9 +7,7 @@ pub mod tieless;
 
 use starl_core::{Duration, Event, Program, Record};
 use starl_explore::{Bounds, Clocks, End, Model, Report, Search, Setup, Walk};
-use starl_sim::Scenario;
-use starl_sim::properties::{self, Checker, Setting, Violation};
-use starl_sim::scenario::Properties;
+use starl_properties::{Checker, Properties, Setting, Violation};
 
 /// A fleet of robots that run the same program, and nobody who watches.
 pub fn setup(robots: usize, program: impl Program + Clone + 'static, bounds: Bounds) -> Setup {
@@ -25,23 +23,16 @@ pub fn setup(robots: usize, program: impl Program + Clone + 'static, bounds: Bou
 /// The same, watched by the checkers that watch every run.
 pub fn watched(setup: Setup) -> Setup {
     let members = setup.model.members.iter();
+    // Nothing is ever too late.
+    let forever = Duration::from_seconds(1 << 30);
     let setting = Setting {
         bodies: members.map(|member| member.body).collect(),
-        obstacles: Vec::new(),
-        walls: 0,
+        properties: Properties::default().without_bounds(forever),
+        ..Setting::default()
     };
     Setup {
-        checkers: properties::checkers(&timeless(), &setting),
+        checkers: starl_properties::checkers(&setting),
         ..setup
-    }
-}
-
-/// A scenario in which nothing is ever too late.
-fn timeless() -> Scenario {
-    let forever = Duration::from_seconds(1 << 30);
-    Scenario {
-        properties: Properties::default().without_bounds(forever),
-        ..Scenario::default()
     }
 }
 
@@ -94,9 +85,10 @@ impl Checker for Sees {
     }
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
-        if let (Some(robot), Event::Primitive { name, .. }) = (record.robot, &record.event)
-            && name == self.0
+        if let (Some(robot), Event::Primitive { event, .. }) = (record.robot, &record.event)
+            && event.name() == self.0
         {
+            let name = event.name();
             violations.push(Violation {
                 property: "seen".into(),
                 at: record.at,

@@ -1,15 +1,16 @@
 //! Robots that register, and a checker of what they come to show.
 
-use starl_core::event::Fields;
-use starl_core::{Event, Primitive, Program, Record, Robot, RobotId, Time, Value};
+use starl_core::event::agreement::ListId;
+use starl_core::event::{PrimitiveEvent, RegistrationEvent};
+use starl_core::{Event, Primitives, Program, Record, Robot, RobotId, Time};
 use starl_primitives::Registration;
 use starl_primitives::registration::Options;
-use starl_sim::properties::{Checker, Violation};
+use starl_properties::{Checker, Violation};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Registers at its first activation.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Primitives)]
 pub struct Registrar {
     registration: Registration,
     is_registered: bool,
@@ -33,38 +34,16 @@ impl Program for Registrar {
         }
     }
 
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.registration);
-    }
-
     fn write_state(&self, text: &mut dyn Write) -> bool {
         write!(text, "{self:?}").is_ok()
     }
 }
 
-/// A list's time and coordinator.
-type Name = (Time, RobotId);
-
 /// Lists of one name are equal, and of two robots that show lists with each other both show the same.
 #[derive(Clone, Debug, Default)]
 pub struct Agreement {
-    lists: BTreeMap<Name, Vec<RobotId>>,
-    shown: BTreeMap<RobotId, Name>,
-}
-
-fn list(fields: &Fields) -> Option<(Name, &[RobotId])> {
-    let field = |wanted: &str| {
-        let mut fields = fields.iter();
-        fields
-            .find(|(name, _)| name == wanted)
-            .map(|(_, value)| value)
-    };
-    match (field("time")?, field("coordinator")?, field("members")?) {
-        (Value::Time(time), Value::Robot(coordinator), Value::Robots(members)) => {
-            Some(((*time, *coordinator), members))
-        }
-        _ => None,
-    }
+    lists: BTreeMap<ListId, Vec<RobotId>>,
+    shown: BTreeMap<RobotId, ListId>,
 }
 
 impl Checker for Agreement {
@@ -79,19 +58,28 @@ impl Checker for Agreement {
                 self.shown.remove(&robot);
             }
             // Who has promised another list shows none.
-            Event::Primitive { name, .. } if matches!(&**name, "lose" | "propose" | "accept") => {
+            Event::Primitive {
+                event:
+                    PrimitiveEvent::Registration(
+                        RegistrationEvent::Lose
+                        | RegistrationEvent::Propose { .. }
+                        | RegistrationEvent::Accept { .. },
+                    ),
+                ..
+            } => {
                 self.shown.remove(&robot);
             }
-            Event::Primitive { name, fields, .. } if name == "agree" => {
-                let Some((name, members)) = list(fields) else {
-                    return;
-                };
+            Event::Primitive {
+                event: PrimitiveEvent::Registration(RegistrationEvent::Agree { list, members }),
+                ..
+            } => {
+                let name = *list;
                 let known = self.lists.entry(name).or_insert_with(|| members.to_vec());
                 let is_known = known == members;
                 self.shown.insert(robot, name);
                 let differs = |other: &&RobotId| {
                     let shown = self.shown.get(other);
-                    let of_both = |shown: &Name| self.lists[shown].contains(&robot);
+                    let of_both = |shown: &ListId| self.lists[shown].contains(&robot);
                     shown.is_some_and(|shown| *shown != name && of_both(shown))
                 };
                 if let Some(other) = members.iter().find(differs).filter(|_| is_known) {

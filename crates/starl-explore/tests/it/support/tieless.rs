@@ -1,11 +1,13 @@
 //! Ricart and Agrawala's algorithm with the half of the order left out that breaks ties.
 
-use starl_core::{Destination, Message, Port, Program, Robot, RobotId, Value};
+use starl_core::event::MutexEvent;
+use starl_core::{Destination, Message, Port, Primitives, Program, Robot, RobotId};
 use std::fmt::Write;
+use std::sync::Arc;
 
 /// Enters a critical section once. Of two requests with the same time, each robot gives way to the
 /// other's.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Primitives)]
 pub struct Tieless {
     clock: u32,
     /// The time of its request, while it waits.
@@ -17,9 +19,8 @@ pub struct Tieless {
 }
 
 impl Tieless {
-    fn tell(robot: &mut Robot<'_>, event: &'static str) {
-        let resource = Value::Text("a".into());
-        robot.emit_primitive("mutex", Port::PROGRAM, event, [("resource", resource)]);
+    fn tell(robot: &mut Robot<'_>, event: fn(Arc<str>) -> MutexEvent) {
+        robot.report(Port::PROGRAM, event("a".into()));
     }
 
     fn permit(robot: &mut Robot<'_>, peer: RobotId) {
@@ -36,7 +37,7 @@ impl Program for Tieless {
             robot.transmit(Destination::All, Port::PROGRAM, &Some(self.clock));
         } else if self.holds {
             self.holds = false;
-            Tieless::tell(robot, "release");
+            Tieless::tell(robot, |resource| MutexEvent::Release { resource });
             for peer in std::mem::take(&mut self.deferred) {
                 Tieless::permit(robot, peer);
             }
@@ -59,7 +60,11 @@ impl Program for Tieless {
                 if self.permits as usize == robot.peers().count() {
                     self.asked = None;
                     self.holds = true;
-                    Tieless::tell(robot, "enter");
+                    Tieless::tell(robot, |resource| MutexEvent::Enter {
+                        resource,
+                        fencing: None,
+                        drift: None,
+                    });
                 }
             }
             None => {}

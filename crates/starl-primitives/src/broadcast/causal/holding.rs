@@ -1,12 +1,13 @@
 //! What is held back, and until when.
 
-use super::super::{Gap, KIND};
+use super::super::Gap;
 use super::vector::After;
 use super::{Causal, LEAST_LOOKS, LONGEST_SILENCE};
-use crate::channel::report_arrival;
 use crate::reliable::Arrival;
 use alloc::vec::Vec;
 use starl_core::Robot;
+use starl_core::event::messaging::MessageNumber;
+use starl_core::event::{BroadcastEvent, TransferEvent};
 
 /// A message that has arrived and is not handed out yet.
 #[derive(Clone, Debug)]
@@ -105,16 +106,12 @@ impl Causal {
             if self.vector.is_taken(process, number) {
                 continue;
             }
-            robot.emit_primitive(
-                KIND,
-                port,
-                "pass_over",
-                [
-                    ("from", process.robot.into()),
-                    ("number", number.into()),
-                    ("incarnation", process.incarnation.into()),
-                ],
-            );
+            let message = MessageNumber {
+                number,
+                incarnation: process.incarnation,
+            };
+            let from = process.robot;
+            robot.report(port, BroadcastEvent::PassOver { from, message });
             let Some(known) = self.vector.note(process) else {
                 continue;
             };
@@ -130,13 +127,17 @@ impl Causal {
             robot: arrival.from,
             incarnation: arrival.incarnation,
         };
+        let (from, message) = arrival.numbered();
         let known = self.vector.hear(process);
         if arrival.number <= known.taken {
-            return report_arrival(robot, KIND, port, "late", &arrival);
+            return robot.report(port, BroadcastEvent::Late { from, message });
         }
         known.taken = arrival.number;
         known.is_joined = true;
-        report_arrival(robot, KIND, port, "deliver", &arrival);
+        robot.report(
+            port,
+            BroadcastEvent::from(TransferEvent::Deliver { from, message }),
+        );
         robot.deliver(arrival.from, port, arrival.content);
     }
 }

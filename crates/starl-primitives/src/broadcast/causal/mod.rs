@@ -17,14 +17,15 @@ mod asking;
 mod holding;
 mod vector;
 
-use super::{Gap, Gaps, KIND};
-use crate::channel::{Channel, report_arrival};
+use super::{Gap, Gaps};
+use crate::channel::Channel;
 use crate::reliable::{Alarm, Arrival, MessageId, Notice, encode};
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 use asking::Doubt;
 use holding::Held;
 use serde::{Deserialize, Serialize};
+use starl_core::event::BroadcastEvent;
 use starl_core::{Duration, Input, Payload, Random, Robot, RobotId, TimerKey, message};
 use vector::{After, Process, Vector};
 
@@ -144,7 +145,8 @@ impl Causal {
         let known = self.vector.hear(process);
         if arrival.number <= known.taken {
             self.ask(robot, process);
-            return report_arrival(robot, KIND, self.channel.port, "late", &arrival);
+            let (from, message) = arrival.numbered();
+            return robot.report(self.channel.port, BroadcastEvent::Late { from, message });
         }
         // In FIFO order those before it have arrived or never will; and this life is not over.
         let before = arrival.number - 1;

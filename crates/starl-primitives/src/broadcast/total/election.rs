@@ -7,6 +7,7 @@
 use super::packet::{Body, Life};
 use super::{FURTHEST, Role, Total};
 use alloc::collections::BTreeSet;
+use starl_core::event::messaging::LeaveReason;
 use starl_core::{Destination, Robot};
 
 /// Who has heard the leader within so many ticks votes for nobody else.
@@ -41,7 +42,7 @@ impl Total {
         }
         member.see(life, false);
         if member.is_dead() {
-            return self.leave(robot, "lost");
+            return self.leave(robot, LeaveReason::Lost);
         }
         member.patience = patience;
         member.silence = 0;
@@ -130,7 +131,11 @@ impl Total {
         }
         let is_absurd = member.term > term.saturating_add(FURTHEST);
         if is_absurd || member.is_dead() {
-            let reason = if is_absurd { "corrupt" } else { "lost" };
+            let reason = if is_absurd {
+                LeaveReason::Corrupt
+            } else {
+                LeaveReason::Lost
+            };
             return self.leave(robot, reason);
         }
         match is_granted {

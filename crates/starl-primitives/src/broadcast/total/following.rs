@@ -7,6 +7,9 @@ use super::packet::{Body, Entry, Generation, Life, Sender, What};
 use super::{Gap, Member, Role, Total};
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
+use starl_core::event::messaging::LeaveReason;
+use starl_core::event::messaging::MessageNumber;
+use starl_core::event::{BroadcastEvent, TransferEvent};
 use starl_core::{Destination, Robot};
 
 /// The incarnations of a robot whose last message is remembered.
@@ -58,7 +61,7 @@ impl Total {
             }
             Ok(None) => None,
             // What is decided cannot differ: the state is corrupt.
-            Err(()) => return self.leave(robot, "corrupt"),
+            Err(()) => return self.leave(robot, LeaveReason::Corrupt),
         };
         self.apply(robot);
         let Some(member) = &mut self.member else {
@@ -181,18 +184,18 @@ impl Total {
         number: u32,
         content: starl_core::Payload,
     ) {
-        let fields = [
-            ("from", from.into()),
-            ("number", number.into()),
-            ("incarnation", incarnation.into()),
-        ];
-        self.report(robot, "deliver", fields);
+        let message = MessageNumber {
+            number,
+            incarnation,
+        };
+        let deliver = TransferEvent::Deliver { from, message };
+        robot.report(self.port, BroadcastEvent::from(deliver));
         robot.deliver(from, self.port, content);
     }
 
     /// Others may have been handed messages that this robot will not be.
     pub(super) fn miss(&mut self, robot: &mut Robot<'_>) {
-        self.report(robot, "gap", []);
+        robot.report(self.port, BroadcastEvent::Gap);
         self.gaps.push(Gap { from: None });
     }
 }

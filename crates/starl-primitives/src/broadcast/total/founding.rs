@@ -9,6 +9,8 @@ use super::packet::{Body, Generation, Life};
 use super::{FURTHEST, Member, Total};
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
+use starl_core::event::BroadcastEvent;
+use starl_core::event::messaging::LeaveReason;
 use starl_core::{Destination, Robot, RobotId};
 
 /// A robot that was heard of counts as up for this many ticks.
@@ -106,7 +108,7 @@ impl Total {
         };
         if bound_to.is_some_and(|bound_to| bound_to > member.generation) {
             // It cannot go back, so this group cannot take it in: the next one will.
-            return self.leave(robot, "obsolete");
+            return self.leave(robot, LeaveReason::Obsolete);
         }
         if generation == Some(member.generation) {
             return;
@@ -115,7 +117,7 @@ impl Total {
             // It was asked after the voters were known, so this is no earlier life of one.
             member.see(from, generation.is_some());
             if member.is_dead() {
-                return self.leave(robot, "lost");
+                return self.leave(robot, LeaveReason::Lost);
             }
         }
         if generation.is_none() {
@@ -167,7 +169,8 @@ impl Total {
         let is_next = self
             .position
             .is_some_and(|position| position < (member.generation, member.commit));
-        self.report(robot, "join", [("group", member.generation.counter.into())]);
+        let group = member.generation.counter;
+        robot.report(self.port, BroadcastEvent::Join { group });
         self.member = Some(member);
         self.idle = Idle::default();
         if is_next {
@@ -176,11 +179,11 @@ impl Total {
     }
 
     /// Gives the group up: from now on this robot is another life, which knows nothing of it.
-    pub(super) fn leave(&mut self, robot: &mut Robot<'_>, reason: &'static str) {
+    pub(super) fn leave(&mut self, robot: &mut Robot<'_>, reason: LeaveReason) {
         let Some(member) = self.member.take() else {
             return;
         };
-        self.report(robot, "leave", [("reason", reason.into())]);
+        robot.report(self.port, BroadcastEvent::Leave { reason });
         self.lives = self.lives.wrapping_add(1);
         self.idle = Idle::default();
         // In the next group it would have another place than in this one, where it may have one.

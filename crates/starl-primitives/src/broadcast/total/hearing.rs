@@ -4,6 +4,7 @@ use super::election::Claim;
 use super::following::{Continuation, Place};
 use super::packet::{Body, Generation, Life, Said};
 use super::{FURTHEST, Total};
+use starl_core::event::messaging::LeaveReason;
 use starl_core::{Destination, Message, Robot};
 
 impl Total {
@@ -88,7 +89,7 @@ impl Total {
                     .as_ref()
                     .is_some_and(|member| generation > Some(member.generation));
                 if is_obsolete {
-                    self.leave(robot, "obsolete");
+                    self.leave(robot, LeaveReason::Obsolete);
                 }
                 if self.member.is_none() || generation < self.member.as_ref().map(|m| m.generation)
                 {

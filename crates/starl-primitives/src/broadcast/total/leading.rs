@@ -10,6 +10,7 @@ use super::packet::{Body, Entry, Life, Sender, What};
 use super::{Role, Total};
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
+use starl_core::event::BroadcastEvent;
 use starl_core::{Destination, Payload, Robot, RobotId};
 
 /// A leader that has not heard of a quorum for this many ticks leads no more.
@@ -45,8 +46,8 @@ impl Total {
             senders,
         });
         member.put(What::Start);
-        let term = ("term", member.term.into());
-        self.report(robot, "lead", [term]);
+        let term = member.term;
+        robot.report(self.port, BroadcastEvent::Lead { term });
         self.replicate(robot, true);
         self.propose(robot);
     }

@@ -35,7 +35,7 @@ mod member;
 mod packet;
 mod proposing;
 
-use super::{Gap, Gaps, KIND};
+use super::{Gap, Gaps};
 use crate::Failure;
 use crate::incarnation::Incarnation;
 use crate::reliable::{MessageId, Options};
@@ -45,8 +45,10 @@ use founding::Idle;
 use member::{Member, Role};
 use packet::{Body, Generation, Life, Said};
 use proposing::Proposal;
+use starl_core::event::BroadcastEvent;
+use starl_core::event::messaging::LeaveReason;
 use starl_core::random::hash_key;
-use starl_core::{Destination, Duration, Input, Port, Random, Robot, TimerKey, Value, timers};
+use starl_core::{Destination, Duration, Input, Port, Random, Robot, TimerKey, timers};
 
 /// A log with this many entries or bytes is long: it is no longer kept for those who are away. Besides,
 /// it may hold as much that is not decided.
@@ -171,14 +173,14 @@ impl Total {
         self.is_ticking = false;
         self.silence = self.silence.saturating_add(1);
         if self.silence == SILENCE {
-            self.report(robot, "unavailable", []);
+            robot.report(self.port, BroadcastEvent::Unavailable);
         }
         if self
             .member
             .as_ref()
             .is_some_and(|member| !member.is_sound())
         {
-            self.leave(robot, "corrupt");
+            self.leave(robot, LeaveReason::Corrupt);
         }
         match &mut self.member {
             None => self.wait_for_group(robot),
@@ -206,7 +208,7 @@ impl Total {
             .is_some_and(|member| member.leader.is_some() && member.silence == 0);
         if is_led {
             if self.silence >= SILENCE {
-                self.report(robot, "available", []);
+                robot.report(self.port, BroadcastEvent::Available);
             }
             self.silence = 0;
         }
@@ -252,15 +254,6 @@ impl Total {
             body,
         };
         robot.transmit(to, self.port, &said);
-    }
-
-    fn report<const N: usize>(
-        &self,
-        robot: &mut Robot<'_>,
-        name: &'static str,
-        fields: [(&'static str, Value); N],
-    ) {
-        robot.emit_primitive(KIND, self.port, name, fields);
     }
 
     fn tick(&self) -> Duration {

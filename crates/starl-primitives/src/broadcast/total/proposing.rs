@@ -8,7 +8,9 @@ use super::{CHUNK, Total};
 use crate::Failure;
 use crate::reliable::MessageId;
 use alloc::vec::Vec;
-use starl_core::{Destination, Payload, Robot, RobotId};
+use starl_core::event::messaging::MessageNumber;
+use starl_core::event::{BroadcastEvent, TransferEvent};
+use starl_core::{Destination, Payload, Robot};
 
 /// Failures that nobody asks for are kept up to this number, the latest.
 const MOST_FAILURES: usize = 64;
@@ -91,11 +93,14 @@ impl Total {
         {
             let number = first.number;
             self.proposals.pop_front();
-            let fields = [
-                ("number", number.into()),
-                ("incarnation", incarnation.into()),
-            ];
-            self.report(robot, "acknowledged", fields);
+            let acknowledged = TransferEvent::Acknowledged {
+                message: MessageNumber {
+                    number,
+                    incarnation,
+                },
+                to: None,
+            };
+            robot.report(self.port, BroadcastEvent::from(acknowledged));
         }
     }
 
@@ -136,12 +141,14 @@ impl Total {
             !fails
         });
         for number in failed {
-            let fields = [
-                ("number", number.into()),
-                ("incarnation", incarnation.into()),
-                ("to", Vec::<RobotId>::new().into()),
-            ];
-            self.report(robot, "fail", fields);
+            let fail = TransferEvent::Fail {
+                message: MessageNumber {
+                    number,
+                    incarnation,
+                },
+                to: Vec::new(),
+            };
+            robot.report(self.port, BroadcastEvent::from(fail));
             if self.failures.len() == MOST_FAILURES {
                 self.failures.pop_front();
             }

@@ -16,13 +16,13 @@
 //! of them did remember too: what was promised before may be lost, and since then they have forgotten nothing.
 
 use super::{Leases, Promise};
-use crate::election::KIND;
 use crate::election::epoch::Epoch;
 use crate::election::options::no_later;
 use crate::election::packet::{Memory, Packet};
 use crate::election::rules::Scene;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
+use starl_core::event::ElectionEvent;
 use starl_core::{Duration, Random, RobotId, Time};
 
 /// How far a robot is.
@@ -193,9 +193,9 @@ impl Leases {
         } else {
             return;
         }
-        let is_anew = matches!(self.stage, Stage::Remembering(Some(_)));
-        let fields = [("anew", is_anew.into())];
-        scene.robot.emit_primitive(KIND, scene.port, "vote", fields);
+        let anew = matches!(self.stage, Stage::Remembering(Some(_)));
+        let (port, vote) = (scene.port, ElectionEvent::Vote { anew });
+        scene.robot.report(port, vote);
         self.promise = Promise {
             epoch: self.known,
             until: Time::ZERO,

@@ -81,7 +81,7 @@ impl Arbitration {
             if request.is_entered {
                 let until = request.held_until(now, majority, belief);
                 if until <= now + MARGIN {
-                    common.report(robot, "expire", &common.held);
+                    common.report_expired(robot, &common.held);
                     common.held.clear();
                     return self.give_back(common, robot);
                 }
@@ -134,7 +134,7 @@ impl Arbitration {
         match enough {
             Enough::All => {
                 robot.cancel_timer(common.timer(Alarm::Repeat));
-                common.report(robot, "enter", &common.held);
+                common.report_entered(robot);
             }
             Enough::Majority(_, belief) => {
                 let after = (belief / RENEWALS)

@@ -160,7 +160,7 @@ impl Arbitration {
         let made_up: Resources = common.held.difference(granted).cloned().collect();
         if !made_up.is_empty() {
             common.held.retain(|name| !made_up.contains(name));
-            common.report(robot, "expire", &made_up);
+            common.report_expired(robot, &made_up);
         }
         if common.held.is_empty() && entered.is_some() {
             self.give_back(common, robot);

@@ -149,7 +149,7 @@ impl Permission {
         if self.waiting.is_some() && !common.held.is_empty() {
             // Who holds something asks for nothing, so a fault has made up what it holds.
             let made_up = core::mem::take(&mut common.held);
-            common.report(robot, "expire", &made_up);
+            common.report_expired(robot, &made_up);
             self.permit_deferred(common, robot);
         }
         let others = common.others(robot);
@@ -246,7 +246,7 @@ impl Permission {
         if let Some(waiting) = self.waiting.take_if(is_permitted) {
             common.held = waiting.wish.resources;
             robot.cancel_timer(common.timer(Alarm::Repeat));
-            common.report(robot, "enter", &common.held);
+            common.report_entered(robot);
         }
     }
 

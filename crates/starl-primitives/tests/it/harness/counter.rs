@@ -1,14 +1,14 @@
 //! A program that counts in a register by claiming and writing it, with nothing that keeps robots apart.
 
 use super::World;
-use starl_core::event::Value;
-use starl_core::{Duration, Event, Payload, Primitive, Program, Random, Robot, RobotId, Time};
+use starl_core::event::{PrimitiveEvent, RegisterEvent};
+use starl_core::{Duration, Event, Payload, Primitives, Program, Random, Robot, RobotId, Time};
 use starl_primitives::Register;
 use starl_primitives::register::{OperationId, Options, Status};
 use std::any::Any;
 use std::collections::{BTreeMap, BTreeSet};
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Counter {
     pub register: Register,
     /// What is under way, and the value that is being written, if it is.
@@ -70,10 +70,6 @@ impl Program for Counter {
         }
     }
 
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.register);
-    }
-
     fn corrupt(&mut self, random: &mut Random) {
         self.register.corrupt(random);
     }
@@ -102,37 +98,30 @@ impl Tally {
 /// Judges a run by its events: no two updates that are done have found the same value.
 pub fn tally(world: &World) -> Result<Tally, String> {
     let mut tally = Tally::default();
-    let mut begun: BTreeMap<(u32, String), Option<i64>> = BTreeMap::new();
+    let mut begun: BTreeMap<(u32, u32), Option<i64>> = BTreeMap::new();
     let mut replaced: BTreeMap<Option<i64>, u32> = BTreeMap::new();
     for (at, RobotId(robot), event) in &world.records {
         let Event::Primitive {
-            primitive,
-            name,
-            fields,
+            event: PrimitiveEvent::Register(event),
             ..
         } = event
         else {
             continue;
         };
-        let field = |wanted: &str| fields.iter().find(|(name, _)| name == wanted);
-        let (true, Some((_, operation))) = (primitive == "register", field("operation")) else {
-            continue;
-        };
-        let key = (*robot, format!("{operation:?}"));
-        match &**name {
-            "update" => {
-                let found = match field("found") {
-                    Some((_, Value::Int(found))) => Some(*found),
-                    _ => None,
-                };
+        match event {
+            RegisterEvent::Update {
+                operation, found, ..
+            } => {
+                let key = (*robot, operation.operation);
                 // Whoever starts anew counts anew; what was under way then never ends.
-                tally.open += usize::from(begun.insert(key, found).is_some());
+                tally.open += usize::from(begun.insert(key, *found).is_some());
             }
-            "done" | "lost" => {
+            RegisterEvent::Done { operation, .. } | RegisterEvent::Lost { operation, .. } => {
+                let key = (*robot, operation.operation);
                 let Some(found) = begun.remove(&key) else {
                     continue; // a claim
                 };
-                if name == "lost" {
+                if matches!(event, RegisterEvent::Lost { .. }) {
                     tally.lost += 1;
                 } else {
                     *tally.done.entry(*robot).or_default() += 1;

@@ -2,19 +2,19 @@
 //! who passed what when.
 
 use super::World;
+use starl_core::event::{BarrierEvent, PrimitiveEvent};
 use starl_core::{
-    Duration, Event, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value, timers,
+    Duration, Event, Primitives, Program, Random, Robot, RobotId, Time, TimerKey, timers,
 };
 use starl_primitives::barrier::Options;
 use starl_primitives::{Barrier, FailureDetector, failure_detector};
 use std::any::Any;
 use std::collections::{BTreeMap, BTreeSet};
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Crosser {
+    detector: Option<FailureDetector>,
     pub barrier: Barrier,
-    detector: FailureDetector,
-    has_detector: bool,
     /// Whether it comes by itself, and with which pauses at most, milliseconds.
     pause_ms: Option<u32>,
     next_arrival: Option<Time>,
@@ -45,8 +45,7 @@ impl Crosser {
         move || {
             Box::new(Crosser {
                 barrier: Barrier::new("gate", participants.clone(), Options::default()),
-                detector: FailureDetector::new("watch", failure_detector::Options::default()),
-                has_detector,
+                detector: has_detector.then(watch),
                 pause_ms,
                 next_arrival: Some(Time::ZERO),
                 crossings: 0,
@@ -64,6 +63,10 @@ timers! {
 /// Tells a robot to come to the barrier.
 pub fn arrive() -> Command {
     Command::Arrive
+}
+
+fn watch() -> FailureDetector {
+    FailureDetector::new("watch", failure_detector::Options::default())
 }
 
 impl Program for Crosser {
@@ -86,13 +89,6 @@ impl Program for Crosser {
     fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
         assert_eq!(key.read(), Some(Command::Arrive));
         self.barrier.arrive(robot);
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        if self.has_detector {
-            visit(&mut self.detector);
-        }
-        visit(&mut self.barrier);
     }
 
     fn corrupt(&mut self, random: &mut Random) {
@@ -118,10 +114,10 @@ pub fn barrier(world: &World, robot: usize) -> &Barrier {
 /// what a robot passes in one life rises. Crashes are given with the number of records before each; when
 /// all have crashed generations begin anew. Gives how often each robot passed.
 pub fn crossings(world: &World, crashes: &[(usize, u32)]) -> BTreeMap<u32, u32> {
-    let mut come: BTreeMap<RobotId, i64> = BTreeMap::new();
+    let mut come: BTreeMap<RobotId, u64> = BTreeMap::new();
     // Robots that have come and do not know yet to which generation.
     let mut unsure: BTreeSet<RobotId> = BTreeSet::new();
-    let mut passed: BTreeMap<RobotId, i64> = BTreeMap::new();
+    let mut passed: BTreeMap<RobotId, u64> = BTreeMap::new();
     let mut counts: BTreeMap<u32, u32> = BTreeMap::new();
     let mut crashes = crashes.iter().copied().peekable();
     // Those that have not crashed since they last came.
@@ -135,41 +131,27 @@ pub fn crossings(world: &World, crashes: &[(usize, u32)]) -> BTreeMap<u32, u32> 
             }
         }
         let Event::Primitive {
-            primitive,
-            name,
-            fields,
+            event: PrimitiveEvent::Barrier(event),
             ..
         } = event
         else {
             continue;
         };
-        if primitive != "barrier" {
-            continue;
-        }
-        let get = |wanted: &str| {
-            let found = fields.iter().find(|(name, _)| name == wanted);
-            found.map(|(_, value)| value)
-        };
-        match &**name {
-            "arrive" => {
+        match event {
+            BarrierEvent::Arrive { .. } => {
                 unsure.insert(*robot);
                 rememberers.insert(*robot);
             }
-            "wait" => {
+            BarrierEvent::Wait { generation } => {
                 unsure.remove(robot);
-                let Some(Value::Int(generation)) = get("generation") else {
-                    panic!("{fields:?}");
-                };
                 let known = come.entry(*robot).or_default();
                 *known = (*known).max(*generation);
             }
-            "pass" => {
-                let (Some(Value::Int(generation)), Some(Value::Robots(all))) =
-                    (get("generation"), get("participants"))
-                else {
-                    panic!("{fields:?}");
-                };
-                for peer in all {
+            BarrierEvent::Pass {
+                generation,
+                participants,
+            } => {
+                for peer in participants {
                     let has_come = come.get(peer) >= Some(generation) || unsure.contains(peer);
                     assert!(
                         has_come,
@@ -183,7 +165,6 @@ pub fn crossings(world: &World, crashes: &[(usize, u32)]) -> BTreeMap<u32, u32> 
                 );
                 *counts.entry(robot.0).or_default() += 1;
             }
-            _ => {}
         }
     }
     counts

@@ -1,18 +1,17 @@
 //! A program that elects as a test tells it to; and what its events say of who led when.
 
-use super::{World, int, robot};
-use starl_core::event::Value;
-use starl_core::{Event, Primitive, Program, Random, Robot, RobotId, TimerKey, timers};
+use super::World;
+use starl_core::event::{ElectionEvent, PrimitiveEvent};
+use starl_core::{Event, Primitives, Program, Random, Robot, RobotId, TimerKey, timers};
 use starl_primitives::election::{Algorithm, Options};
 use starl_primitives::{FailureDetector, LeaderElection, failure_detector};
 use std::any::Any;
 use std::collections::{BTreeMap, BTreeSet};
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Elector {
+    detector: Option<FailureDetector>,
     pub election: LeaderElection,
-    detector: FailureDetector,
-    has_detector: bool,
     /// Whether it stands as soon as it starts.
     is_eager: bool,
 }
@@ -32,8 +31,7 @@ impl Elector {
         move || {
             Box::new(Elector {
                 election: LeaderElection::new("election", participants.clone(), options),
-                detector: FailureDetector::new("watch", failure_detector::Options::default()),
-                has_detector,
+                detector: has_detector.then(watch),
                 is_eager,
             })
         }
@@ -64,6 +62,10 @@ pub const ELECT: Command = Command::Elect;
 /// Tells a robot to resign.
 pub const RESIGN: Command = Command::Resign;
 
+fn watch() -> FailureDetector {
+    FailureDetector::new("watch", failure_detector::Options::default())
+}
+
 impl Program for Elector {
     fn start(&mut self, robot: &mut Robot<'_>) {
         if self.is_eager {
@@ -78,13 +80,6 @@ impl Program for Elector {
             Command::Elect => self.election.elect(robot),
             Command::Resign => self.election.resign(robot),
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        if self.has_detector {
-            visit(&mut self.detector);
-        }
-        visit(&mut self.election);
     }
 
     fn corrupt(&mut self, random: &mut Random) {
@@ -120,39 +115,33 @@ pub fn agreed(world: &World, robots: &[usize]) -> Option<u32> {
 /// Judges a run by its events, as long as it is about leases: each epoch has one leader, epochs grow from
 /// leader to leader, no two robots lead at once, and who leads has called for an election. Crashes are given,
 /// since they leave no event, by the number of events before. Gives the epochs in which someone led, with the leaders, in the order of time.
-pub fn judge(world: &World, crashes: &[(usize, u32)]) -> Vec<(i64, u32)> {
+pub fn judge(world: &World, crashes: &[(usize, u32)]) -> Vec<(u64, u32)> {
     let mut crashes = crashes.iter().copied().peekable();
-    let mut leads: BTreeMap<u32, i64> = BTreeMap::new();
+    let mut leads: BTreeMap<u32, u64> = BTreeMap::new();
     let mut called: BTreeSet<u32> = BTreeSet::new();
-    let mut names: BTreeMap<i64, u32> = BTreeMap::new();
-    let mut history: Vec<(i64, u32)> = Vec::new();
+    let mut names: BTreeMap<u64, u32> = BTreeMap::new();
+    let mut history: Vec<(u64, u32)> = Vec::new();
     for (index, (at, RobotId(me), event)) in world.records.iter().enumerate() {
         while let Some((_, crashed)) = crashes.next_if(|&(before, _)| before <= index) {
             leads.remove(&crashed);
             called.remove(&crashed);
         }
         let Event::Primitive {
-            primitive,
-            name,
-            fields,
+            event: PrimitiveEvent::Election(event),
             ..
         } = event
         else {
             continue;
         };
-        if primitive != "election" {
-            continue;
-        }
-        let field = |wanted: &str| -> &Value {
-            let found = fields.iter().find(|(name, _)| name == wanted);
-            &found.unwrap_or_else(|| panic!("{name} has no {wanted}")).1
-        };
-        match &**name {
-            "elect" => _ = called.insert(*me),
-            "resign" => _ = called.remove(me),
-            "lost" => _ = leads.remove(me),
-            "leader" => {
-                let (leader, epoch) = (robot(field("leader")), int(field("epoch")));
+        match event {
+            ElectionEvent::Elect => _ = called.insert(*me),
+            ElectionEvent::Resign => _ = called.remove(me),
+            ElectionEvent::Lost => _ = leads.remove(me),
+            ElectionEvent::Leader {
+                leader: RobotId(leader),
+                epoch,
+            } => {
+                let (leader, epoch) = (*leader, epoch.expect("leases have epochs"));
                 let named = *names.entry(epoch).or_insert(leader);
                 assert_eq!(named, leader, "{epoch} has two leaders at {at:?}");
                 leads.remove(me);

@@ -1,9 +1,10 @@
 //! A program that reads and writes registers at random, or as a test tells it to; and whether what its
 //! events say is linearizable.
 
-use super::{World, int};
+use super::World;
+use starl_core::event::{PrimitiveEvent, RegisterEvent};
 use starl_core::{
-    Duration, Event, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value, timers,
+    Duration, Event, Primitives, Program, Random, Robot, RobotId, Time, TimerKey, timers,
 };
 use starl_primitives::register::{OperationId, Options, Status};
 use starl_primitives::{FailureDetector, Register, failure_detector};
@@ -13,10 +14,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The registers that there are.
 pub const REGISTERS: [&str; 2] = ["x", "y"];
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Keeper {
-    pub register: Register,
     detector: FailureDetector,
+    pub register: Register,
     /// Whether it begins operations by itself.
     is_busy: bool,
     pub last: Option<OperationId>,
@@ -112,11 +113,6 @@ impl Program for Keeper {
         self.last = Some(begun.expect("few are under way"));
     }
 
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.detector);
-        visit(&mut self.register);
-    }
-
     fn corrupt(&mut self, random: &mut Random) {
         self.register.corrupt(random);
     }
@@ -172,47 +168,39 @@ type Begun = (Time, bool, String, Option<i64>);
 /// Shared Memories"): in time between the first end and the last begin of its operations a register holds a
 /// value.
 pub fn judge(world: &World) -> Result<BTreeMap<u32, usize>, String> {
-    let mut begun: BTreeMap<(u32, i64), Begun> = BTreeMap::new();
+    let mut begun: BTreeMap<(u32, u32), Begun> = BTreeMap::new();
     let mut done = Vec::new();
     let mut count: BTreeMap<u32, usize> = BTreeMap::new();
     for (at, RobotId(robot), event) in &world.records {
         let Event::Primitive {
-            primitive,
-            name,
-            fields,
+            event: PrimitiveEvent::Register(event),
             ..
         } = event
         else {
             continue;
         };
-        let field = |wanted: &str| {
-            let mut fields = fields.iter();
-            fields
-                .find(|(name, _)| name == wanted)
-                .map(|(_, value)| value)
+        let (operation, value) = match event {
+            RegisterEvent::Read { operation } => (operation, None),
+            RegisterEvent::Write { operation, value } => (operation, Some(*value)),
+            RegisterEvent::Done { operation, value } => (operation, *value),
+            _ => continue,
         };
-        let ("register", Some(operation), Some(Value::Text(register))) =
-            (&**primitive, field("operation"), field("register"))
-        else {
-            continue;
-        };
-        let key = (*robot, int(operation));
-        let value = field("value").map(int);
-        match &**name {
-            "read" | "write" => {
+        let key = (*robot, operation.operation);
+        match event {
+            RegisterEvent::Read { .. } | RegisterEvent::Write { .. } => {
                 // Whoever starts anew counts anew; what was under way then never ends.
-                let operation = (*at, &**name == "write", register.to_string(), value);
+                let is_write = matches!(event, RegisterEvent::Write { .. });
+                let operation = (*at, is_write, operation.register.to_string(), value);
                 if let Some(lost) = begun.insert(key, operation) {
                     done.push((lost, Time::NEVER));
                 }
             }
-            "done" => {
+            _ => {
                 let mut operation = begun.remove(&key).expect("it was begun");
                 operation.3 = value;
                 done.push((operation, *at));
                 *count.entry(*robot).or_default() += 1;
             }
-            _ => {}
         }
     }
     done.extend(begun.into_values().map(|lost| (lost, Time::NEVER)));

@@ -2,9 +2,9 @@
 //! what its events say of who held what when.
 
 use super::World;
-use starl_core::event::Name;
+use starl_core::event::{MutexEvent, PrimitiveEvent};
 use starl_core::{
-    Duration, Event, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value, timers,
+    Duration, Event, Primitives, Program, Random, Robot, RobotId, Time, TimerKey, timers,
 };
 use starl_primitives::mutex::{Algorithm, Options, Resources};
 use starl_primitives::{FailureDetector, Mutex, failure_detector};
@@ -14,11 +14,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The resources that there are.
 pub const RESOURCES: [&str; 4] = ["a", "b", "c", "d"];
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Locker {
+    detector: Option<FailureDetector>,
     pub mutex: Mutex,
-    detector: FailureDetector,
-    has_detector: bool,
     /// Whether it asks by itself.
     is_busy: bool,
     /// When it gives back the next resource.
@@ -54,8 +53,7 @@ impl Locker {
             };
             Box::new(Locker {
                 mutex: Mutex::new("lock", None, options),
-                detector: FailureDetector::new("watch", failure_detector::Options::default()),
-                has_detector,
+                detector: has_detector.then(watch),
                 is_busy,
                 next_release: None,
                 next_request: Time::ZERO,
@@ -109,6 +107,10 @@ fn pause(random: &mut Random) -> Duration {
     Duration::from_millis(u64::from(random.below(1500)))
 }
 
+fn watch() -> FailureDetector {
+    FailureDetector::new("watch", failure_detector::Options::default())
+}
+
 impl Program for Locker {
     fn activate(&mut self, robot: &mut Robot<'_>) {
         if !self.is_busy {
@@ -149,13 +151,6 @@ impl Program for Locker {
         }
     }
 
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        if self.has_detector {
-            visit(&mut self.detector);
-        }
-        visit(&mut self.mutex);
-    }
-
     fn corrupt(&mut self, random: &mut Random) {
         self.mutex.corrupt(random, &set(&RESOURCES));
     }
@@ -187,7 +182,7 @@ pub fn mutex(world: &World, robot: usize) -> &Mutex {
 /// robot was granted.
 pub fn entries(world: &World, crashes: &[(Time, u32)]) -> BTreeMap<u32, usize> {
     let mut holders: BTreeMap<String, u32> = BTreeMap::new();
-    let mut numbers: BTreeMap<String, i64> = BTreeMap::new();
+    let mut numbers: BTreeMap<String, u64> = BTreeMap::new();
     let mut entries: BTreeMap<u32, BTreeSet<Time>> = BTreeMap::new();
     let mut crashes = crashes.iter().copied().peekable();
     for (at, RobotId(robot), event) in &world.records {
@@ -195,25 +190,19 @@ pub fn entries(world: &World, crashes: &[(Time, u32)]) -> BTreeMap<u32, usize> {
             holders.retain(|_, holder| *holder != crashed);
         }
         let Event::Primitive {
-            primitive,
-            name,
-            fields,
+            event: PrimitiveEvent::Mutex(event),
             ..
         } = event
         else {
             continue;
         };
-        if primitive != "mutex" {
-            continue;
-        }
-        let Some((Name::Borrowed("resource"), Value::Text(resource))) = fields.first() else {
-            panic!("{name} has no resource");
-        };
-        match &**name {
-            "enter" => {
+        match event {
+            MutexEvent::Enter {
+                resource, fencing, ..
+            } => {
                 let before = holders.insert(resource.to_string(), *robot);
                 assert_eq!(before, None, "{robot} enters {resource} at {at:?}");
-                if let Some((Name::Borrowed("fencing"), Value::Int(number))) = fields.get(1) {
+                if let Some(number) = fencing {
                     let before = numbers.insert(resource.to_string(), *number);
                     assert!(
                         before < Some(*number),
@@ -222,7 +211,7 @@ pub fn entries(world: &World, crashes: &[(Time, u32)]) -> BTreeMap<u32, usize> {
                 }
                 entries.entry(*robot).or_default().insert(*at);
             }
-            "release" | "expire" => {
+            MutexEvent::Release { resource } | MutexEvent::Expire { resource } => {
                 let before = holders.remove(&**resource);
                 assert_eq!(
                     before,
@@ -230,7 +219,7 @@ pub fn entries(world: &World, crashes: &[(Time, u32)]) -> BTreeMap<u32, usize> {
                     "{robot} releases {resource} at {at:?}"
                 );
             }
-            _ => {}
+            MutexEvent::Acquire { .. } | MutexEvent::Withdraw { .. } => {}
         }
     }
     let counted = entries
@@ -242,19 +231,29 @@ pub fn entries(world: &World, crashes: &[(Time, u32)]) -> BTreeMap<u32, usize> {
 /// Judges only the numbers of a run by its events: no resource is entered with the same number twice. Gives how
 /// often two robots held one resource at once.
 pub fn numbers(world: &World) -> usize {
-    let mut numbers: BTreeSet<(String, i64)> = BTreeSet::new();
+    let mut numbers: BTreeSet<(String, u64)> = BTreeSet::new();
     let mut holders: BTreeMap<String, BTreeSet<u32>> = BTreeMap::new();
     let mut at_once = 0;
     for (at, RobotId(robot), event) in &world.records {
-        let Event::Primitive { name, fields, .. } = event else {
+        let Event::Primitive {
+            event: PrimitiveEvent::Mutex(event),
+            ..
+        } = event
+        else {
             continue;
         };
-        let Some((Name::Borrowed("resource"), Value::Text(resource))) = fields.first() else {
-            continue;
+        let (resource, number) = match event {
+            MutexEvent::Enter {
+                resource, fencing, ..
+            } => (resource, *fencing),
+            MutexEvent::Acquire { resource }
+            | MutexEvent::Withdraw { resource }
+            | MutexEvent::Release { resource }
+            | MutexEvent::Expire { resource } => (resource, None),
         };
         let holders = holders.entry(resource.to_string()).or_default();
-        if let (Some((_, Value::Int(number))), "enter") = (fields.get(1), &**name) {
-            let is_new = numbers.insert((resource.to_string(), *number));
+        if let Some(number) = number {
+            let is_new = numbers.insert((resource.to_string(), number));
             assert!(
                 is_new,
                 "{robot} enters {resource} with {number} at {at:?}, as one before"

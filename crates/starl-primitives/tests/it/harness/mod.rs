@@ -14,7 +14,7 @@ pub mod teller;
 pub mod watcher;
 
 use starl_core::effect::Effects;
-use starl_core::event::{Name, Value};
+use starl_core::event::{Value, ValueRef, borrowed};
 use starl_core::motion::{Body, Obstacles, Workspace};
 use starl_core::{
     Agent, Destination, Duration, Effect, Estimate, Event, Input, Message, MotionRequest, Payload,
@@ -371,34 +371,19 @@ impl World {
 
     /// Events of primitives and programs under this name: when, where, and their fields.
     pub fn events(&self, wanted: &str) -> Vec<(Time, RobotId, BTreeMap<String, Value>)> {
-        let matching = |(at, robot, event): &(Time, RobotId, Event)| match event {
-            Event::Program { name, fields } | Event::Primitive { name, fields, .. }
-                if name == wanted =>
-            {
-                let named = |(name, value): &(Name, Value)| (name.to_string(), value.clone());
-                Some((*at, *robot, fields.iter().map(named).collect()))
-            }
-            _ => None,
+        let matching = |(at, robot, event): &(Time, RobotId, Event)| {
+            Some((*at, *robot, fields(event, wanted)?))
         };
         self.records.iter().filter_map(matching).collect()
     }
 
     /// [`World::events`] with their places among the records instead of their times.
     pub fn indexed_events(&self, wanted: &str) -> Vec<(usize, RobotId, BTreeMap<String, Value>)> {
-        let matching = |(index, (_, robot, event)): (usize, &(Time, RobotId, Event))| match event {
-            Event::Program { name, fields } | Event::Primitive { name, fields, .. }
-                if name == wanted =>
-            {
-                let named = |(name, value): &(Name, Value)| (name.to_string(), value.clone());
-                Some((index, *robot, fields.iter().map(named).collect()))
-            }
-            _ => None,
+        let matching = |(index, (_, robot, event)): (usize, &(Time, RobotId, Event))| {
+            Some((index, *robot, fields(event, wanted)?))
         };
-        self.records
-            .iter()
-            .enumerate()
-            .filter_map(matching)
-            .collect()
+        let records = self.records.iter().enumerate();
+        records.filter_map(matching).collect()
     }
 
     /// What [`Talker`]s received: sender, receiver and value, in the order of time.
@@ -562,6 +547,17 @@ pub fn alone(id: u32, call: impl FnOnce(&mut Robot<'_>)) -> Vec<Effect> {
     let (mut effects, mut random) = (Effects::default(), Random::keyed(0, &[]));
     call(&mut Robot::new(&view, &mut effects, &mut random));
     effects.list
+}
+
+/// The details of an event of a primitive or program, if it has this name.
+fn fields(event: &Event, wanted: &str) -> Option<BTreeMap<String, Value>> {
+    let fields = match event {
+        Event::Program { name, fields } if name == wanted => borrowed(fields),
+        Event::Primitive { event, .. } if event.name() == wanted => event.fields(),
+        _ => return None,
+    };
+    let named = |(name, value): (&str, ValueRef<'_>)| (name.to_string(), value.into());
+    Some(fields.into_iter().map(named).collect())
 }
 
 pub fn int(value: &Value) -> i64 {

@@ -121,7 +121,9 @@ impl Bench {
                 Effect::Move(MotionRequest::Halt) => self.tracked = None,
                 Effect::SetTimer { key, after } => self.timer = Some((key, after)),
                 Effect::CancelTimer(_) => self.timer = None,
-                Effect::Record(Event::Primitive { name, .. }) => self.events.push(name.into()),
+                Effect::Record(Event::Primitive { event, .. }) => {
+                    self.events.push(event.name().to_string());
+                }
                 other => panic!("ReachAvoid does not ask for {other:?}"),
             }
         }

@@ -3,18 +3,17 @@
 
 use super::World;
 use starl_core::{
-    Area, Duration, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value, timers,
+    Area, Duration, Primitives, Program, Random, Robot, RobotId, Time, TimerKey, Value, timers,
 };
 use starl_primitives::registration::Options;
 use starl_primitives::{FailureDetector, Registration, failure_detector};
 use std::any::Any;
 use std::collections::BTreeMap;
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Registrar {
+    detector: Option<FailureDetector>,
     pub registration: Registration,
-    detector: FailureDetector,
-    has_detector: bool,
     /// Whether it registers and leaves by itself.
     is_busy: bool,
     next_change: Time,
@@ -35,8 +34,7 @@ impl Registrar {
         move || {
             Box::new(Registrar {
                 registration: Registration::new("who", options),
-                detector: FailureDetector::new("watch", failure_detector::Options::default()),
-                has_detector,
+                detector: has_detector.then(watch),
                 is_busy,
                 next_change: Time::ZERO,
             })
@@ -66,6 +64,10 @@ pub fn unregister() -> Command {
     Command::Unregister
 }
 
+fn watch() -> FailureDetector {
+    FailureDetector::new("watch", failure_detector::Options::default())
+}
+
 impl Program for Registrar {
     fn activate(&mut self, robot: &mut Robot<'_>) {
         if !self.is_busy || robot.now() < self.next_change {
@@ -93,13 +95,6 @@ impl Program for Registrar {
             }
             Command::Unregister => self.registration.unregister(robot),
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        if self.has_detector {
-            visit(&mut self.detector);
-        }
-        visit(&mut self.registration);
     }
 
     fn corrupt(&mut self, random: &mut Random) {

@@ -2,12 +2,12 @@
 
 use super::{Wire, World};
 use starl_core::timer::{Timer, Token};
-use starl_core::{Duration, Primitive, Program, Random, Robot, RobotId, TimerKey};
+use starl_core::{Duration, Primitives, Program, Random, Robot, RobotId, TimerKey};
 use starl_primitives::SharedMemory;
 use starl_primitives::shared_memory::Options;
 use std::any::Any;
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Sharer {
     pub memory: SharedMemory,
     /// So many variables are causal, from `x0` on.
@@ -109,10 +109,6 @@ impl Program for Sharer {
                 written.unwrap();
             }
         }
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.memory);
     }
 
     fn corrupt(&mut self, random: &mut Random) {

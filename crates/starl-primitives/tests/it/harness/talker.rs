@@ -1,7 +1,7 @@
 //! A program that sends what a test tells it to, and reports what it receives.
 
 use starl_core::timer::{Timer, Token};
-use starl_core::{Area, Message, Point, Primitive, Program, Robot, RobotId, TimerKey, message};
+use starl_core::{Area, Message, Point, Primitives, Program, Robot, RobotId, TimerKey, message};
 use starl_primitives::reliable::Options;
 use starl_primitives::{Broadcast, Geocast, Unicast};
 
@@ -11,7 +11,7 @@ pub const AREA: Area = Area::Circle {
     radius: 1.0,
 };
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Talker {
     broadcast: Broadcast,
     geocast: Geocast,
@@ -99,11 +99,5 @@ impl Program for Talker {
             "got",
             [("from", message.from.into()), ("value", value.into())],
         );
-    }
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.broadcast);
-        visit(&mut self.geocast);
-        visit(&mut self.unicast);
     }
 }

@@ -1,10 +1,11 @@
 //! A program that broadcasts in some order, by itself and when told to; and judges of what its events say
 //! of who was handed what when.
 
-use super::{World, int, robot};
-use starl_core::event::Value;
+use super::World;
+use starl_core::event::messaging::MessageNumber;
+use starl_core::event::{BroadcastEvent, PrimitiveEvent, TransferEvent};
 use starl_core::{
-    Duration, Event, Message, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, message,
+    Duration, Event, Message, Primitives, Program, Random, Robot, RobotId, Time, TimerKey, message,
     timers,
 };
 use starl_primitives::broadcast::Order;
@@ -13,10 +14,10 @@ use starl_primitives::{Broadcast, FailureDetector, failure_detector};
 use std::any::Any;
 use std::collections::{BTreeMap, BTreeSet};
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Teller {
-    pub broadcast: Broadcast,
     detector: FailureDetector,
+    pub broadcast: Broadcast,
     /// Messages of its own that it sends, and how likely in each activation.
     left: u32,
     likelihood: f64,
@@ -70,11 +71,6 @@ impl Program for Teller {
         self.broadcast.broadcast(robot, &value);
     }
 
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.detector);
-        visit(&mut self.broadcast);
-    }
-
     fn corrupt(&mut self, random: &mut Random) {
         self.broadcast.corrupt(random);
     }
@@ -90,7 +86,7 @@ pub fn teller(world: &World, robot: usize) -> &Broadcast {
 }
 
 /// A message: its sender, the sender's incarnation, its number.
-pub type Id = (u32, i64, i64);
+pub type Id = (u32, u32, u32);
 
 /// What happened to a robot from one start to the next.
 #[derive(Clone, Debug, PartialEq)]
@@ -114,27 +110,20 @@ pub fn runs(world: &World, starts: &[(Time, u32)]) -> Vec<(u32, Vec<(usize, Step
             present.remove(&started);
         }
         let Event::Primitive {
-            primitive,
-            name,
-            fields,
+            event: PrimitiveEvent::Broadcast(event),
             ..
         } = event
         else {
             continue;
         };
-        if primitive != "broadcast" {
-            continue;
-        }
-        let field = |wanted: &str| -> &Value {
-            let found = fields.iter().find(|(name, _)| name == wanted);
-            &found.expect("the field").1
-        };
-        let id = |from: u32| (from, int(field("incarnation")), int(field("number")));
-        let step = match &**name {
-            "broadcast" => Step::Sent(id(*number)),
-            "deliver" => Step::Handed(id(robot(field("from")))),
-            "pass_over" => Step::Passed(id(robot(field("from")))),
-            "gap" => Step::Gap,
+        let id = |from: u32, message: &MessageNumber| (from, message.incarnation, message.number);
+        let step = match event {
+            BroadcastEvent::Broadcast { message, .. } => Step::Sent(id(*number, message)),
+            BroadcastEvent::Transfer(TransferEvent::Deliver { from, message }) => {
+                Step::Handed(id(from.0, message))
+            }
+            BroadcastEvent::PassOver { from, message } => Step::Passed(id(from.0, message)),
+            BroadcastEvent::Gap => Step::Gap,
             _ => continue,
         };
         let run = *present.entry(*number).or_insert_with(|| {
@@ -180,7 +169,7 @@ pub fn sequences(runs: &[(u32, Vec<(usize, Step)>)], seed: u64) -> Vec<(u32, Vec
 
 /// Whether each sender's messages are handed out as they were sent.
 pub fn is_fifo(sequence: &[Id]) -> bool {
-    let mut last: BTreeMap<(u32, i64), i64> = BTreeMap::new();
+    let mut last: BTreeMap<(u32, u32), u32> = BTreeMap::new();
     sequence.iter().all(|&(from, incarnation, number)| {
         let before = last.insert((from, incarnation), number);
         before.is_none_or(|before| before < number)
@@ -196,7 +185,7 @@ pub fn causal_violation(runs: &[(u32, Vec<(usize, Step)>)]) -> Option<String> {
     steps.sort_by_key(|step| step.0);
     let mut past: BTreeMap<Id, BTreeSet<Id>> = BTreeMap::new();
     let mut known: Vec<BTreeSet<Id>> = vec![BTreeSet::new(); runs.len()];
-    let mut passed: Vec<BTreeMap<(u32, i64), i64>> = vec![BTreeMap::new(); runs.len()];
+    let mut passed: Vec<BTreeMap<(u32, u32), u32>> = vec![BTreeMap::new(); runs.len()];
     for (_, run, step) in steps {
         let me = runs[run].0;
         match step {

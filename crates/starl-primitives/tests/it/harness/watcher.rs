@@ -1,12 +1,12 @@
 //! A program that does nothing but watch the others, and notes what it is told of them.
 
 use super::World;
-use starl_core::{Input, Port, Primitive, Program, Random, Robot, RobotId};
+use starl_core::{Input, Port, Primitive, Primitives, Program, Random, Robot, RobotId};
 use starl_primitives::FailureDetector;
 use starl_primitives::failure_detector::Options;
 use std::any::Any;
 
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Watcher {
     pub detector: FailureDetector,
     pub listener: Listener,
@@ -41,11 +41,6 @@ impl Watcher {
 
 impl Program for Watcher {
     fn activate(&mut self, _: &mut Robot<'_>) {}
-
-    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
-        visit(&mut self.detector);
-        visit(&mut self.listener);
-    }
 
     fn corrupt(&mut self, random: &mut Random) {
         self.detector.corrupt(random);

@@ -2,14 +2,16 @@
 //! epochs: whoever hears nothing of a greater robot for a while leads. A partition has one leader in each
 //! part.
 
-use starl_core::{Destination, Duration, Message, Port, Program, Robot, RobotId, Time};
+use starl_core::event::ElectionEvent;
+use starl_core::event::agreement::Algorithm;
+use starl_core::{Destination, Duration, Message, Port, Primitives, Program, Robot, RobotId, Time};
 
 const PORT: Port = Port::PROGRAM;
 /// Who has not been heard for so long is taken for dead.
 const PATIENCE: Duration = Duration::from_millis(1000);
 
 /// A robot that leads, or follows a greater one.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Primitives)]
 pub struct Bully {
     /// When each greater robot was last heard.
     heard: Vec<(RobotId, Time)>,
@@ -17,19 +19,18 @@ pub struct Bully {
     since: Time,
 }
 
-const KIND: &str = "election";
-
 impl Program for Bully {
     fn start(&mut self, robot: &mut Robot<'_>) {
         let participants = robot.fleet().to_vec();
         self.since = robot.now();
         // It promises what elections with leases do: one leader at a time.
-        let fields = [
-            ("algorithm", "leases".into()),
-            ("participants", participants.into()),
-        ];
-        robot.emit_primitive(KIND, PORT, "start", fields);
-        robot.emit_primitive(KIND, PORT, "elect", []);
+        let algorithm = Algorithm::Leases;
+        let start = ElectionEvent::Start {
+            algorithm,
+            participants,
+        };
+        robot.report(PORT, start);
+        robot.report(PORT, ElectionEvent::Elect);
     }
 
     fn activate(&mut self, robot: &mut Robot<'_>) {
@@ -46,9 +47,10 @@ impl Program for Bully {
             self.shown = leader;
             match leader {
                 Some(leader) => {
-                    robot.emit_primitive(KIND, PORT, "leader", [("leader", leader.into())]);
+                    let epoch = None;
+                    robot.report(PORT, ElectionEvent::Leader { leader, epoch });
                 }
-                None => robot.emit_primitive(KIND, PORT, "lost", []),
+                None => robot.report(PORT, ElectionEvent::Lost),
             }
         }
     }

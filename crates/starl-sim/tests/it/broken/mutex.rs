@@ -2,8 +2,10 @@
 //! time neither goes before the other, so both robots permit the other's.
 
 use serde::{Deserialize, Serialize};
-use starl_core::{Destination, Message, Port, Program, Robot, RobotId, Value};
+use starl_core::event::MutexEvent;
+use starl_core::{Destination, Message, Port, Primitives, Program, Robot, RobotId};
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 const PORT: Port = Port::PROGRAM;
 /// Activations for which the resource is held.
@@ -16,7 +18,7 @@ enum Packet {
 }
 
 /// A robot that wants the door now and then.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Primitives)]
 pub struct Locker {
     /// Lamport's clock.
     clock: u64,
@@ -29,9 +31,8 @@ pub struct Locker {
     breaks_ties: bool,
 }
 
-fn report(robot: &mut Robot<'_>, event: &'static str) {
-    let door = Value::Text("door".into());
-    robot.emit_primitive("mutex", PORT, event, [("resource", door)]);
+fn door() -> Arc<str> {
+    "door".into()
 }
 
 impl Locker {
@@ -52,7 +53,12 @@ impl Locker {
         {
             self.wants = None;
             self.holds = HOLDS;
-            report(robot, "enter");
+            let enter = MutexEvent::Enter {
+                resource: door(),
+                fencing: None,
+                drift: None,
+            };
+            robot.report(PORT, enter);
         }
     }
 
@@ -75,7 +81,7 @@ impl Program for Locker {
         if self.holds > 0 {
             self.holds -= 1;
             if self.holds == 0 {
-                report(robot, "release");
+                robot.report(PORT, MutexEvent::Release { resource: door() });
                 for (peer, clock) in std::mem::take(&mut self.deferred) {
                     Locker::permit(robot, peer, clock);
                 }
@@ -84,7 +90,7 @@ impl Program for Locker {
             self.clock += 1;
             let clock = self.clock;
             self.wants = Some((clock, BTreeSet::new()));
-            report(robot, "acquire");
+            robot.report(PORT, MutexEvent::Acquire { resource: door() });
             robot.transmit(Destination::All, PORT, &Packet::Request { clock });
             self.enter_if_permitted(robot);
         }

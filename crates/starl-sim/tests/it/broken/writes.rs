@@ -1,38 +1,39 @@
 //! A shared variable whose last writer wins by the robots' own clocks: where these are apart, a later write
 //! with an earlier time is lost.
 
-use starl_core::{Destination, Message, Port, Program, Robot, RobotId, Time, Value};
+use starl_core::event::SharedMemoryEvent;
+use starl_core::event::storing::Written;
+use starl_core::{Destination, Message, Port, Primitives, Program, Robot, RobotId, Time};
 
 const PORT: Port = Port::PROGRAM;
-const KIND: &str = "shared_memory";
 
 /// A robot that writes a variable now and then.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Primitives)]
 pub struct Writer {
     held: Option<(Time, RobotId, u32)>,
 }
 
 impl Writer {
-    fn report(&self, robot: &mut Robot<'_>, event: &'static str) {
+    fn report(&self, robot: &mut Robot<'_>, event: fn(Written) -> SharedMemoryEvent) {
         let Some((time, writer, value)) = self.held else {
             return;
         };
-        let fields = [
-            ("variable", "x".into()),
-            ("single_writer", false.into()),
-            ("time", time.into()),
-            ("count", 0u32.into()),
-            ("writer", writer.into()),
-            ("incarnation", 0u32.into()),
-            ("value", Value::Int(value.into())),
-        ];
-        robot.emit_primitive(KIND, PORT, event, fields);
+        let written = Written {
+            variable: "x".into(),
+            single_writer: false,
+            time,
+            count: 0,
+            writer,
+            incarnation: 0,
+            value: value.into(),
+        };
+        robot.report(PORT, event(written));
     }
 }
 
 impl Program for Writer {
     fn start(&mut self, robot: &mut Robot<'_>) {
-        robot.emit_primitive(KIND, PORT, "start", []);
+        robot.report(PORT, SharedMemoryEvent::Start);
     }
 
     fn activate(&mut self, robot: &mut Robot<'_>) {
@@ -40,7 +41,7 @@ impl Program for Writer {
             let value = robot.random().below(1000);
             // The mistake: the time of what it has heard of counts for nothing.
             self.held = Some((robot.now(), robot.id(), value));
-            self.report(robot, "write");
+            self.report(robot, |written| SharedMemoryEvent::Write { written });
         }
         // Again and again, so that it gets through.
         if let Some(held) = self.held {
@@ -55,7 +56,7 @@ impl Program for Writer {
         let is_later = |held: (Time, RobotId, u32)| (held.0, held.1) < (heard.0, heard.1);
         if self.held.is_none_or(is_later) {
             self.held = Some(heard);
-            self.report(robot, "update");
+            self.report(robot, |written| SharedMemoryEvent::Update { written });
         }
     }
 }

@@ -3,8 +3,8 @@
 pub mod weather;
 
 use starl_core::{
-    Command, Destination, Duration, Event, Message, Payload, Point, Port, Pose, Program, Random,
-    Record, Robot,
+    Command, Destination, Duration, Event, Message, Payload, Point, Port, Pose, Primitives,
+    Program, Random, Record, Robot,
 };
 use starl_motion::models;
 use starl_sim::Simulation;
@@ -77,7 +77,7 @@ pub fn count(records: &[Record], test: impl Fn(&Event) -> bool) -> usize {
 }
 
 /// Gives its command at every activation.
-#[derive(Clone)]
+#[derive(Clone, Primitives)]
 pub struct Drive(pub Command);
 
 impl Program for Drive {
@@ -87,7 +87,7 @@ impl Program for Drive {
 }
 
 /// Robot 0 broadcasts a counter at every activation; all report what they hear.
-#[derive(Clone, Default)]
+#[derive(Clone, Default, Primitives)]
 pub struct Chatter {
     pub count: u32,
 }
@@ -112,7 +112,7 @@ impl Program for Chatter {
 }
 
 /// Draws from its random stream, drives about and chats: something that differs with every seed.
-#[derive(Clone, Default)]
+#[derive(Clone, Default, Primitives)]
 pub struct Wander {
     heard: u32,
 }

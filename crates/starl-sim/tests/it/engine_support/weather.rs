@@ -61,8 +61,7 @@ pub fn judge(
     let mut count = 0;
     while !run.is_over() {
         let records = run.step().iter();
-        let is_counted =
-            |event: &Event| matches!(event, Event::Primitive { name, .. } if name == counted);
+        let is_counted = |event: &Event| matches!(event, Event::Primitive { event, .. } if event.name() == counted);
         count += records.filter(|record| is_counted(&record.event)).count();
     }
     for violation in run.violations() {

@@ -1,6 +1,7 @@
 //! A small run with every kind of event in it, numbers at their extremes included.
 
 use starl_core::event::{DropReason, Hit, Level, Mark, MarkShape};
+use starl_core::event::{Fault, PrimitiveEvent, ReachAvoidEvent};
 use starl_core::geometry::HeightSpan;
 use starl_core::{
     Area, ConvexPolygon, Destination, Event, Fields, Obstacle, Payload, Point, Port, Pose, Record,
@@ -162,11 +163,19 @@ fn every_event() -> Vec<Event> {
         name: "full".into(),
         fields: every_value(),
     });
+    // An event of another primitive, one that only looks like one of ours, and one that is.
+    for primitive in ["elevator", "reach_avoid"] {
+        events.push(Event::Primitive {
+            port: Port::named(primitive),
+            event: PrimitiveEvent::named(primitive, "done", every_value()),
+        });
+    }
+    let done = ReachAvoidEvent::Done {
+        position: Point::new(0.1, 0.2, 0.3),
+    };
     events.push(Event::Primitive {
-        primitive: "reach_avoid".into(),
         port: Port::named("reach_avoid"),
-        name: "done".into(),
-        fields: every_value(),
+        event: done.into(),
     });
     for level in [Level::Debug, Level::Info, Level::Warning, Level::Error] {
         events.push(Event::Log {
@@ -191,7 +200,8 @@ fn every_event() -> Vec<Event> {
             shape,
         }));
     }
-    events.push(Event::Fault("crash".into()));
+    events.push(Event::Fault(Fault::Crash));
+    events.push(Event::Fault(Fault::Other("flat battery".into())));
     events.extend(obstacles().into_iter().map(Event::Discovered));
     events.push(Event::Finished);
     events.push(Event::Failed("no way".into()));

@@ -1,0 +1,143 @@
+//! The one command of StarL: checks, explains, runs, replays, tests, draws, lists and measures. See
+//! `docs/reference/command.md`.
+//!
+//! As a library it is the same command with programs of one's own:
+//!
+//! ```no_run
+//! use starl_core::{Primitives, Program, Robot};
+//!
+//! #[derive(Clone, Primitives)]
+//! struct Idle;
+//!
+//! impl Program for Idle {
+//!     fn activate(&mut self, _: &mut Robot<'_>) {}
+//! }
+//!
+//! fn main() -> std::process::ExitCode {
+//!     starl::command().program("idle", "do nothing", |_| Idle).run()
+//! }
+//! ```
+//!
+//! Exit status: 0 the goal was reached and no property violated (or, for other commands, all is as it
+//! should be); 1 it was not; 2 bad input or an output that cannot be written, with one message on the
+//! error stream. `starl explore` has a status of its own besides: see `explore/`.
+
+mod args;
+mod bench;
+mod check;
+mod console;
+mod diagram;
+mod explain;
+mod explore;
+mod failure;
+mod fmt;
+mod json;
+mod list;
+mod lsp;
+mod origin;
+mod output;
+mod outputs;
+mod paths;
+mod plot;
+mod progress;
+mod recording;
+mod replay;
+mod report;
+mod run;
+mod sources;
+mod summary;
+mod target;
+mod test;
+mod threads;
+
+pub use starl_catalog::Parameters;
+
+use args::{Arguments, Command};
+use clap::Parser;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use starl_catalog::programs::Registry;
+use starl_core::Program;
+use std::process::ExitCode;
+
+/// The command, with the programs in Rust that StarL ships with.
+pub fn command() -> CommandLine {
+    CommandLine {
+        registry: Registry::default(),
+    }
+}
+
+/// The command and the programs in Rust that it knows.
+#[derive(Clone, Debug)]
+pub struct CommandLine {
+    registry: Registry,
+}
+
+impl CommandLine {
+    /// With one more program: its name in scenarios, what it does in one line for `list`, and how a robot's
+    /// program is made from the `parameters` of the scenario. A scenario that gives a parameter for which
+    /// `make` does not ask is refused.
+    ///
+    /// # Panics
+    /// If the name is empty, is taken, or ends in `.starl`, which names files.
+    #[must_use]
+    pub fn program<P: Program + 'static>(
+        self,
+        name: &str,
+        summary: &str,
+        make: impl Fn(&mut Parameters<'_>) -> P + Send + Sync + 'static,
+    ) -> CommandLine {
+        CommandLine {
+            registry: self.registry.with(name, summary, make),
+        }
+    }
+
+    /// Does what the arguments of the process ask for, and returns its exit status.
+    pub fn run(&self) -> ExitCode {
+        let arguments = match Arguments::try_parse() {
+            Ok(arguments) => arguments,
+            Err(error) => return refuse(&error),
+        };
+        let registry = &self.registry;
+        let result = match &arguments.command {
+            Command::Explore(arguments) => return exit(explore::run(arguments, registry)),
+            Command::Run(arguments) => run::run(arguments, registry),
+            Command::Replay(arguments) => replay::replay(arguments, registry),
+            Command::Test(arguments) => test::test(arguments, registry),
+            Command::Diagram(arguments) => diagram::diagram(arguments, registry),
+            Command::Check(arguments) => check::run(arguments),
+            Command::Fmt(arguments) => fmt::run(arguments),
+            Command::Explain(arguments) => explain::run(arguments),
+            Command::Lsp(_) => lsp::run(),
+            Command::List(arguments) => list::list(arguments, registry),
+            Command::Bench(arguments) => bench::bench(arguments),
+        };
+        exit(result.map(|is_well| ExitCode::from(u8::from(!is_well))))
+    }
+}
+
+/// Says what is wrong with the arguments, or what was asked for, such as the help.
+fn refuse(error: &clap::Error) -> ExitCode {
+    let argument = error.get(ContextKind::InvalidArg);
+    if let (ErrorKind::UnknownArgument, Some(ContextValue::String(word))) = (error.kind(), argument)
+        && word.starts_with('-')
+        && word.parse::<f64>().is_ok()
+    {
+        // A field and its value as two words: the parser would say that `-- -1` passes a value.
+        let message = format!(
+            "{word} belongs to no option; fields are set in one word, as in --set parameters.count={word}"
+        );
+        console::error(&message);
+        return ExitCode::from(2);
+    }
+    // Where nobody listens any more there is nobody to tell.
+    let _ = error.print();
+    ExitCode::from(error.exit_code() as u8)
+}
+
+/// The status, or one message on what went wrong.
+fn exit(result: Result<ExitCode, failure::Failure>) -> ExitCode {
+    result.unwrap_or_else(|failure| {
+        console::error(&failure.0);
+        ExitCode::from(2)
+    })
+}

@@ -1,0 +1,81 @@
+//! The faults that traces tell of.
+
+use super::Name;
+use core::fmt;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// A fault that set in, or was healed. A partition and its end are the network's; all others are a robot's.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// The robot is down.
+    Crash,
+    /// The robot starts again, and knows nothing of what was before.
+    Restart,
+    /// The network falls into parts, which may have been others before.
+    Partition,
+    /// The network is whole again.
+    Heal,
+    /// The robot's motors do not answer.
+    StuckMotor,
+    /// The robot's sensors and its positioning show what they showed last.
+    FrozenSensor,
+    /// Motors, sensors and positioning work again.
+    Repair,
+    /// The variables of the robot's software were overwritten at random.
+    CorruptState,
+    /// Another one, of a host of its own.
+    Other(Name),
+}
+
+impl Fault {
+    /// All that have a name of their own.
+    const KNOWN: [Fault; 8] = [
+        Fault::Crash,
+        Fault::Restart,
+        Fault::Partition,
+        Fault::Heal,
+        Fault::StuckMotor,
+        Fault::FrozenSensor,
+        Fault::Repair,
+        Fault::CorruptState,
+    ];
+
+    /// What traces call it.
+    pub fn name(&self) -> &str {
+        match self {
+            Fault::Crash => "crash",
+            Fault::Restart => "restart",
+            Fault::Partition => "partition",
+            Fault::Heal => "heal",
+            Fault::StuckMotor => "stuck motor",
+            Fault::FrozenSensor => "frozen sensor",
+            Fault::Repair => "repair",
+            Fault::CorruptState => "corrupt state",
+            Fault::Other(name) => name,
+        }
+    }
+
+    /// The fault that traces call so.
+    pub fn named(name: Name) -> Fault {
+        let known = Fault::KNOWN.into_iter().find(|fault| fault.name() == name);
+        known.unwrap_or(Fault::Other(name))
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl Serialize for Fault {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+impl<'de> Deserialize<'de> for Fault {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Fault, D::Error> {
+        Name::deserialize(deserializer).map(Fault::named)
+    }
+}

@@ -1,0 +1,162 @@
+//! The events of Unicast, Broadcast and Geocast.
+
+use crate::geometry::Area;
+use crate::{Duration, RobotId};
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+
+words! {
+    /// In which order a Broadcast hands messages out.
+    Order {
+        /// Each sender's in the order in which they were sent.
+        Fifo = "fifo",
+        /// A message after all that its sender had sent or received when it sent it.
+        Causal = "causal",
+        /// The same order on all robots.
+        Total = "total",
+    }
+}
+
+words! {
+    /// Why a robot gave up its group in total order.
+    LeaveReason {
+        /// What it knew was made up.
+        Corrupt = "corrupt",
+        /// There is a later group.
+        Obsolete = "obsolete",
+        /// Too many of its members are gone.
+        Lost = "lost",
+    }
+}
+
+group! {
+    /// Tells a sender's messages apart.
+    #[derive(Copy, PartialOrd, Ord)]
+    MessageNumber {
+        /// The sender's number for it.
+        number: u32,
+        /// The sender's incarnation: another one each time it starts.
+        incarnation: u32,
+    }
+}
+
+events! {
+    /// What becomes of a message, whichever primitive has sent it.
+    TransferEvent {
+        /// The sender sends it again to a robot that has not acknowledged it.
+        Retransmit = "retransmit" {
+            /// Which message of this robot.
+            message: MessageNumber,
+            /// To whom.
+            to: RobotId,
+        },
+        /// All have acknowledged it, as the sender knows.
+        Acknowledged = "acknowledged" {
+            /// Which message of this robot.
+            message: MessageNumber,
+            /// The receiver; none where it went to all.
+            to: Option<RobotId>,
+        },
+        /// The sender gives it up.
+        Fail = "fail" {
+            /// Which message of this robot.
+            message: MessageNumber,
+            /// Those that have not acknowledged it.
+            to: Vec<RobotId>,
+        },
+        /// The receiver hands it to its program.
+        Deliver = "deliver" {
+            /// The sender.
+            from: RobotId,
+            /// Which of its messages.
+            message: MessageNumber,
+        },
+    }
+}
+
+events! {
+    /// What a Unicast was told, and what comes of it.
+    UnicastEvent + #[doc = "What becomes of a message."] Transfer(TransferEvent) {
+        /// The program sends a message.
+        Send = "send" {
+            /// Which message of this robot.
+            message: MessageNumber,
+            /// For so long it is sent again.
+            retry_span: Duration,
+            /// To whom.
+            to: RobotId,
+        },
+    }
+}
+
+events! {
+    /// What a Broadcast was told, and what comes of it.
+    BroadcastEvent + #[doc = "What becomes of a message."] Transfer(TransferEvent) {
+        /// The program sends a message to all.
+        Broadcast = "broadcast" {
+            /// Which message of this robot.
+            message: MessageNumber,
+            /// For so long it is sent again.
+            retry_span: Duration,
+            /// The order that it is promised; none where it has none.
+            order: Option<Order>,
+        },
+        /// A message came after one that was to come after it. It is not handed out.
+        Late = "late" {
+            /// The sender.
+            from: RobotId,
+            /// Which of its messages.
+            message: MessageNumber,
+        },
+        /// A message that is to come before another one is not waited for any longer.
+        PassOver = "pass_over" {
+            /// The sender.
+            from: RobotId,
+            /// Which of its messages.
+            message: MessageNumber,
+        },
+        /// In total order: the robot comes into a group.
+        Join = "join" {
+            /// Counts the groups that there were.
+            group: u32,
+        },
+        /// In total order: the robot gives up its group.
+        Leave = "leave" {
+            /// Why.
+            reason: LeaveReason,
+        },
+        /// In total order: the robot leads its group.
+        Lead = "lead" {
+            /// Counts the leaders.
+            term: u32,
+        },
+        /// In total order: others may have been handed messages that this robot will not be.
+        Gap = "gap",
+        /// In total order: the robot has not heard of a majority for long.
+        Unavailable = "unavailable",
+        /// In total order: a majority is there again.
+        Available = "available",
+    }
+}
+
+events! {
+    /// What a Geocast was told, and what comes of it.
+    GeocastEvent + #[doc = "What becomes of a message."] Transfer(TransferEvent) {
+        /// The program sends a message to all in an area.
+        Geocast = "geocast" {
+            /// Which message of this robot.
+            message: MessageNumber,
+            /// For so long it is sent again.
+            retry_span: Duration,
+            /// Where its receivers are.
+            area: Box<Area>,
+        },
+        /// A message came to a robot that is not in its area. It is not handed out.
+        Outside = "outside" {
+            /// The sender.
+            from: RobotId,
+            /// Which of its messages.
+            message: MessageNumber,
+        },
+    }
+}

@@ -1,0 +1,139 @@
+//! The events of SharedMemory and Register. Values are told by their hashes.
+
+use crate::{RobotId, Time};
+use alloc::sync::Arc;
+
+group! {
+    /// What was written to an element of a shared memory.
+    Written {
+        /// The element's variable.
+        variable: Arc<str>,
+        /// Whether the variable is an array of elements that only their owners write; this one is the writer's.
+        single_writer: bool,
+        /// The writer's hybrid clock.
+        time: Time,
+        /// Counts the writes of this time.
+        count: u32,
+        /// Who wrote it.
+        writer: RobotId,
+        /// In which of the writer's lives.
+        incarnation: u32,
+        /// The value's hash.
+        value: i64,
+    }
+}
+
+events! {
+    /// What a SharedMemory was told, and what comes of it.
+    SharedMemoryEvent {
+        /// The memory begins, empty.
+        Start = "start",
+        /// A variable was given an initial value.
+        Initialize = "initialize" {
+            /// Which.
+            variable: Arc<str>,
+            /// Whether it is an array of elements that only their owners write.
+            single_writer: bool,
+            /// The value's hash.
+            value: i64,
+        },
+        /// A variable is causal from now on.
+        Causal = "causal" {
+            /// Which.
+            variable: Arc<str>,
+        },
+        /// This robot writes an element.
+        Write = "write" {
+            /// What it writes.
+            written: Written,
+        },
+        /// This robot writes what it shows once more, since a write of an earlier life of its own has come.
+        WriteAgain = "write_again" {
+            /// What it writes.
+            written: Written,
+        },
+        /// This robot comes to show what another one wrote.
+        Update = "update" {
+            /// What that one wrote.
+            written: Written,
+        },
+    }
+}
+
+group! {
+    /// Names an operation of a robot on a register.
+    Operation {
+        /// The robot's number for it.
+        operation: u32,
+        /// The register.
+        register: Arc<str>,
+    }
+}
+
+events! {
+    /// What a Register was told, and what comes of it.
+    RegisterEvent {
+        /// This robot answers others from now on.
+        Up = "up" {
+            /// Counts its lives.
+            life: i64,
+        },
+        /// It begins to read.
+        Read = "read" {
+            /// Which operation it is.
+            operation: Operation,
+        },
+        /// It begins to write, whatever the register holds.
+        Write = "write" {
+            /// Which operation it is.
+            operation: Operation,
+            /// The value's hash.
+            value: i64,
+        },
+        /// It begins to claim.
+        Claim = "claim" {
+            /// Which operation it is.
+            operation: Operation,
+        },
+        /// It begins to write what it has claimed.
+        Update = "update" {
+            /// Which operation it is.
+            operation: Operation,
+            /// The hash of what it found; none where nothing was written.
+            found: Option<i64>,
+            /// The value's hash.
+            value: i64,
+        },
+        /// An operation is done.
+        Done = "done" {
+            /// Which.
+            operation: Operation,
+            /// The hash of what the register held, as far as the robot knows; none where nothing was written.
+            value: Option<i64>,
+        },
+        /// An update has not taken place: another claim came between.
+        Lost = "lost" {
+            /// Which.
+            operation: Operation,
+            /// As of `done`.
+            value: Option<i64>,
+        },
+        /// An operation was refused.
+        Refused = "refused" {
+            /// Which.
+            operation: Operation,
+            /// As of `done`.
+            value: Option<i64>,
+        },
+        /// An operation is given up. It may still take effect.
+        Withdraw = "withdraw" {
+            /// Which.
+            operation: Operation,
+        },
+        /// An operation waits, as too few answer.
+        NoQuorum = "no_quorum" {
+            /// Which.
+            operation: Operation,
+        },
+    }
+}

@@ -1,0 +1,203 @@
+//! Broadcast's delivery bound (thesis, section 3.3.1): every process receives a message within d1 of
+//! its broadcast.
+//!
+//! It is owed by every other robot until the bound runs out or the sender reports that it has given
+//! the robot up, whichever is first. Excused are robots that were down, and all of them where the
+//! sender was; and those to which a partition swallowed a datagram of the sender's meanwhile.
+
+use super::health::{Health, Needs};
+use super::outstanding::Outstanding;
+use super::report::{MessageKey, Report};
+use super::{Checker, Excuse, Excused, Kinds, Setting, Violation, robot_list};
+use starl_core::event::messaging::Order;
+use starl_core::event::{BroadcastEvent, Event, TransferEvent};
+use starl_core::{Duration, Record, RobotId, Time};
+
+const DELIVERY: &str = "broadcast.delivery";
+
+/// Watches every message sent through a Broadcast.
+#[derive(Clone, Debug)]
+pub(super) struct Broadcast {
+    robots: u32,
+    bound: Duration,
+    health: Health,
+    outstanding: Outstanding<Message>,
+    excused: Excused,
+}
+
+#[derive(Clone, Debug)]
+struct Message {
+    sent: Time,
+    /// Who has not delivered it, in the order of their numbers.
+    owed: Vec<RobotId>,
+}
+
+impl Broadcast {
+    pub fn new(setting: &Setting) -> Broadcast {
+        let bound = setting.properties.broadcast_bound;
+        Broadcast {
+            robots: setting.bodies.len() as u32,
+            bound,
+            health: Health::new(setting.bodies.len(), Needs::Computing, bound),
+            outstanding: Outstanding::default(),
+            excused: Excused::default(),
+        }
+    }
+
+    fn reported(&mut self, report: &Report<'_, BroadcastEvent>, found: &mut Vec<Violation>) {
+        let Report { at, robot, .. } = *report;
+        match report.event {
+            BroadcastEvent::Broadcast { message, order, .. } => {
+                self.sent(at, report.message(robot, *message), *order);
+            }
+            BroadcastEvent::Transfer(TransferEvent::Deliver { from, message }) => {
+                self.delivered(report.message(*from, *message), robot);
+            }
+            BroadcastEvent::Transfer(TransferEvent::Fail { message, to }) => {
+                self.failed(at, report.message(robot, *message), to, found);
+            }
+            _ => {}
+        }
+    }
+
+    fn sent(&mut self, at: Time, key: MessageKey, order: Option<Order>) {
+        let bound = match order {
+            // That is another property: `broadcast.agreement`.
+            Some(Order::Total) => return,
+            // Another message may have to be given up before this one is handed out.
+            Some(Order::Causal) => self.bound + self.bound,
+            Some(Order::Fifo) | None => self.bound,
+        };
+        let others = (0..self.robots).map(RobotId);
+        let message = Message {
+            sent: at,
+            owed: others.filter(|&robot| robot != key.from).collect(),
+        };
+        self.outstanding.insert(key, at + bound, message);
+    }
+
+    fn delivered(&mut self, key: MessageKey, robot: RobotId) {
+        if let Some(message) = self.outstanding.get_mut(&key) {
+            if let Ok(index) = message.owed.binary_search(&robot) {
+                message.owed.remove(index);
+            }
+            if message.owed.is_empty() {
+                self.outstanding.remove(&key);
+            }
+        }
+    }
+
+    /// The sender has given robots up.
+    fn failed(
+        &mut self,
+        at: Time,
+        key: MessageKey,
+        given_up: &[RobotId],
+        found: &mut Vec<Violation>,
+    ) {
+        let Some(message) = self.outstanding.get_mut(&key) else {
+            return;
+        };
+        let (lost, owed) = message
+            .owed
+            .iter()
+            .partition(|robot| given_up.contains(robot));
+        message.owed = owed;
+        let lost = Message {
+            sent: message.sent,
+            owed: lost,
+        };
+        let settled = message.owed.is_empty();
+        if settled {
+            self.outstanding.remove(&key);
+        }
+        let how = format!(
+            "before its sender gave up after {:.3} s",
+            at.since(lost.sent).seconds()
+        );
+        self.judge(at, &key, &lost, &how, found);
+    }
+
+    fn check_bound(&mut self, now: Time, found: &mut Vec<Violation>) {
+        while let Some((due, key, message)) = self.outstanding.pop_overdue(now) {
+            self.judge(
+                due,
+                &key,
+                &message,
+                &format!("within {}", self.bound),
+                found,
+            );
+        }
+    }
+
+    /// Reports a message that did not get through to those who are still owed it.
+    fn judge(
+        &mut self,
+        at: Time,
+        key: &MessageKey,
+        message: &Message,
+        how: &str,
+        found: &mut Vec<Violation>,
+    ) {
+        let MessageKey { from, number, .. } = *key;
+        let sent = message.sent;
+        let mut missed = Vec::new();
+        for &robot in &message.owed {
+            match self.health.excuse_of(from, robot, sent) {
+                Some(excuse) => self.excused.note(DELIVERY, excuse),
+                None => missed.push(robot),
+            }
+        }
+        if missed.is_empty() {
+            return;
+        }
+        found.push(Violation {
+            property: DELIVERY.into(),
+            at,
+            text: format!(
+                "message {number} that robot {from} broadcast at {sent} did not reach {} {how}",
+                robot_list(&missed),
+            ),
+            robots: [from].into_iter().chain(missed).collect(),
+        });
+    }
+}
+
+impl Checker for Broadcast {
+    fn properties(&self) -> &'static [&'static str] {
+        &[DELIVERY]
+    }
+
+    fn heeds(&self) -> Kinds {
+        // What is overdue is found at the next record of any kind.
+        match self.outstanding.oldest() {
+            None => Kinds::REPORTS | Kinds::DROPPED,
+            Some(_) => Kinds::ALL,
+        }
+    }
+
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        self.excused.of(property)
+    }
+
+    fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
+        // Recorded ahead of its time where a datagram waits in the sender's queue.
+        if matches!(record.event, Event::Dropped { .. }) {
+            return self.health.observe(record);
+        }
+        self.check_bound(record.at, violations);
+        match &record.event {
+            Event::Primitive { .. } => {
+                if let Some(report) = Report::of(record) {
+                    self.reported(&report, violations);
+                }
+            }
+            Event::Fault(_) | Event::Failed(_) => self.health.observe(record),
+            _ => {}
+        }
+    }
+
+    fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
+        self.check_bound(now, violations);
+    }
+}

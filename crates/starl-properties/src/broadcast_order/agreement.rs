@@ -1,0 +1,162 @@
+//! Agreement in total order, with a bound: what a robot broadcasts that belongs to a majority of the fleet is
+//! handed to all of that majority.
+//!
+//! The bound runs from the moment at which it was sent, or from when the last fault has been got over,
+//! whichever is later. It is judged for those that are well then and in one part with the sender, if they are
+//! a majority; and who has come into the order after the message was sent, or says that it has a gap, is
+//! not asked for it.
+
+use super::AGREEMENT;
+use crate::health::{Health, Needs};
+use crate::parts::Parts;
+use crate::report::MessageKey;
+use crate::{Excuse, Excused, Violation, robot_list};
+use starl_core::event::Event;
+use starl_core::{Duration, Port, Record, RobotId, Time};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+/// A fault is got over after this time: another leader is elected, a robot let in again.
+const RECOVERY: Duration = Duration::from_seconds(30);
+
+#[derive(Clone, Debug)]
+pub(super) struct Agreement {
+    robots: u32,
+    bound: Duration,
+    health: Health,
+    parts: Parts,
+    /// When the last fault set in or ended.
+    last_fault: Option<Time>,
+    /// Since when each robot has been in the order of an instance.
+    joined: BTreeMap<(Port, RobotId), Time>,
+    /// Who was handed each message, and when it was sent.
+    handed: BTreeMap<MessageKey, (Time, BTreeSet<RobotId>)>,
+    /// By when it is judged, in that order.
+    due: VecDeque<(Time, MessageKey)>,
+}
+
+impl Agreement {
+    pub fn new(robots: usize, bound: Duration) -> Agreement {
+        Agreement {
+            robots: robots as u32,
+            bound,
+            health: Health::new(robots, Needs::Computing, bound),
+            parts: Parts::new(robots, bound + RECOVERY),
+            last_fault: None,
+            joined: BTreeMap::new(),
+            handed: BTreeMap::new(),
+            due: VecDeque::new(),
+        }
+    }
+
+    pub fn observe(&mut self, record: &Record) {
+        self.parts.observe(record);
+        self.health.observe(record);
+        if let Event::Fault(_) | Event::Failed(_) = &record.event {
+            self.last_fault = Some(record.at);
+        }
+    }
+
+    pub fn sent(&mut self, key: MessageKey, at: Time) {
+        self.handed.insert(key, (at, BTreeSet::new()));
+        self.due.push_back((at + self.bound, key));
+    }
+
+    pub fn handed(&mut self, key: MessageKey, robot: RobotId) {
+        if let Some((_, handed)) = self.handed.get_mut(&key) {
+            handed.insert(robot);
+        }
+    }
+
+    /// The sender has given it up: that is wrong only where nothing has happened that explains it, and then
+    /// the bound tells.
+    pub fn failed(&mut self, key: MessageKey, excused: &mut Excused) {
+        if self.last_fault.is_some() && self.handed.remove(&key).is_some() {
+            excused.note(AGREEMENT, Excuse::Recovery);
+        }
+    }
+
+    pub fn joined(&mut self, port: Port, robot: RobotId, at: Time) {
+        self.joined.insert((port, robot), at);
+    }
+
+    /// Whether anything will be due.
+    pub fn is_owed(&self) -> bool {
+        !self.due.is_empty()
+    }
+
+    /// Judges what was due before `now`.
+    pub fn check(&mut self, now: Time, found: &mut Vec<Violation>, excused: &mut Excused) {
+        while let Some(&(due, key)) = self.due.front()
+            && due < now
+        {
+            self.due.pop_front();
+            let Some((sent, handed)) = self.handed.get(&key) else {
+                continue;
+            };
+            let calm = self.last_fault.map(|at| at + RECOVERY + self.bound);
+            if let Some(calm) = calm
+                && calm > due
+            {
+                // Once more then; those after it in the queue wait for it.
+                let later = self.due.back().map_or(calm, |(last, _)| calm.max(*last));
+                self.due.push_back((later, key));
+                continue;
+            }
+            let owed = self.owed(key, *sent, handed, excused);
+            let missed: Vec<RobotId> = owed.into_iter().filter(|r| !handed.contains(r)).collect();
+            if !missed.is_empty() {
+                let text = format!(
+                    "message {} that robot {} broadcast at {sent} has no place in the order of {} \
+                     within {}",
+                    key.number,
+                    key.from,
+                    robot_list(&missed),
+                    self.bound
+                );
+                found.push(Violation {
+                    property: AGREEMENT.into(),
+                    at: due,
+                    robots: [key.from].into_iter().chain(missed).collect(),
+                    text,
+                });
+            }
+            self.handed.remove(&key);
+        }
+    }
+
+    /// Who has to have been handed a message by now.
+    fn owed(
+        &self,
+        key: MessageKey,
+        sent: Time,
+        handed: &BTreeSet<RobotId>,
+        excused: &mut Excused,
+    ) -> Vec<RobotId> {
+        for robot in (0..self.robots)
+            .map(RobotId)
+            .filter(|r| !handed.contains(r))
+        {
+            if self.health.well_from(robot) > sent {
+                excused.note(AGREEMENT, self.health.excuse(robot));
+            } else if self.parts.together_since(key.from, robot) == Time::NEVER {
+                excused.note(AGREEMENT, Excuse::Partition);
+            }
+        }
+
+        let with_sender = |robot: &RobotId| {
+            *robot == key.from || self.parts.together_since(key.from, *robot) != Time::NEVER
+        };
+        let is_well = |robot: &RobotId| self.health.well_from(*robot) != Time::NEVER;
+        let all = (0..self.robots).map(RobotId);
+        let near: Vec<RobotId> = all.filter(is_well).filter(with_sender).collect();
+        let has_been = |robot: &RobotId| {
+            let joined = self.joined.get(&(key.port, *robot));
+            self.health.well_from(*robot) <= sent && joined.is_some_and(|&at| at <= sent)
+        };
+        // A sender that has stopped since may never have told anyone.
+        if near.len() <= self.robots as usize / 2 || !has_been(&key.from) {
+            return Vec::new();
+        }
+        near.into_iter().filter(has_been).collect()
+    }
+}

@@ -1,0 +1,272 @@
+//! The order of broadcasts (thesis, section 3.3.1: "FIFO ordering, causal ordering, and total ordering").
+//!
+//! Which order an instance promises is on record with each message that is sent. What a robot was handed is
+//! judged from one start to the next: it keeps nothing when it stops. A message that it says it passes
+//! over, or a gap that it says it has, excuses it from being handed that, never from the order.
+
+mod agreement;
+mod causal;
+mod sequence;
+
+use super::report::{MessageKey, Report};
+use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
+use agreement::Agreement;
+use causal::Causality;
+use sequence::Sequences;
+use starl_core::event::messaging::Order;
+use starl_core::event::{BroadcastEvent, Event, Fault, TransferEvent};
+use starl_core::{Duration, Port, Record, RobotId, Time};
+use std::collections::BTreeMap;
+
+const INTEGRITY: &str = "broadcast.integrity";
+const FIFO: &str = "broadcast.fifo";
+const CAUSAL: &str = "broadcast.causal_order";
+const TOTAL: &str = "broadcast.total_order";
+const AGREEMENT: &str = "broadcast.agreement";
+
+/// A sender from one start to the next: the robot and its incarnation.
+type Process = (RobotId, u32);
+
+/// Watches all instances that promise an order.
+#[derive(Clone, Debug)]
+pub(super) struct BroadcastOrder {
+    bound: Duration,
+    instances: BTreeMap<Port, Instance>,
+    agreement: Agreement,
+    /// After a corruption nothing is judged until then.
+    void_until: Time,
+    excused: Excused,
+}
+
+/// One instance, on all robots.
+#[derive(Clone, Debug)]
+struct Instance {
+    is_total: bool,
+    /// The last message that each process has sent.
+    sent: BTreeMap<Process, u32>,
+    /// The last message of each process that each robot was handed.
+    handed: BTreeMap<RobotId, BTreeMap<Process, u32>>,
+    /// For causal order.
+    causality: Option<Causality>,
+    /// For total order.
+    sequences: Sequences,
+}
+
+impl Instance {
+    fn new(order: Order) -> Instance {
+        Instance {
+            is_total: order == Order::Total,
+            sent: BTreeMap::new(),
+            handed: BTreeMap::new(),
+            causality: (order == Order::Causal).then(Causality::default),
+            sequences: Sequences::default(),
+        }
+    }
+
+    /// Who was handed what begins anew.
+    fn begin_anew(&mut self, robot: RobotId) {
+        self.handed.remove(&robot);
+        self.sequences.end(robot);
+        if let Some(causality) = &mut self.causality {
+            causality.begin_anew(robot);
+        }
+    }
+}
+
+/// What is seen at a robot, and what of it is wrong.
+struct Finding<'a> {
+    report: &'a Report<'a, BroadcastEvent>,
+    violations: &'a mut Vec<Violation>,
+    /// After a corruption nothing is held against anybody.
+    excused: Option<&'a mut Excused>,
+}
+
+impl Finding<'_> {
+    fn add(&mut self, property: &'static str, other: RobotId, text: String) {
+        if let Some(excused) = &mut self.excused {
+            return excused.note(property, Excuse::Corruption);
+        }
+        let Report { robot, at, .. } = *self.report;
+        let mut robots = vec![robot, other];
+        robots.dedup();
+        self.violations.push(Violation {
+            property: property.into(),
+            at,
+            robots,
+            text: format!("robot {robot} {text}"),
+        });
+    }
+}
+
+impl BroadcastOrder {
+    pub fn new(setting: &Setting) -> BroadcastOrder {
+        let bound = setting.properties.broadcast_bound;
+        BroadcastOrder {
+            bound,
+            instances: BTreeMap::new(),
+            agreement: Agreement::new(setting.bodies.len(), bound),
+            void_until: Time::ZERO,
+            excused: Excused::default(),
+        }
+    }
+
+    fn reported(&mut self, report: &Report<'_, BroadcastEvent>, violations: &mut Vec<Violation>) {
+        let Report {
+            at, robot, port, ..
+        } = *report;
+        match report.event {
+            BroadcastEvent::Broadcast {
+                order: Some(order), ..
+            } => {
+                let new = || Instance::new(*order);
+                self.instances.entry(port).or_insert_with(new);
+            }
+            // Before any message there may be members.
+            BroadcastEvent::Join { .. } => return self.agreement.joined(port, robot, at),
+            _ => {}
+        }
+        let Some(instance) = self.instances.get_mut(&port) else {
+            return;
+        };
+        let is_judged = at >= self.void_until;
+        let mut finding = Finding {
+            report,
+            violations,
+            excused: (!is_judged).then_some(&mut self.excused),
+        };
+        match report.event {
+            BroadcastEvent::Broadcast { message, .. } => {
+                let key = report.message(robot, *message);
+                instance.sent.insert((robot, key.incarnation), key.number);
+                if let Some(causality) = &mut instance.causality {
+                    causality.sent(robot, key, at);
+                }
+                if instance.is_total && is_judged {
+                    self.agreement.sent(key, at);
+                } else if instance.is_total {
+                    self.excused.note(AGREEMENT, Excuse::Corruption);
+                }
+            }
+            BroadcastEvent::Transfer(TransferEvent::Deliver { from, message }) => {
+                let key = report.message(*from, *message);
+                instance.handed(robot, key, &mut finding);
+                if instance.is_total {
+                    self.agreement.handed(key, robot);
+                }
+            }
+            BroadcastEvent::PassOver { from, message } => {
+                if let Some(causality) = &mut instance.causality {
+                    causality.passed(robot, report.message(*from, *message));
+                }
+            }
+            BroadcastEvent::Gap => {
+                instance.sequences.gap(robot);
+                self.agreement.joined(port, robot, at);
+            }
+            BroadcastEvent::Transfer(TransferEvent::Fail { message, .. }) if instance.is_total => {
+                self.agreement
+                    .failed(report.message(robot, *message), &mut self.excused);
+            }
+            _ => {}
+        }
+    }
+}
+
+impl Instance {
+    fn handed(&mut self, robot: RobotId, key: MessageKey, finding: &mut Finding<'_>) {
+        let process = (key.from, key.incarnation);
+        let number = key.number;
+        let name = format!("message {number} of robot {}", key.from);
+        let is_sent = self.sent.get(&process).is_some_and(|&last| number <= last);
+        if !is_sent {
+            let text = format!("was handed {name}, which was not sent");
+            return finding.add(INTEGRITY, key.from, text);
+        }
+        let last = self.handed.entry(robot).or_default();
+        match last.insert(process, number) {
+            Some(before) if before == number => {
+                return finding.add(INTEGRITY, key.from, format!("was handed {name} twice"));
+            }
+            Some(before) if before > number => {
+                let text = format!("was handed {name} after message {before}");
+                finding.add(FIFO, key.from, text);
+            }
+            _ => {}
+        }
+        if let Some(causality) = &mut self.causality {
+            causality.handed(robot, key, finding);
+        }
+        if self.is_total {
+            self.sequences.handed(robot, key, finding);
+        }
+    }
+}
+
+impl Checker for BroadcastOrder {
+    fn properties(&self) -> &'static [&'static str] {
+        &[INTEGRITY, FIFO, CAUSAL, TOTAL, AGREEMENT]
+    }
+
+    fn has_subject(&self, property: &str) -> bool {
+        self.instances.values().any(|instance| match property {
+            CAUSAL => instance.causality.is_some(),
+            TOTAL | AGREEMENT => instance.is_total,
+            _ => true,
+        })
+    }
+
+    fn heeds(&self) -> Kinds {
+        // What is overdue is found at the next record of any kind.
+        match self.agreement.is_owed() {
+            false => Kinds::REPORTS | Kinds::SENT | Kinds::DELIVERED,
+            true => Kinds::ALL,
+        }
+    }
+
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        self.excused.of(property)
+    }
+
+    fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
+        // Datagrams that wait for their turn may be on record ahead of their time.
+        if let Event::Dropped { .. } = &record.event {
+            return;
+        }
+        self.agreement
+            .check(record.at, violations, &mut self.excused);
+        match &record.event {
+            Event::Sent { .. } | Event::Delivered { .. } => self.agreement.observe(record),
+            Event::Primitive { .. } => {
+                if let Some(report) = Report::of(record) {
+                    self.reported(&report, violations);
+                }
+            }
+            Event::Fault(fault) => {
+                self.agreement.observe(record);
+                match (record.robot, fault) {
+                    (Some(robot), Fault::Crash) => {
+                        for instance in self.instances.values_mut() {
+                            instance.begin_anew(robot);
+                        }
+                    }
+                    (Some(_), Fault::CorruptState) => {
+                        self.void_until = record.at + self.bound;
+                        for instance in self.instances.values_mut() {
+                            instance.handed.clear();
+                            instance.sequences = Sequences::default();
+                            let is_causal = instance.causality.is_some();
+                            instance.causality = is_causal.then(Causality::default);
+                        }
+                    }
+                    _ => {}
+                }
+            }
+            Event::Failed(_) => self.agreement.observe(record),
+            _ => {}
+        }
+    }
+
+    fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
+        self.agreement.check(now, violations, &mut self.excused);
+    }
+}

@@ -1,0 +1,84 @@
+//! What is not held against anybody, and why.
+//!
+//! Properties are promised for robots and networks that work. Where one does not hold, or is not judged, because
+//! of a fault on record, checkers count that here, so that "holds" without a remark means that nothing was excused.
+
+use crate::Violation;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// Why something is not held against anybody.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Excuse {
+    /// A robot that is concerned was down, or had started again since.
+    Down,
+    /// A program that is concerned could not go on.
+    Failed,
+    /// Sensors were frozen.
+    Sensors,
+    /// Motors were stuck.
+    Motors,
+    /// The state of a robot was overwritten.
+    Corruption,
+    /// The network was parted.
+    Partition,
+    /// A fault came so shortly before that not all had got over it.
+    Recovery,
+    /// Too few robots were there to go on, or to remember.
+    NoMajority,
+    /// Clocks ran wrong by more than leases count on.
+    Clocks,
+    /// A robot that had crashed in the air fell.
+    Fall,
+}
+
+impl Excuse {
+    /// The reason in words.
+    pub fn text(self) -> &'static str {
+        match self {
+            Excuse::Down => "a robot was down",
+            Excuse::Failed => "a program had failed",
+            Excuse::Sensors => "sensors were frozen",
+            Excuse::Motors => "motors were stuck",
+            Excuse::Corruption => "state was overwritten",
+            Excuse::Partition => "the network was parted",
+            Excuse::Recovery => "a fault came shortly before",
+            Excuse::NoMajority => "too few robots were there",
+            Excuse::Clocks => "clocks ran too wrong",
+            Excuse::Fall => "a robot that had crashed fell",
+        }
+    }
+}
+
+/// How often a checker excused what, by property. No checker goes by it, so `Debug` shows nothing of it.
+#[derive(Clone, Default)]
+pub struct Excused(BTreeMap<(&'static str, Excuse), u64>);
+
+impl Excused {
+    /// Counts one more.
+    pub fn note(&mut self, property: &'static str, excuse: Excuse) {
+        *self.0.entry((property, excuse)).or_default() += 1;
+    }
+
+    /// Counts what would have been a violation.
+    pub fn forgive(&mut self, violation: &Violation, excuse: Excuse) {
+        if let Cow::Borrowed(property) = violation.property {
+            self.note(property, excuse);
+        }
+    }
+
+    /// How often a property was excused, by reason.
+    pub fn of(&self, property: &str) -> Vec<(Excuse, u64)> {
+        let counts = self.0.iter().filter(|((of, _), _)| *of == property);
+        counts
+            .map(|((_, excuse), count)| (*excuse, *count))
+            .collect()
+    }
+}
+
+impl fmt::Debug for Excused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Excused")
+    }
+}

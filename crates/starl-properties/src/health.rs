@@ -1,0 +1,196 @@
+//! Who is in a state to keep a promise: which robots and links the faults on record excuse.
+//!
+//! A primitive's properties are promised for robots that work. Faults only ever excuse; they are read
+//! from the trace like everything else. That two robots are in different parts of a partition shows in
+//! the datagrams that are dropped for it: a partition that swallowed no datagram from one to the other
+//! kept nothing from it.
+
+use crate::Excuse;
+use starl_core::event::{DropReason, Event, Fault};
+use starl_core::{Duration, Record, RobotId, Time};
+use std::collections::BTreeMap;
+
+/// What a promise asks of a robot; each asks for what the ones before it do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Needs {
+    /// It is up, its program has not failed, and its variables are its own.
+    Computing,
+    /// Its sensors and its positioning are not frozen.
+    Sensing,
+    /// Its motors are not stuck.
+    Moving,
+}
+
+/// What befalls a robot.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Change<'a> {
+    /// A fault.
+    Fault(&'a Fault),
+    /// Its program cannot go on.
+    Failed,
+}
+
+impl Change<'_> {
+    /// Whether the robot does nothing any more, or nothing until it starts again.
+    pub fn is_end(self) -> bool {
+        matches!(self, Change::Fault(Fault::Crash) | Change::Failed)
+    }
+
+    /// What it excuses; none where it mends something.
+    pub fn excuse(self) -> Option<Excuse> {
+        match self {
+            Change::Failed => Some(Excuse::Failed),
+            Change::Fault(Fault::Crash) => Some(Excuse::Down),
+            Change::Fault(Fault::FrozenSensor) => Some(Excuse::Sensors),
+            Change::Fault(Fault::StuckMotor) => Some(Excuse::Motors),
+            Change::Fault(Fault::CorruptState) => Some(Excuse::Corruption),
+            Change::Fault(Fault::Partition) => Some(Excuse::Partition),
+            Change::Fault(Fault::Restart | Fault::Heal | Fault::Repair | Fault::Other(_)) => None,
+        }
+    }
+
+    /// Whether the robot's variables were overwritten.
+    pub fn is_corruption(self) -> bool {
+        matches!(self, Change::Fault(Fault::CorruptState))
+    }
+}
+
+/// Which robots were unwell until when, and which links cut.
+#[derive(Clone, Debug)]
+pub(super) struct Health {
+    needs: Needs,
+    robots: Vec<Condition>,
+    /// When a datagram from one robot to another was last dropped for a partition.
+    cuts: BTreeMap<(RobotId, RobotId), Time>,
+    /// Cuts older than this are forgotten.
+    memory: Duration,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Condition {
+    down: bool,
+    failed: bool,
+    sensors_frozen: bool,
+    motor_stuck: bool,
+    /// The last moment at which it was unwell; [`Time::NEVER`] while it is.
+    unwell: Option<Time>,
+    /// Why it was unwell then.
+    why: Option<Excuse>,
+}
+
+impl Health {
+    /// All are well. Nobody will ask for cuts that lie back more than `memory`.
+    pub fn new(robots: usize, needs: Needs, memory: Duration) -> Health {
+        Health {
+            needs,
+            robots: vec![Condition::default(); robots],
+            cuts: BTreeMap::new(),
+            memory,
+        }
+    }
+
+    /// Takes note of faults.
+    pub fn observe(&mut self, record: &Record) {
+        match &record.event {
+            Event::Fault(fault) => match record.robot {
+                Some(robot) => self.change(robot, record.at, Change::Fault(fault)),
+                None => {
+                    let oldest = record.at - self.memory;
+                    self.cuts.retain(|_, at| *at >= oldest);
+                }
+            },
+            Event::Failed(_) => {
+                if let Some(robot) = record.robot {
+                    self.change(robot, record.at, Change::Failed);
+                }
+            }
+            &Event::Dropped {
+                from,
+                to: Some(to),
+                reason: DropReason::Partition,
+                ..
+            } => {
+                self.cuts.insert((from, to), record.at);
+            }
+            _ => {}
+        }
+    }
+
+    /// Whether the robot has been well from `since` on.
+    pub fn well_since(&self, robot: RobotId, since: Time) -> bool {
+        let condition = self.robots.get(robot.index());
+        condition.is_none_or(|condition| condition.unwell.is_none_or(|until| until < since))
+    }
+
+    /// Why the robot was unwell when it was last.
+    pub fn excuse(&self, robot: RobotId) -> Excuse {
+        let condition = self.robots.get(robot.index());
+        let why = condition.and_then(|condition| condition.why);
+        why.unwrap_or(Excuse::Recovery)
+    }
+
+    /// Since when the robot has been well; [`Time::NEVER`] while it is not.
+    pub fn well_from(&self, robot: RobotId) -> Time {
+        let condition = self.robots.get(robot.index());
+        condition
+            .and_then(|condition| condition.unwell)
+            .unwrap_or_default()
+    }
+
+    /// Whether no datagram from one robot to another fell victim to a partition from `since` on.
+    pub fn linked_since(&self, from: RobotId, to: RobotId, since: Time) -> bool {
+        self.cuts.get(&(from, to)).is_none_or(|&at| at < since)
+    }
+
+    /// What excuses that a message did not get from one robot to another from `since` on; none where nothing does.
+    pub fn excuse_of(&self, from: RobotId, to: RobotId, since: Time) -> Option<Excuse> {
+        let unwell = [from, to]
+            .into_iter()
+            .find(|robot| !self.well_since(*robot, since));
+        let parted = (!self.linked_since(from, to, since)).then_some(Excuse::Partition);
+        unwell.map(|robot| self.excuse(robot)).or(parted)
+    }
+
+    fn change(&mut self, robot: RobotId, at: Time, change: Change<'_>) {
+        let needs = self.needs;
+        let Some(condition) = self.robots.get_mut(robot.index()) else {
+            return;
+        };
+        let was_unwell = condition.is_unwell(needs);
+        let mut for_a_moment = false;
+        match change {
+            Change::Failed => condition.failed = true,
+            // A robot that crashes has no other trouble.
+            Change::Fault(Fault::Crash) => {
+                *condition = Condition {
+                    down: true,
+                    ..Condition::default()
+                }
+            }
+            Change::Fault(Fault::Restart) => condition.down = false,
+            Change::Fault(Fault::FrozenSensor) => condition.sensors_frozen = true,
+            Change::Fault(Fault::StuckMotor) => condition.motor_stuck = true,
+            Change::Fault(Fault::Repair) => {
+                (condition.sensors_frozen, condition.motor_stuck) = (false, false);
+            }
+            Change::Fault(Fault::CorruptState) => for_a_moment = true,
+            Change::Fault(Fault::Partition | Fault::Heal | Fault::Other(_)) => {}
+        }
+        if condition.is_unwell(needs) {
+            condition.unwell = Some(Time::NEVER);
+            condition.why = change.excuse().or(condition.why);
+        } else if was_unwell || for_a_moment {
+            condition.unwell = Some(at);
+            condition.why = change.excuse().or(condition.why);
+        }
+    }
+}
+
+impl Condition {
+    fn is_unwell(&self, needs: Needs) -> bool {
+        self.down
+            || self.failed
+            || (needs >= Needs::Sensing && self.sensors_frozen)
+            || (needs >= Needs::Moving && self.motor_stuck)
+    }
+}

@@ -1,0 +1,64 @@
+//! Properties that are judged on the running programs themselves: what records do not show, such as a program's
+//! variables.
+
+use super::Violation;
+use starl_core::event::Name;
+use starl_core::motion::Obstacles;
+use starl_core::{Duration, Point, Pose, RobotId, Time, WayPoint};
+use std::any::Any;
+
+/// Watches properties on live programs. A trace does not hold what it sees, so its verdicts come again only by
+/// running again.
+pub trait Monitor: dyn_clone::DynClone + Send + Sync {
+    /// The properties it watches, always in the same order.
+    fn properties(&self) -> Vec<Name>;
+
+    /// Takes in the state of affairs after a step; what does not hold is added to `violations`, each
+    /// under one of the names of [`Monitor::properties`].
+    fn observe(&mut self, witness: &dyn Witness, violations: &mut Vec<Violation>);
+
+    /// Whether it is still open if the property with this place among [`Monitor::properties`] holds:
+    /// it demands something by a time that has not come.
+    fn is_open(&self, property: usize) -> bool;
+}
+
+dyn_clone::clone_trait_object!(Monitor);
+
+/// The true state of affairs at a moment, as far as a host knows it. Nothing here is as a robot believes it to be.
+pub trait Witness {
+    /// The time.
+    fn now(&self) -> Time;
+
+    /// How long it is since the start and since the last fault began or was mended; zero while the network is
+    /// parted, a motor is stuck or sensors are frozen. A robot that is down disturbs when it crashes and when it
+    /// starts again, not in between.
+    fn undisturbed(&self) -> Duration;
+
+    /// How long it is since the start and since a fault last overwrote the state of robots at random.
+    fn uncorrupted(&self) -> Duration;
+
+    /// The application's way-points.
+    fn way_points(&self) -> &[WayPoint];
+
+    /// The obstacles that stand and that all robots know of, the walls around the world included.
+    fn obstacles(&self) -> Obstacles;
+
+    /// All robots, those that are down included.
+    fn robots(&self) -> &[RobotId];
+
+    /// What a robot's program shows ([`starl_core::Program::inspect`]); of one that is down what it showed last. None
+    /// if it shows nothing, or there is no such robot.
+    fn program(&self, robot: RobotId) -> Option<&dyn Any>;
+
+    /// A robot's true pose; none if there is no such robot.
+    fn pose(&self, robot: RobotId) -> Option<Pose>;
+
+    /// A robot's true velocity, metres per second; none if there is no such robot.
+    fn velocity(&self, robot: RobotId) -> Option<Point>;
+
+    /// Whether a robot is there and has not crashed.
+    fn is_up(&self, robot: RobotId) -> bool;
+
+    /// Whether a robot is up and its program has reached its goal.
+    fn has_finished(&self, robot: RobotId) -> bool;
+}

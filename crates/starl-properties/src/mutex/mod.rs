@@ -1,0 +1,184 @@
+//! Mutex (thesis, section 3.4.3): safety, non-interference and progress, and that the numbers of leases grow.
+//!
+//! Who holds what is known by what robots report. A hold ends when it is given back, when its lease ends, and
+//! when its robot crashes. With leases two robots may hold a resource where clocks break the bound that the
+//! leases count on; that is not judged then, and the numbers must tell the two apart even so.
+//!
+//! After a corruption of state anywhere, robots may believe that they hold what others hold until they have
+//! given it back: what is entered within the bound after it is not judged against others.
+
+mod locks;
+mod waiting;
+
+use super::health::{Health, Needs};
+use super::parts::Parts;
+use super::pending::Pending;
+use super::report::Report;
+use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
+use locks::{Entry, Locks};
+use starl_core::event::{Event, Fault, MutexEvent};
+use starl_core::{Duration, Port, Record, RobotId, Time};
+use std::collections::BTreeMap;
+
+const SAFETY: &str = "mutex.safety";
+const FENCING: &str = "mutex.fencing";
+const NON_INTERFERENCE: &str = "mutex.non_interference";
+const PROGRESS: &str = "mutex.progress";
+
+/// Watches all mutexes.
+#[derive(Clone, Debug)]
+pub(super) struct Mutex {
+    bound: Duration,
+    robots: u32,
+    /// How much faster or slower than true time a clock may run, as a share.
+    drift: f64,
+    health: Health,
+    parts: Parts,
+    locks: BTreeMap<Port, Locks>,
+    /// What is entered until then may be held by others too, for the corruption of some state.
+    doubtful_until: Time,
+    pending: Pending,
+    /// When requests are looked at next.
+    next_look: Time,
+    excused: Excused,
+}
+
+impl Mutex {
+    pub fn new(setting: &Setting) -> Mutex {
+        let bound = setting.properties.mutex_bound;
+        let robots = setting.bodies.len();
+        Mutex {
+            bound,
+            robots: robots as u32,
+            drift: setting.clock_drift,
+            health: Health::new(robots, Needs::Computing, bound),
+            parts: Parts::new(robots, bound),
+            locks: BTreeMap::new(),
+            doubtful_until: Time::ZERO,
+            pending: Pending::new(setting),
+            next_look: Time::ZERO,
+            excused: Excused::default(),
+        }
+    }
+
+    fn reported(&mut self, report: &Report<'_, MutexEvent>) {
+        let (at, robot) = (report.at, report.robot);
+        let locks = self.locks.entry(report.port).or_default();
+        match report.event {
+            MutexEvent::Acquire { resource } => locks.acquire(robot, resource, at),
+            MutexEvent::Withdraw { resource } => locks.withdraw(robot, resource, at),
+            MutexEvent::Release { resource } | MutexEvent::Expire { resource } => {
+                locks.release(robot, resource, at);
+            }
+            MutexEvent::Enter {
+                resource,
+                fencing,
+                drift,
+            } => {
+                let entry = Entry {
+                    number: *fencing,
+                    is_exclusive: drift.is_none_or(|drift| self.drift <= drift),
+                    is_doubtful: at < self.doubtful_until,
+                };
+                let found = locks.enter(robot, resource, at, entry, &mut self.excused);
+                self.pending.extend(found);
+            }
+        }
+        self.look_after(at);
+    }
+
+    /// A robot has forgotten what it held and asked for.
+    fn forget(&mut self, robot: RobotId, at: Time) {
+        for locks in self.locks.values_mut() {
+            locks.forget(robot, at);
+        }
+        self.look_after(at);
+    }
+
+    /// A robot's state was overwritten, perhaps before its last reports.
+    fn corrupted(&mut self, robot: RobotId, at: Time) {
+        self.pending
+            .retain(Excuse::Corruption, &mut self.excused, |_| false);
+        self.doubtful_until = at + self.bound;
+        for locks in self.locks.values_mut() {
+            locks.doubt(robot, at);
+        }
+        self.look_after(at);
+    }
+
+    /// Something has changed at this time; what was overdue then has been reported.
+    fn look_after(&mut self, at: Time) {
+        self.next_look = at;
+    }
+
+    /// Time has come to `now`.
+    fn pass(&mut self, now: Time, found: &mut Vec<Violation>) {
+        self.pending.settle(now, found);
+        if now <= self.next_look {
+            return;
+        }
+        let (health, parts, robots) = (&self.health, &self.parts, self.robots);
+        let well_since = || {
+            let all = || (0..robots).map(RobotId);
+            let together = all().map(|robot| parts.together_since(RobotId(0), robot));
+            let parted = together.max().map(|since| (since, Excuse::Partition));
+            let unwell = all().map(|robot| (health.well_from(robot), health.excuse(robot)));
+            unwell
+                .chain(parted)
+                .max()
+                .unwrap_or((Time::ZERO, Excuse::Recovery))
+        };
+        let mut next = Time::NEVER;
+        for locks in self.locks.values_mut() {
+            next = next.min(locks.look(now, self.bound, &well_since, (found, &mut self.excused)));
+        }
+        self.next_look = next;
+    }
+}
+
+impl Checker for Mutex {
+    fn properties(&self) -> &'static [&'static str] {
+        &[SAFETY, FENCING, NON_INTERFERENCE, PROGRESS]
+    }
+
+    fn heeds(&self) -> Kinds {
+        Kinds::REPORTS | Kinds::SENT | Kinds::DELIVERED
+    }
+
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        self.excused.of(property)
+    }
+
+    fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
+        match &record.event {
+            Event::Sent { .. } | Event::Delivered { .. } if !self.locks.is_empty() => {
+                self.parts.observe(record);
+            }
+            Event::Primitive { .. } => {
+                if let Some(report) = Report::of(record) {
+                    self.pass(record.at, violations);
+                    self.reported(&report);
+                }
+            }
+            Event::Fault(fault) => {
+                self.pass(record.at, violations);
+                self.health.observe(record);
+                self.parts.observe(record);
+                match (record.robot, fault) {
+                    (Some(robot), Fault::Crash) => self.forget(robot, record.at),
+                    (Some(robot), Fault::CorruptState) => self.corrupted(robot, record.at),
+                    _ => {}
+                }
+            }
+            Event::Failed(_) => {
+                self.pass(record.at, violations);
+                self.health.observe(record);
+            }
+            _ => {}
+        }
+    }
+
+    fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
+        self.pass(now, violations);
+    }
+}

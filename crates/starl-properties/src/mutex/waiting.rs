@@ -1,0 +1,212 @@
+//! Requests that wait, and whether they wait too long.
+//!
+//! Requests that overlap, directly or through others, wait for each other. As long as somebody holds what one
+//! of them asks for, all of them may wait for that. When nobody does, one of them is to be granted within the
+//! bound; a request that nobody's overlaps with is to be granted itself (non-interference). And of those who
+//! wait for the same, nobody is to be granted it again and again while another waits.
+//!
+//! All robots have to be well and together meanwhile.
+
+use super::locks::Locks;
+use super::{NON_INTERFERENCE, PROGRESS};
+use crate::{Excuse, Excused, Violation, robot_list};
+use starl_core::{Duration, RobotId, Time};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// So often another may be granted what one waits for, as messages that cross can be ordered either way.
+const MOST_OVERTAKEN: u32 = 100;
+
+/// A request.
+#[derive(Clone, Debug)]
+pub(super) struct Waiting {
+    pub resources: BTreeSet<Arc<str>>,
+    since: Time,
+    /// When something last happened that it may have waited for.
+    changed: Time,
+    /// How often each robot has come to hold what this one waits for.
+    overtaken: BTreeMap<RobotId, u32>,
+    /// When, and by whom, it was overtaken once too often.
+    starved: Option<(Time, RobotId)>,
+    is_reported: bool,
+    /// Since when it waited for what it was excused for last.
+    excused: Option<Time>,
+}
+
+impl Waiting {
+    pub fn new(since: Time) -> Waiting {
+        Waiting {
+            resources: BTreeSet::new(),
+            since,
+            changed: since,
+            overtaken: BTreeMap::new(),
+            starved: None,
+            is_reported: false,
+            excused: None,
+        }
+    }
+}
+
+impl Locks {
+    /// Something has happened to these resources: all who wait for them, or for those who do, may have waited
+    /// for that.
+    pub(super) fn changed(&mut self, resources: &[&str], at: Time) {
+        if self.waiting.is_empty() {
+            return;
+        }
+        let group = self.group(&mut resources.iter().copied().collect());
+        for robot in group {
+            if let Some(waiting) = self.waiting.get_mut(&robot) {
+                waiting.changed = at;
+            }
+        }
+    }
+
+    /// A robot has come to hold something.
+    pub(super) fn overtake(&mut self, robot: RobotId, resource: &str, at: Time) {
+        for (&other, waiting) in &mut self.waiting {
+            if other != robot && waiting.resources.contains(resource) {
+                let count = waiting.overtaken.entry(robot).or_default();
+                *count += 1;
+                if *count > MOST_OVERTAKEN {
+                    waiting.starved.get_or_insert((at, robot));
+                }
+            }
+        }
+    }
+
+    /// Reports what waits too long; gives when to look again.
+    pub(super) fn look_at_requests(
+        &mut self,
+        now: Time,
+        bound: Duration,
+        well_since: &dyn Fn() -> (Time, Excuse),
+        (found, excused): (&mut Vec<Violation>, &mut Excused),
+    ) -> Time {
+        let mut next = Time::NEVER;
+        if self.waiting.is_empty() {
+            return next;
+        }
+        let (well_since, excuse) = well_since();
+        let mut left: BTreeSet<RobotId> = self.waiting.keys().copied().collect();
+        while let Some(first) = left.first().copied() {
+            let resources = self.waiting[&first].resources.iter();
+            let mut reached: BTreeSet<&str> = resources.map(|name| &**name).collect();
+            let group = self.group(&mut reached);
+            let is_held = reached.iter().any(|resource| self.is_held(resource));
+            left.retain(|robot| !group.contains(robot));
+            left.remove(&first);
+            self.look_for_overtaken(&group, well_since, found);
+            if is_held {
+                continue;
+            }
+            let changes = group.iter().map(|robot| self.waiting[robot].changed);
+            // Who comes later does not excuse those who were there.
+            let changed = changes.min().unwrap_or(now);
+            let latest = changed.max(well_since);
+            let due = if well_since == Time::NEVER {
+                now + bound
+            } else {
+                latest + bound
+            };
+            if due >= now {
+                next = next.min(due);
+                if changed + bound >= now {
+                    next = next.min(changed + bound);
+                } else if let Some(first) = self.waiting.get_mut(&first)
+                    && first.excused.replace(changed) != Some(changed)
+                {
+                    let property = match group.len() {
+                        1 => NON_INTERFERENCE,
+                        _ => PROGRESS,
+                    };
+                    excused.note(property, excuse);
+                }
+                continue;
+            }
+            let waits = |robot: &&RobotId| self.waiting[robot].changed + bound <= due;
+            let late: Vec<RobotId> = group.iter().filter(waits).copied().collect();
+            let is_reported = |robot: &RobotId| self.waiting[robot].is_reported;
+            if late.is_empty() || late.iter().any(is_reported) {
+                continue;
+            }
+            let (property, why) = match group.len() {
+                1 => (
+                    NON_INTERFERENCE,
+                    "though nobody else holds or wants any of it",
+                ),
+                _ => (PROGRESS, "though nobody holds any of it"),
+            };
+            found.push(Violation {
+                property: property.into(),
+                at: due,
+                text: format!(
+                    "{} did not get what was asked for within {bound}, {why}",
+                    robot_list(&late)
+                ),
+                robots: late.clone(),
+            });
+            for robot in late {
+                if let Some(waiting) = self.waiting.get_mut(&robot) {
+                    waiting.is_reported = true;
+                }
+            }
+        }
+        next
+    }
+
+    fn look_for_overtaken(
+        &mut self,
+        group: &[RobotId],
+        well_since: Time,
+        found: &mut Vec<Violation>,
+    ) {
+        for &robot in group {
+            let Some(waiting) = self.waiting.get_mut(&robot) else {
+                continue;
+            };
+            if well_since > waiting.since {
+                waiting.overtaken.clear();
+                waiting.starved = None;
+            }
+            if let Some((at, other)) = waiting.starved.take()
+                && !waiting.is_reported
+            {
+                waiting.is_reported = true;
+                found.push(Violation {
+                    property: PROGRESS.into(),
+                    at,
+                    robots: vec![robot, other],
+                    text: format!(
+                        "robot {robot} waits while robot {other} was granted the same more than \
+                         {MOST_OVERTAKEN} times"
+                    ),
+                });
+            }
+        }
+    }
+
+    /// All whose requests overlap with these resources, directly or through others; the resources become all
+    /// that they ask for.
+    fn group<'a>(&'a self, resources: &mut BTreeSet<&'a str>) -> Vec<RobotId> {
+        let mut group = Vec::new();
+        loop {
+            let before = group.len();
+            for (&robot, waiting) in &self.waiting {
+                let overlaps = || {
+                    waiting
+                        .resources
+                        .iter()
+                        .any(|name| resources.contains(&**name))
+                };
+                if !group.contains(&robot) && overlaps() {
+                    resources.extend(waiting.resources.iter().map(|name| &**name));
+                    group.push(robot);
+                }
+            }
+            if group.len() == before {
+                return group;
+            }
+        }
+    }
+}

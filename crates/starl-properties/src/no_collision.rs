@@ -1,0 +1,343 @@
+//! Bodies never touch: neither each other nor obstacles.
+//!
+//! Two witnesses that know nothing of each other: the collisions that the host reports, and bodies
+//! that overlap in the poses on record. Robots are compared at poses of the same moment only. From the
+//! first touch until the two are [`APART`] it is one collision, reported once. What a robot touches that
+//! has crashed in the air and falls is none.
+
+use super::bodies::{Sweep, gap};
+use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
+use starl_core::event::{Event, Fault, Hit};
+use starl_core::geometry::{Bounds, ObstacleIndex};
+use starl_core::motion::Body;
+use starl_core::{Duration, Obstacle, Point, Record, RobotId, Time};
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+const NO_COLLISION: &str = "no_collision";
+
+/// Overlaps are to be greater than this, metres: bodies that the host stops at each other may overlap
+/// by rounding.
+const OVERLAP: f64 = 0.001;
+
+/// Once bodies are this far from each other a collision is over, metres: farther than a body that is
+/// stopped stands off what it would have hit.
+const APART: f64 = 0.1;
+
+/// A robot that fell has come to lie when it has come no lower for so long.
+const LIES_AFTER: Duration = Duration::from_millis(500);
+
+/// One that restarts in its fall has caught itself by then: three times what an AR.Drone's rate of climb takes to
+/// follow.
+const CAUGHT_AFTER: Duration = Duration::from_seconds(1);
+
+/// What the walls around the world are called.
+const EDGE: &str = "the edge of the world";
+
+/// Watches all bodies.
+#[derive(Clone, Debug)]
+pub(super) struct NoCollision {
+    bodies: Vec<Body>,
+    obstacles: Arc<ObstacleIndex>,
+    /// When each obstacle vanishes.
+    expires: Arc<[Time]>,
+    /// How many of them stand in the world; the walls around it follow.
+    listed: usize,
+    /// Each robot's last pose.
+    positions: Vec<Option<Point>>,
+    round: Round,
+    /// Robots that touch, the lower number first.
+    pairs: BTreeSet<(RobotId, RobotId)>,
+    /// The obstacles that each robot touches.
+    walls: Vec<Vec<Wall>>,
+    /// Robots that have crashed in the air, until they have started again and rise.
+    falls: BTreeMap<RobotId, Fall>,
+    excused: Excused,
+}
+
+/// A robot that has crashed in the air.
+#[derive(Clone, Copy, Debug)]
+struct Fall {
+    /// The least height that it has come to, metres, and when it came there.
+    lowest: f64,
+    since: Time,
+    /// When it has started again. It sinks on for a moment, whatever its program does.
+    restarted: Option<Time>,
+}
+
+/// An obstacle that a robot touches.
+#[derive(Clone, Debug)]
+struct Wall {
+    index: u32,
+    /// The robot's place when they met.
+    met: Point,
+}
+
+/// The poses of one moment.
+#[derive(Clone, Debug, Default)]
+struct Round {
+    at: Time,
+    poses: Vec<Option<Point>>,
+    count: usize,
+    sweep: Sweep,
+}
+
+impl Fall {
+    fn lasts(self, now: Time) -> bool {
+        let is_caught = |restarted| now.since(restarted) > CAUGHT_AFTER;
+        now.since(self.since) <= LIES_AFTER && !self.restarted.is_some_and(is_caught)
+    }
+}
+
+impl NoCollision {
+    pub fn new(setting: &Setting) -> NoCollision {
+        let robots = setting.bodies.len();
+        let (obstacles, expires): (Vec<Obstacle>, Vec<Time>) =
+            setting.obstacles.iter().cloned().unzip();
+        NoCollision {
+            bodies: setting.bodies.clone(),
+            obstacles: Arc::new(ObstacleIndex::new(&obstacles)),
+            listed: expires.len() - setting.walls.min(expires.len()),
+            expires: expires.into(),
+            positions: vec![None; robots],
+            round: Round {
+                poses: vec![None; robots],
+                ..Round::default()
+            },
+            pairs: BTreeSet::new(),
+            walls: vec![Vec::new(); robots],
+            falls: BTreeMap::new(),
+            excused: Excused::default(),
+        }
+    }
+
+    /// Whether nobody can help what a robot touches now: it has crashed and falls.
+    fn falls(&self, robot: RobotId, at: Time) -> bool {
+        self.falls.get(&robot).is_some_and(|fall| fall.lasts(at))
+    }
+
+    /// Notes how low one is that has crashed in the air. Once it has started again and rises it falls no more.
+    fn follow_fall(&mut self, at: Time, robot: RobotId, height: f64) {
+        let Some(fall) = self.falls.get_mut(&robot) else {
+            return;
+        };
+        if height < fall.lowest - OVERLAP {
+            (fall.lowest, fall.since) = (height, at);
+        } else if fall.restarted.is_some() && height > fall.lowest + OVERLAP {
+            self.falls.remove(&robot);
+        }
+    }
+
+    fn changed(&mut self, at: Time, robot: RobotId, fault: &Fault) {
+        let Some(&Some(place)) = self.positions.get(robot.index()) else {
+            return;
+        };
+        match fault {
+            Fault::Crash if place.z > OVERLAP => {
+                let fall = Fall {
+                    lowest: place.z,
+                    since: at,
+                    restarted: None,
+                };
+                self.falls.insert(robot, fall);
+            }
+            Fault::Restart => {
+                if let Some(fall) = self.falls.get_mut(&robot) {
+                    fall.restarted = Some(at);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// The host says that a robot has met something.
+    fn collided(&mut self, at: Time, robot: RobotId, with: Hit, found: &mut Vec<Violation>) {
+        let Some(&place) = self.positions.get(robot.index()) else {
+            return;
+        };
+        let (is_new, other) = match with {
+            Hit::Robot(other) if other.index() >= self.bodies.len() => return,
+            Hit::Robot(other) => {
+                let pair = (robot.min(other), robot.max(other));
+                (self.pairs.insert(pair), format!("robot {other}"))
+            }
+            Hit::Obstacle(index) => {
+                let is_new = self.touch(robot, index, place.unwrap_or_default());
+                (is_new, self.name(index))
+            }
+        };
+        if !is_new {
+            return;
+        }
+        let other_falls = matches!(with, Hit::Robot(other) if self.falls(other, at));
+        if other_falls || self.falls(robot, at) {
+            return self.excused.note(NO_COLLISION, Excuse::Fall);
+        }
+        let near = place.map_or(String::new(), |place| format!(" near {place}"));
+        let mut robots = vec![robot];
+        if let Hit::Robot(other) = with {
+            robots.push(other);
+        }
+        found.push(Violation {
+            property: NO_COLLISION.into(),
+            at,
+            robots,
+            text: format!("robot {robot} ran into {other}{near}"),
+        });
+    }
+
+    /// Notes that a robot at `met` touches an obstacle; whether that is new.
+    fn touch(&mut self, robot: RobotId, index: u32, met: Point) -> bool {
+        let walls = &mut self.walls[robot.index()];
+        let is_new = walls.iter().all(|wall| wall.index != index);
+        if is_new {
+            walls.push(Wall { index, met });
+        }
+        is_new
+    }
+
+    fn moved(&mut self, at: Time, robot: RobotId, position: Point, found: &mut Vec<Violation>) {
+        let index = robot.index();
+        if index >= self.bodies.len() || !position.is_finite() {
+            return;
+        }
+        self.positions[index] = Some(position);
+        self.follow_fall(at, robot, position.z);
+        self.check_obstacles(at, robot, position, found);
+        let round = &mut self.round;
+        round.at = at;
+        if round.poses[index].replace(position).is_none() {
+            round.count += 1;
+        }
+        if round.count == self.bodies.len() {
+            self.close_round(found);
+        }
+    }
+
+    /// What an obstacle is called.
+    fn name(&self, index: u32) -> String {
+        match (index as usize) < self.listed {
+            true => format!("obstacle {index}"),
+            false => EDGE.into(),
+        }
+    }
+
+    fn check_obstacles(
+        &mut self,
+        at: Time,
+        robot: RobotId,
+        position: Point,
+        found: &mut Vec<Violation>,
+    ) {
+        let Body { radius, height, .. } = self.bodies[robot.index()];
+        let map = self.obstacles.clone();
+        let gap = |index: u32| {
+            let obstacle = map.obstacles().get(index as usize);
+            obstacle.map(|obstacle| obstacle.body_gap(position, radius, height))
+        };
+        self.walls[robot.index()]
+            .retain(|wall| gap(wall.index).unwrap_or_else(|| wall.met.distance(position)) < APART);
+        let around = Bounds::of_body(position, position, radius, height);
+        let _ = map.for_each_near(&around, |index| {
+            let gap = gap(index).unwrap_or(f64::INFINITY);
+            let stands = at <= self.expires[index as usize];
+            if gap < -OVERLAP && stands && self.touch(robot, index, position) {
+                if self.falls(robot, at) {
+                    self.excused.note(NO_COLLISION, Excuse::Fall);
+                    return ControlFlow::Continue(());
+                }
+                found.push(Violation {
+                    property: NO_COLLISION.into(),
+                    at,
+                    robots: vec![robot],
+                    text: format!(
+                        "the body of robot {robot} at {position} reaches {:.3} m into {}",
+                        -gap,
+                        self.name(index),
+                    ),
+                });
+            }
+            ControlFlow::<()>::Continue(())
+        });
+    }
+
+    /// Compares the poses of a moment.
+    fn close_round(&mut self, found: &mut Vec<Violation>) {
+        let Round {
+            at,
+            poses,
+            count,
+            sweep,
+        } = &mut self.round;
+        let (bodies, pairs, falls) = (&self.bodies, &mut self.pairs, &self.falls);
+        let excused = &mut self.excused;
+        let falls = |robot: RobotId| falls.get(&robot).is_some_and(|fall| fall.lasts(*at));
+        let place = |robot: RobotId| poses[robot.index()];
+        pairs.retain(|&(a, b)| match (place(a), place(b)) {
+            (Some(p), Some(q)) => gap((&bodies[a.index()], p), (&bodies[b.index()], q)) < APART,
+            _ => true,
+        });
+        sweep.overlaps(bodies, poses, OVERLAP, |a, b, gap| {
+            if !pairs.insert((a, b)) {
+                return;
+            }
+            if falls(a) || falls(b) {
+                excused.note(NO_COLLISION, Excuse::Fall);
+            } else {
+                let near = place(a).map_or(String::new(), |place| format!(" near {place}"));
+                found.push(Violation {
+                    property: NO_COLLISION.into(),
+                    at: *at,
+                    robots: vec![a, b],
+                    text: format!(
+                        "the bodies of robots {a} and {b} overlap by {:.3} m{near}",
+                        -gap,
+                    ),
+                });
+            }
+        });
+        poses.fill(None);
+        *count = 0;
+    }
+
+    /// Closes the round if its moment has passed.
+    fn catch_up(&mut self, now: Time, found: &mut Vec<Violation>) {
+        if self.round.count > 0 && now > self.round.at {
+            self.close_round(found);
+        }
+    }
+}
+
+impl Checker for NoCollision {
+    fn properties(&self) -> &'static [&'static str] {
+        &[NO_COLLISION]
+    }
+
+    fn heeds(&self) -> Kinds {
+        Kinds::MOVED | Kinds::COLLIDED | Kinds::FAULT
+    }
+
+    fn excused(&self, property: &str) -> Vec<(Excuse, u64)> {
+        self.excused.of(property)
+    }
+
+    fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
+        match (&record.event, record.robot) {
+            (Event::Moved(pose), Some(robot)) => {
+                self.catch_up(record.at, violations);
+                self.moved(record.at, robot, pose.position, violations);
+            }
+            (&Event::Collided { with }, Some(robot)) => {
+                self.catch_up(record.at, violations);
+                self.collided(record.at, robot, with, violations);
+            }
+            (Event::Fault(fault), Some(robot)) => self.changed(record.at, robot, fault),
+            _ => {}
+        }
+    }
+
+    fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
+        self.catch_up(now, violations);
+    }
+}

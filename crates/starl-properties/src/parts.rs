@@ -1,0 +1,120 @@
+//! Which robots partitions kept apart, and until when, by the trace alone.
+//!
+//! The trace says when a partition sets in and when all are healed, not who was in which part. That two
+//! robots were in the same one shows in the datagrams that came through: those sent after the partition
+//! had set in join their senders and receivers. Robots that nothing joined may have been apart.
+
+use starl_core::event::{Event, Fault};
+use starl_core::{Duration, Record, RobotId, Time};
+use std::collections::VecDeque;
+
+/// The partitions of a run, as far back as anyone asks.
+#[derive(Clone, Debug)]
+pub(super) struct Parts {
+    /// By robot: the number of the last datagram that it sent.
+    sent: Vec<Option<u32>>,
+    /// In the order of time; at most the last has not ended.
+    partitions: VecDeque<Partition>,
+    /// Partitions that ended longer ago are forgotten.
+    memory: Duration,
+}
+
+#[derive(Clone, Debug)]
+struct Partition {
+    /// When it was healed, or gave way to another one.
+    ended: Time,
+    /// What had been sent when it set in.
+    sent_before: Vec<Option<u32>>,
+    /// By robot: another one of the same part, or itself. Following these leads to the one by which a
+    /// part is known (disjoint sets: Galler and Fischer 1964).
+    same_as: Vec<u32>,
+}
+
+impl Parts {
+    pub fn new(robots: usize, memory: Duration) -> Parts {
+        Parts {
+            sent: vec![None; robots],
+            partitions: VecDeque::new(),
+            memory,
+        }
+    }
+
+    /// Takes note of partitions and datagrams.
+    pub fn observe(&mut self, record: &Record) {
+        match (&record.event, record.robot) {
+            (Event::Fault(Fault::Partition), None) => {
+                self.end(record.at);
+                self.begin();
+            }
+            (Event::Fault(Fault::Heal), None) => self.end(record.at),
+            (&Event::Sent { sequence, .. }, Some(robot)) => {
+                if let Some(last) = self.sent.get_mut(robot.index()) {
+                    *last = Some(sequence);
+                }
+            }
+            (&Event::Delivered { from, sequence }, Some(to)) => {
+                let partition = self.partitions.back_mut();
+                if let Some(partition) = partition.filter(|p| p.ended == Time::NEVER) {
+                    partition.came_through(from, sequence, to);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Since when no partition can have kept the two apart; [`Time::NEVER`] while one can.
+    pub fn together_since(&self, one: RobotId, other: RobotId) -> Time {
+        let apart = self.partitions.iter().rev();
+        let mut apart = apart.filter(|partition| partition.part(one) != partition.part(other));
+        apart.next().map_or(Time::ZERO, |partition| partition.ended)
+    }
+
+    fn begin(&mut self) {
+        self.partitions.push_back(Partition {
+            ended: Time::NEVER,
+            sent_before: self.sent.clone(),
+            same_as: (0..self.sent.len() as u32).collect(),
+        });
+    }
+
+    fn end(&mut self, at: Time) {
+        if let Some(partition) = self.partitions.back_mut() {
+            partition.ended = partition.ended.min(at);
+        }
+        let oldest = at - self.memory;
+        while self.partitions.front().is_some_and(|p| p.ended < oldest) {
+            self.partitions.pop_front();
+        }
+    }
+}
+
+impl Partition {
+    fn came_through(&mut self, from: RobotId, sequence: u32, to: RobotId) {
+        let before = self.sent_before.get(from.index()).copied().flatten();
+        let (one, other) = (self.part(from), self.part(to));
+        let (least, greatest) = (one.min(other), one.max(other));
+        if before.is_none_or(|before| before < sequence)
+            && let Some(same_as) = self.same_as.get_mut(greatest as usize)
+        {
+            *same_as = least;
+        }
+        // Short ways for those who ask next.
+        for robot in [from, to] {
+            let part = self.part(robot);
+            if let Some(same_as) = self.same_as.get_mut(robot.index()) {
+                *same_as = part;
+            }
+        }
+    }
+
+    /// The robot by which the part is known.
+    fn part(&self, robot: RobotId) -> u32 {
+        let mut part = robot.0;
+        while let Some(&next) = self.same_as.get(part as usize)
+            && next != part
+        {
+            part = next;
+        }
+        part
+    }
+}

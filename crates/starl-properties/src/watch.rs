@@ -1,0 +1,154 @@
+//! All checkers and monitors of a run, and what they say of it.
+
+use crate::{Checker, Excuse, Kinds, Monitor, Violation, Witness};
+use starl_core::event::{Event, Name};
+use starl_core::{Record, Time};
+
+/// Checkers and monitors that look at a run, and what they have found.
+#[derive(Clone, Default)]
+pub struct Watch {
+    checkers: Vec<Box<dyn Checker>>,
+    monitors: Vec<Box<dyn Monitor>>,
+    violations: Vec<Violation>,
+    /// The primitives that have reported something.
+    used: Vec<String>,
+    /// Those of the records that were shown last.
+    kinds: Vec<Kinds>,
+}
+
+/// What is said of one property.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// The property.
+    pub property: Name,
+    /// How often it was violated.
+    pub violations: usize,
+    /// The first time.
+    pub first: Option<Violation>,
+    /// Whether it has not been violated, but would be if nothing more happened: it demands something
+    /// by a time that has not come.
+    pub open: bool,
+    /// Whether anything took place that it speaks of: a property of a primitive that nobody used says nothing.
+    pub used: bool,
+    /// How often something was excused that speaks against it, by reason.
+    pub excused: Vec<(Excuse, u64)>,
+}
+
+impl Watch {
+    /// These checkers, before the first record.
+    pub fn new(checkers: Vec<Box<dyn Checker>>) -> Watch {
+        Watch {
+            checkers,
+            ..Watch::default()
+        }
+    }
+
+    /// One more that watches; to be called before the run begins.
+    pub fn add_monitor(&mut self, monitor: Box<dyn Monitor>) {
+        self.monitors.push(monitor);
+    }
+
+    /// Shows the checkers the next records, in the order of their times. Time has come to `now`.
+    pub fn observe(&mut self, records: &[Record], now: Time) {
+        self.kinds.clear();
+        self.kinds
+            .extend(records.iter().map(|record| Kinds::of(&record.event)));
+        for record in records {
+            if let Event::Primitive { event, .. } = &record.event
+                && !self.is_known(event.primitive())
+            {
+                self.used.push(event.primitive().to_string());
+            }
+        }
+        for checker in &mut self.checkers {
+            let mut heeds = checker.heeds();
+            for (record, &kind) in records.iter().zip(&self.kinds) {
+                if heeds.meets(kind) {
+                    checker.observe(record, &mut self.violations);
+                    heeds = checker.heeds();
+                }
+            }
+            checker.advance(now, &mut self.violations);
+        }
+    }
+
+    /// Shows the monitors the state of affairs.
+    pub fn witness(&mut self, witness: &dyn Witness) {
+        for monitor in &mut self.monitors {
+            monitor.observe(witness, &mut self.violations);
+        }
+    }
+
+    /// All violations so far.
+    pub fn violations(&self) -> &[Violation] {
+        &self.violations
+    }
+
+    /// What monitors watch.
+    pub fn monitored(&self) -> impl Iterator<Item = Name> {
+        let monitors = self.monitors.iter();
+        monitors.flat_map(|monitor| monitor.properties())
+    }
+
+    /// How often something was excused that speaks against a property, and why.
+    pub fn excused(&self) -> Vec<(Name, Excuse, u64)> {
+        let checkers = self.checkers.iter();
+        let properties = checkers.flat_map(|checker| {
+            let properties = checker.properties().iter();
+            properties.map(move |&property| (property, checker.excused(property)))
+        });
+        let counts = properties.flat_map(|(property, counts)| {
+            let named = counts.into_iter();
+            named.map(move |(excuse, count)| (Name::from(property), excuse, count))
+        });
+        counts.collect()
+    }
+
+    /// What the checkers and monitors say of each property they watch.
+    pub fn verdicts(&self) -> Vec<Verdict> {
+        let checked = self.checkers.iter().flat_map(|checker| {
+            let properties = checker.properties().iter();
+            properties.map(|&property| {
+                let used = self.is_used(property) && checker.has_subject(property);
+                (Name::from(property), false, used, checker.excused(property))
+            })
+        });
+        let monitored = self.monitors.iter().flat_map(|monitor| {
+            let properties = monitor.properties().into_iter().enumerate();
+            properties.map(|(index, property)| (property, monitor.is_open(index), true, Vec::new()))
+        });
+        checked
+            .chain(monitored)
+            .map(|(property, open, used, excused)| Verdict {
+                excused,
+                ..self.verdict(property, open, used)
+            })
+            .collect()
+    }
+
+    /// Whether the primitive that a checker's property is called after has been used. What is called after none
+    /// is about the world.
+    fn is_used(&self, property: &str) -> bool {
+        let primitive = property.split_once('.').map(|(primitive, _)| primitive);
+        primitive.is_none_or(|primitive| self.is_known(primitive))
+    }
+
+    /// Whether a primitive has reported something.
+    fn is_known(&self, primitive: &str) -> bool {
+        self.used.iter().any(|used| used == primitive)
+    }
+
+    fn verdict(&self, property: Name, open: bool, used: bool) -> Verdict {
+        let mut against = self.violations.iter().filter(|v| v.property == property);
+        let first = against.next().cloned();
+        let violations = usize::from(first.is_some()) + against.count();
+        Verdict {
+            property,
+            violations,
+            open: open && first.is_none(),
+            used: used || first.is_some(),
+            first,
+            excused: Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! Every property that is checked has its section in the reference, and every section its property.
+
+use starl_properties::{Setting, checkers};
+
+const REFERENCE: &str = include_str!("../../../../docs/reference/properties.md");
+
+#[test]
+fn the_reference_has_a_section_for_each_property() {
+    let checked: Vec<&str> = checkers(&Setting::default())
+        .iter()
+        .flat_map(|checker| checker.properties())
+        .copied()
+        .collect();
+    let sections = REFERENCE.lines().filter_map(|line| {
+        let name = line.strip_prefix("## `")?;
+        name.strip_suffix('`')
+    });
+    assert_eq!(sections.collect::<Vec<_>>(), checked);
+}
