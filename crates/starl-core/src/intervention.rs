@@ -3,9 +3,11 @@
 //! A test, a schedule, a mouse or an operator steers a run by the same few interventions. Each is on
 //! record, so that a run that was steered can be repeated.
 
-use crate::event::{Fields, Name};
+use crate::event::{Fields, Name, Value};
+use crate::geometry::Shape;
 use crate::{Duration, Obstacle, Point, Pose, RobotId, WayPoint};
 use alloc::string::String;
+use alloc::vec;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
@@ -84,19 +86,142 @@ pub enum Intervention {
 }
 
 impl Intervention {
-    /// Whether its numbers make sense: places are finite, shapes are shapes, probabilities are from 0 to 1,
-    /// and lengths are not negative.
+    /// Whether a scenario file could say it: places are finite, shapes have an extent, probabilities are from 0
+    /// to 1, ranges and bandwidths are above 0, names are not blank, and it concerns at least one robot. No robot
+    /// is in two groups of a partition. Orders carry no paths, obstacles and areas.
     pub fn is_valid(&self) -> bool {
+        let is_named = |name: &str| !name.trim().is_empty();
         match self {
+            Intervention::Fault(FaultKind::Heal) => true,
+            Intervention::Fault(FaultKind::Partition(groups)) => {
+                let mut robots: Vec<RobotId> = groups.iter().flatten().copied().collect();
+                robots.sort_unstable();
+                robots.windows(2).all(|pair| pair[0] != pair[1])
+            }
+            Intervention::Fault(
+                FaultKind::Crash(robots)
+                | FaultKind::Restart(robots)
+                | FaultKind::StuckMotor(robots)
+                | FaultKind::FrozenSensor(robots)
+                | FaultKind::Repair(robots)
+                | FaultKind::CorruptState(robots),
+            )
+            | Intervention::Leave(robots) => !robots.is_empty(),
             Intervention::Push { by, .. } => by.is_finite(),
-            Intervention::Network(knobs) => knobs.iter().all(NetworkKnob::is_valid),
+            Intervention::Network(knobs) => {
+                !knobs.is_empty() && knobs.iter().all(NetworkKnob::is_valid)
+            }
             Intervention::AddObstacle { obstacle, .. }
-            | Intervention::MoveObstacle { obstacle, .. } => obstacle.is_valid(),
-            Intervention::SetWayPoint(way_point) => way_point.position.is_finite(),
-            Intervention::SetThing { position, .. } => position.is_finite(),
-            Intervention::Join { pose, .. } => pose.position.is_finite() && pose.yaw.is_finite(),
-            _ => true,
+            | Intervention::MoveObstacle { obstacle, .. } => {
+                let has_extent = match &obstacle.shape {
+                    Shape::Polygon { .. } => true,
+                    Shape::Circle { radius, .. } => *radius > 0.0,
+                    Shape::Cuboid { low, high } => low.x < high.x && low.y < high.y,
+                };
+                let height = obstacle.height();
+                obstacle.is_valid() && has_extent && height.is_none_or(|span| span.low < span.high)
+            }
+            Intervention::RemoveObstacle { .. } => true,
+            Intervention::SetWayPoint(WayPoint { name, position, .. })
+            | Intervention::SetThing { name, position } => is_named(name) && position.is_finite(),
+            Intervention::RemoveWayPoint { name } | Intervention::RemoveThing { name } => {
+                is_named(name)
+            }
+            Intervention::Tell { order, .. } => {
+                let says = |(name, value): &(Name, Value)| is_named(name) && is_plain(value);
+                is_named(&order.name) && order.fields.iter().all(says)
+            }
+            Intervention::Join { pose, name, .. } => {
+                is_named(name) && pose.position.is_finite() && pose.yaw.is_finite()
+            }
         }
+    }
+
+    /// The same in the one way of saying it that a scenario file has: lists of robots in ascending order, the
+    /// network's knobs in the order of [`NetworkKnob`], the fields of an order by name, each once.
+    pub fn tidy(mut self) -> Intervention {
+        match &mut self {
+            Intervention::Fault(kind) => match kind {
+                FaultKind::Crash(robots)
+                | FaultKind::Restart(robots)
+                | FaultKind::StuckMotor(robots)
+                | FaultKind::FrozenSensor(robots)
+                | FaultKind::Repair(robots)
+                | FaultKind::CorruptState(robots) => sort(robots),
+                FaultKind::Partition(groups) => {
+                    groups.iter_mut().for_each(sort);
+                    groups.retain(|group| !group.is_empty());
+                }
+                FaultKind::Heal => {}
+            },
+            Intervention::Leave(robots) => sort(robots),
+            Intervention::Network(knobs) => {
+                // The last of several positions of a knob counts.
+                knobs.reverse();
+                knobs.sort_by_key(NetworkKnob::rank);
+                knobs.dedup_by_key(|knob| knob.rank());
+            }
+            Intervention::AddObstacle { obstacle, .. }
+            | Intervention::MoveObstacle { obstacle, .. } => {
+                if let Shape::Circle { center, .. } = &mut obstacle.shape {
+                    center.z = 0.0;
+                }
+            }
+            Intervention::Tell { robots, order } => {
+                sort(robots);
+                let mut fields = core::mem::take(&mut order.fields).into_vec();
+                fields.reverse();
+                fields.sort_by(|a, b| a.0.cmp(&b.0));
+                fields.dedup_by(|a, b| a.0 == b.0);
+                for (_, value) in &mut fields {
+                    if let Value::Robots(robots) = value {
+                        sort(robots);
+                    }
+                }
+                order.fields = fields.into();
+            }
+            Intervention::Join { pose, .. } => *pose = Pose::level(pose.position, pose.yaw),
+            _ => {}
+        }
+        self
+    }
+
+    /// The robots that it names.
+    pub fn robots(&self) -> Vec<RobotId> {
+        match self {
+            Intervention::Fault(kind) => match kind {
+                FaultKind::Partition(groups) => groups.iter().flatten().copied().collect(),
+                FaultKind::Heal => Vec::new(),
+                FaultKind::Crash(robots)
+                | FaultKind::Restart(robots)
+                | FaultKind::StuckMotor(robots)
+                | FaultKind::FrozenSensor(robots)
+                | FaultKind::Repair(robots)
+                | FaultKind::CorruptState(robots) => robots.clone(),
+            },
+            Intervention::Push { robot, .. } => vec![*robot],
+            Intervention::Join { like, .. } => vec![*like],
+            Intervention::Leave(robots) | Intervention::Tell { robots, .. } => robots.clone(),
+            _ => Vec::new(),
+        }
+    }
+}
+
+fn sort(robots: &mut Vec<RobotId>) {
+    robots.sort_unstable();
+    robots.dedup();
+}
+
+/// Whether an order can carry it.
+fn is_plain(value: &Value) -> bool {
+    match value {
+        Value::Bool(_) | Value::Int(_) | Value::Text(_) | Value::Robot(_) => true,
+        // Seconds as a float keep every nanosecond up to there, 52 days.
+        Value::Time(time) => time.0 < 1 << 52,
+        Value::Float(number) => number.is_finite(),
+        Value::Point(point) => point.is_finite(),
+        Value::Robots(robots) => !robots.is_empty(),
+        Value::Path(_) | Value::Obstacles(_) | Value::Area(_) => false,
     }
 }
 
@@ -160,9 +285,32 @@ impl NetworkKnob {
             NetworkKnob::Loss(share)
             | NetworkKnob::Duplication(share)
             | NetworkKnob::Reordering(share) => (0.0..=1.0).contains(&share),
-            NetworkKnob::Range(Some(range)) => range >= 0.0,
-            NetworkKnob::Bandwidth(Some(bandwidth)) => bandwidth > 0.0,
+            NetworkKnob::Range(Some(limit)) | NetworkKnob::Bandwidth(Some(limit)) => {
+                limit > 0.0 && limit.is_finite()
+            }
+            NetworkKnob::Largest(bytes) => (1..=NetworkKnob::MOST_BYTES).contains(&bytes),
             _ => true,
+        }
+    }
+
+    /// The most that [`NetworkKnob::Largest`] can be, bytes.
+    pub const MOST_BYTES: u32 = 1 << 30;
+
+    /// The place of the knob in the declaration.
+    fn rank(&self) -> u8 {
+        match self {
+            NetworkKnob::Delay(_) => 0,
+            NetworkKnob::Jitter(_) => 1,
+            NetworkKnob::Distribution(_) => 2,
+            NetworkKnob::Loss(_) => 3,
+            NetworkKnob::Duplication(_) => 4,
+            NetworkKnob::Reordering(_) => 5,
+            NetworkKnob::ReorderingDelay(_) => 6,
+            NetworkKnob::Range(_) => 7,
+            NetworkKnob::LineOfSight(_) => 8,
+            NetworkKnob::Bandwidth(_) => 9,
+            NetworkKnob::Queue(_) => 10,
+            NetworkKnob::Largest(_) => 11,
         }
     }
 }

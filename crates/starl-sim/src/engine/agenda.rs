@@ -1,7 +1,7 @@
 //! What steers a run, and when: faults and events of the scenario, and what is applied while it runs.
 
 use super::{Stream, fault, stream};
-use crate::scenario::{Occasion, Scenario};
+use crate::scenario::{Bounds, Occasion, Scenario};
 use starl_core::{Duration, Intervention, Point, Time};
 
 /// One intervention that is due.
@@ -31,14 +31,23 @@ impl Agenda {
             told: false,
         });
         let mut list: Vec<Due> = faults.collect();
-        for (index, event) in scenario.events.iter().enumerate() {
+        let mut rates = 0;
+        for event in &scenario.events {
+            let what = event.what.clone().tidy();
+            if !what.is_valid() {
+                continue;
+            }
             match event.occasion {
                 Occasion::At(at) => list.push(Due {
                     at,
-                    what: event.what.clone(),
+                    what,
                     told: true,
                 }),
-                Occasion::Rate { .. } => at_random(scenario, index, &mut list),
+                Occasion::Rate { per_second, within } if per_second > 0.0 => {
+                    at_random(scenario, rates, (per_second, within), &what, &mut list);
+                    rates += 1;
+                }
+                Occasion::Rate { .. } => {}
             }
         }
         list.sort_by_key(|due| due.at);
@@ -70,23 +79,22 @@ impl Agenda {
     }
 }
 
-/// Draws the times and places of an event that comes at a rate, as a Poisson process.
-fn at_random(scenario: &Scenario, index: usize, list: &mut Vec<Due>) {
-    let event = &scenario.events[index];
-    let Occasion::Rate { per_second, within } = event.occasion else {
-        return;
-    };
-    if per_second <= 0.0 {
-        return;
-    }
-    let mut random = stream(scenario.seed, Stream::Events, &[index as u64]);
+/// Draws the times and places of the `index`-th event that comes at a rate, as a Poisson process.
+fn at_random(
+    scenario: &Scenario,
+    index: u64,
+    (per_second, within): (f64, Option<Bounds>),
+    what: &Intervention,
+    list: &mut Vec<Due>,
+) {
+    let mut random = stream(scenario.seed, Stream::Events, &[index]);
     let mut at = Time::ZERO;
     for count in 0u32.. {
         at += Duration::from_seconds_f64(random.exponential(1.0 / per_second));
         if at >= Time::ZERO + scenario.duration {
             return;
         }
-        let mut what = event.what.clone();
+        let mut what = what.clone();
         let place = within.map(|bounds| {
             Point::planar(
                 random.between(bounds.low.x, bounds.high.x),

@@ -13,6 +13,9 @@ use starl_core::{
 };
 use std::sync::Arc;
 
+const INVALID: &str = "a number in it is not finite or out of its range, a name is blank, or it names no robot, or \
+                       one twice";
+
 /// A push is tried in so many parts until nothing is in the way.
 const PARTS: u32 = 16;
 
@@ -25,13 +28,11 @@ impl Simulation {
     /// What is wrong with the intervention: numbers that make no sense, robots that there are not, and, if it
     /// is to happen now, names and indices of nothing in the world.
     pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), String> {
+        let what = what.tidy();
         if !what.is_valid() {
-            return Err("a number in it is not finite, or out of its range".into());
+            return Err(INVALID.into());
         }
-        let count = self.shared.bodies.len();
-        if let Some(robot) = robots_of(&what).find(|robot| robot.index() >= count) {
-            return Err(format!("there is no robot {robot}; the fleet has {count}"));
-        }
+        self.find_robots(&what)?;
         let at = at.max(self.now);
         if at == self.now {
             self.find_object(&what)?;
@@ -61,12 +62,23 @@ impl Simulation {
             if told {
                 self.note(at, Event::Intervention(Box::new(what.clone())));
             }
-            if let Err(text) = self.find_object(&what) {
+            let found = self.find_robots(&what);
+            if let Err(text) = found.and_then(|()| self.find_object(&what)) {
                 let (level, text) = (Level::Warning, text.into());
                 self.note(at, Event::Log { level, text });
                 continue;
             }
             self.carry_out(at, what);
+        }
+    }
+
+    /// Whether the robots that an intervention names are there.
+    fn find_robots(&self, what: &Intervention) -> Result<(), String> {
+        let count = self.shared.bodies.len();
+        let mut robots = what.robots().into_iter();
+        match robots.find(|robot| robot.index() >= count) {
+            Some(robot) => Err(format!("there is no robot {robot}; the fleet has {count}")),
+            None => Ok(()),
         }
     }
 
@@ -76,6 +88,13 @@ impl Simulation {
             Intervention::MoveObstacle { index, .. } | Intervention::RemoveObstacle { index } => {
                 let found = self.obstacle(*index).map(|_| ());
                 return found.ok_or(format!("no obstacle {index} stands"));
+            }
+            Intervention::Network(knobs) => {
+                let mut network = Network::clone(&self.shared.network);
+                knobs.iter().for_each(|&knob| network.turn(knob));
+                let sets_jitter = |knob: &NetworkKnob| matches!(knob, NetworkKnob::Jitter(_));
+                let contradiction = network.link.contradiction(knobs.iter().any(sets_jitter));
+                return contradiction.map_or(Ok(()), |found| Err(found.message));
             }
             Intervention::RemoveWayPoint { name } => {
                 let mut known = self.shared.way_points.iter();
@@ -87,7 +106,12 @@ impl Simulation {
                 let mut known = self.shared.things.names.iter();
                 known.all(|known| known != name).then_some(("thing", name))
             }
-            Intervention::Join { pose, like, .. } => {
+            Intervention::Join { pose, like, name } => {
+                let fleet = &self.shared.scenario.fleet;
+                let mut robots = (0..self.shared.bodies.len() as u32).map(RobotId);
+                if robots.any(|robot| !self.has_left(robot) && fleet.name(robot) == *name) {
+                    return Err(format!("there is already a robot called {name}"));
+                }
                 let body = self.shared.bodies[like.index()];
                 return match self.is_free(None, pose.position, body.radius, body.height) {
                     true => Ok(()),
@@ -107,8 +131,9 @@ impl Simulation {
             Intervention::Fault(kind) => return self.bring_fault(at, &kind),
             Intervention::Push { robot, by } => self.push(at, robot, by),
             Intervention::Network(knobs) => {
-                let turn = |knob: &NetworkKnob| turn(&mut self.shared.network, *knob);
-                knobs.iter().for_each(turn);
+                knobs
+                    .iter()
+                    .for_each(|&knob| self.shared.network.turn(knob));
             }
             Intervention::AddObstacle { obstacle, hidden } => {
                 self.add_obstacle(obstacle, hidden);
@@ -376,45 +401,5 @@ impl Simulation {
             robot: None,
             event,
         });
-    }
-}
-
-/// The robots that an intervention names.
-fn robots_of(what: &Intervention) -> impl Iterator<Item = RobotId> {
-    let robots: Vec<RobotId> = match what {
-        Intervention::Fault(kind) => match kind {
-            FaultKind::Partition(groups) => groups.iter().flatten().copied().collect(),
-            FaultKind::Heal => Vec::new(),
-            FaultKind::Crash(robots)
-            | FaultKind::Restart(robots)
-            | FaultKind::StuckMotor(robots)
-            | FaultKind::FrozenSensor(robots)
-            | FaultKind::Repair(robots)
-            | FaultKind::CorruptState(robots) => robots.clone(),
-        },
-        Intervention::Push { robot, .. } => vec![*robot],
-        Intervention::Join { like, .. } => vec![*like],
-        Intervention::Leave(robots) | Intervention::Tell { robots, .. } => robots.clone(),
-        _ => Vec::new(),
-    };
-    robots.into_iter()
-}
-
-/// Turns one knob.
-fn turn(network: &mut Network, knob: NetworkKnob) {
-    let link = &mut network.link;
-    match knob {
-        NetworkKnob::Delay(delay) => link.delay = delay,
-        NetworkKnob::Jitter(jitter) => link.jitter = jitter,
-        NetworkKnob::Distribution(distribution) => link.distribution = distribution,
-        NetworkKnob::Loss(loss) => link.loss = loss,
-        NetworkKnob::Duplication(duplication) => link.duplication = duplication,
-        NetworkKnob::Reordering(reordering) => link.reordering = reordering,
-        NetworkKnob::ReorderingDelay(delay) => link.reordering_delay = delay,
-        NetworkKnob::Range(range) => network.range = range,
-        NetworkKnob::LineOfSight(is_needed) => network.line_of_sight = is_needed,
-        NetworkKnob::Bandwidth(bandwidth) => network.bandwidth = bandwidth,
-        NetworkKnob::Queue(queue) => network.queue = queue,
-        NetworkKnob::Largest(largest) => network.largest = largest,
     }
 }

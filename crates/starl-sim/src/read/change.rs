@@ -69,21 +69,23 @@ fn descend<'a>(
     Some(node)
 }
 
-/// Puts the `fault` and `fault_rates` of another file into the scenario: scheduled faults are added
-/// to those there are, rates replace those of the same name.
+/// Puts the `fault`, `event` and `fault_rates` of another file into the scenario: faults and events are
+/// added to those there are, rates replace those of the same name.
 pub(super) fn add_faults(root: &mut Node, faults: Node, report: &Report) {
     let (Value::Table(table), Value::Table(more)) = (&mut root.value, faults.value) else {
         return;
     };
     for (name, entry) in more {
         match name.as_str() {
-            "fault" => add_schedule(table, entry),
+            "fault" | "event" => add_schedule(table, &name, entry),
             "fault_rates" => add_rates(table, entry),
             _ => {
                 let known = |field: &&Field| field.name == name;
                 let help = match SCENARIO.iter().find(known) {
-                    Some(_) => "a fault file holds only [[fault]] and [fault_rates]".to_string(),
-                    None => suggest::help(&name, &["fault", "fault_rates"], "there are")
+                    Some(_) => {
+                        "a fault file holds only [[fault]], [[event]] and [fault_rates]".to_string()
+                    }
+                    None => suggest::help(&name, &["fault", "event", "fault_rates"], "there are")
                         .unwrap_or_default(),
                 };
                 let message = "there is no such field in a fault file";
@@ -93,9 +95,9 @@ pub(super) fn add_faults(root: &mut Node, faults: Node, report: &Report) {
     }
 }
 
-fn add_schedule(table: &mut Table, entry: Entry) {
-    let Some(there) = table.get_mut("fault").map(|entry| &mut entry.node.value) else {
-        table.insert("fault".to_string(), entry);
+fn add_schedule(table: &mut Table, name: &str, entry: Entry) {
+    let Some(there) = table.get_mut(name).map(|entry| &mut entry.node.value) else {
+        table.insert(name.to_string(), entry);
         return;
     };
     match (there, entry.node.value) {

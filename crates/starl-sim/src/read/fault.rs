@@ -1,6 +1,7 @@
 //! Reads `fault` and `fault_rates`.
 
 use super::names::Names;
+use super::schema::Kind;
 use super::section::Section;
 use crate::scenario::{Fault, FaultKind, FaultRates, Faults};
 use starl_core::{Duration, Time};
@@ -15,21 +16,29 @@ pub(super) fn read(root: Section<'_>, names: &Names, duration: Duration) -> Faul
     }
 }
 
-/// A run whose rates promise more faults than this is refused: they are drawn before it starts.
-const MOST_FAULTS: f64 = 1e6;
+/// A run whose rates promise more faults or events than this is refused: they are drawn before it starts.
+const MOST: f64 = 1e6;
+
+/// Refuses a rate that brings about too much of something.
+pub(super) fn check_rate(
+    table: Section<'_>,
+    field: &str,
+    per_second: f64,
+    duration: Duration,
+    what: &str,
+) {
+    let expected = per_second * duration.seconds();
+    if expected > MOST {
+        let message = format!("brings about some {expected:.0} {what} in {duration}");
+        let help = "give a rate that brings about at most a million";
+        table.problem(field, message, help);
+    }
+}
 
 fn rates(table: Section<'_>, robots: u64, duration: Duration) -> FaultRates {
     let rate = |field: &str, subjects: u64| {
         let rate = table.number(field);
-        let expected = rate * subjects as f64 * duration.seconds();
-        if expected > MOST_FAULTS {
-            let message = format!("brings about some {expected:.0} faults in {duration}");
-            table.problem(
-                field,
-                message,
-                "give a rate that brings about at most a million",
-            );
-        }
+        check_rate(table, field, rate * subjects as f64, duration, "faults");
         rate
     };
     FaultRates {
@@ -48,7 +57,20 @@ fn rates(table: Section<'_>, robots: u64, duration: Duration) -> FaultRates {
 
 fn fault(table: Section<'_>, names: &Names, duration: Duration) -> Option<Fault> {
     let at = table.optional_duration("at");
-    let kind = table.choice("kind");
+    let word = table.choice("kind");
+    check_time(table, at, duration);
+    let word = word?;
+    let (needed, optional) = fields(&word)?;
+    check_fields(table, "a fault", &word, &["at", "kind"], needed, optional);
+    let kind = kind(table, names, &word)?;
+    Some(Fault {
+        at: Time(at?.0),
+        kind,
+    })
+}
+
+/// Refuses what would happen only after a run of this duration.
+pub(super) fn check_time(table: Section<'_>, at: Option<Duration>, duration: Duration) {
     if let Some(at) = at
         && at >= duration
     {
@@ -59,27 +81,49 @@ fn fault(table: Section<'_>, names: &Names, duration: Duration) -> Option<Fault>
             "let it happen earlier, or make the `duration` longer",
         );
     }
-    let kind = kind?;
-    let (robots, groups) = match kind.as_str() {
-        "partition" => (false, true),
-        "heal" => (false, false),
-        _ => (true, false),
-    };
-    for (field, wanted) in [("robots", robots), ("groups", groups)] {
-        match (table.has(field), wanted) {
-            (true, false) => {
-                let message = format!("a fault of kind `{kind}` takes no `{field}`");
-                table.problem(field, message, "leave it out");
-            }
-            (false, true) => {
-                let message = format!("is missing: a fault of kind `{kind}` needs it");
-                table.problem(field, message, "name robots, or groups of them");
-            }
-            _ => {}
+}
+
+/// The fields that a kind of fault needs, and those that it may have; none for what is no fault.
+pub(super) fn fields(kind: &str) -> Option<(&'static [&'static str], &'static [&'static str])> {
+    match kind {
+        "partition" => Some((&["groups"], &[])),
+        "heal" => Some((&[], &[])),
+        "crash" | "restart" | "stuck_motor" | "frozen_sensor" | "repair" | "corrupt_state" => {
+            Some((&["robots"], &[]))
+        }
+        _ => None,
+    }
+}
+
+/// Refuses fields that `what` of a kind does not take, and asks for those that it needs.
+pub(super) fn check_fields(
+    table: Section<'_>,
+    what: &str,
+    kind: &str,
+    common: &[&str],
+    needed: &[&str],
+    optional: &[&str],
+) {
+    for field in table.names().filter(|field| !common.contains(field)) {
+        let is_needed = needed.contains(&field);
+        if table.is_written(field) && !is_needed && !optional.contains(&field) {
+            let message = format!("{what} of kind `{kind}` takes no `{field}`");
+            table.problem(field, message, "leave it out");
+        } else if is_needed && !table.has(field) {
+            let message = format!("is missing: {what} of kind `{kind}` needs it");
+            let help = match table.field(field).kind {
+                Kind::Robots | Kind::RobotGroups => "name robots, or groups of them".to_string(),
+                kind => format!("give it: {}", kind.describe()),
+            };
+            table.problem(field, message, help);
         }
     }
+}
+
+/// The fault of a kind.
+pub(super) fn kind(table: Section<'_>, names: &Names, kind: &str) -> Option<FaultKind> {
     let some = || names.robots(table, "robots");
-    let kind = match kind.as_str() {
+    Some(match kind {
         "crash" => FaultKind::Crash(some()),
         "restart" => FaultKind::Restart(some()),
         "partition" => FaultKind::Partition(names.parts(table, "groups")),
@@ -89,9 +133,5 @@ fn fault(table: Section<'_>, names: &Names, duration: Duration) -> Option<Fault>
         "repair" => FaultKind::Repair(some()),
         "corrupt_state" => FaultKind::CorruptState(some()),
         _ => return None,
-    };
-    Some(Fault {
-        at: Time(at?.0),
-        kind,
     })
 }

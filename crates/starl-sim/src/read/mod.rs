@@ -7,6 +7,7 @@
 
 mod change;
 mod curve;
+mod event;
 mod fault;
 mod fleet;
 mod grid;
@@ -16,6 +17,7 @@ mod names;
 mod network;
 mod obstacle;
 mod occupancy;
+mod order;
 mod parameter;
 mod path;
 mod place;
@@ -56,6 +58,11 @@ pub struct Resolved {
     /// All that it was read from.
     pub inputs: Inputs,
     places: BTreeMap<String, Place>,
+}
+
+/// Whether a text is a number with a unit that is known.
+pub(crate) fn is_quantity(text: &str) -> bool {
+    parameter::quantity(text).is_some()
 }
 
 /// A span of time, as scenarios have it: `250ms`; none if the text is none.

@@ -5,12 +5,17 @@ use super::report::{Origin, Report};
 use super::section::Section;
 use super::suggest;
 use super::tree::{Node, Value};
-use starl_core::RobotId;
+use crate::scenario::{Joins, Moment};
+use starl_core::{Duration, RobotId};
 
 /// The names of the fleet. Robots are not listed one by one: a fleet may have a million.
 pub(super) struct Names {
     groups: Vec<NamedGroup>,
     total: u32,
+    /// The robots that join in the course of the run.
+    pub joins: Joins,
+    /// Names are those of robots that are there by this moment.
+    pub moment: Moment,
 }
 
 struct NamedGroup {
@@ -52,6 +57,8 @@ impl Names {
         let mut names = Names {
             groups: Vec::new(),
             total: 0,
+            joins: Joins::default(),
+            moment: Moment::default(),
         };
         for draft in drafts {
             let group = NamedGroup {
@@ -118,6 +125,9 @@ impl Names {
 
     /// The robot's name.
     pub fn name(&self, robot: RobotId) -> String {
+        if let Some(name) = self.joins.name(robot) {
+            return name.to_string();
+        }
         let of = |group: &&NamedGroup| {
             u64::from(robot.0) < u64::from(group.first_id) + group.count
                 && robot.0 >= group.first_id
@@ -134,6 +144,40 @@ impl Names {
             Some(node) => self.of_node(node, &table.path_of(field), table.report),
             None => Vec::new(),
         }
+    }
+
+    /// The one robot that a field names.
+    pub fn robot(&self, table: Section<'_>, field: &str) -> Option<RobotId> {
+        table.text(field)?;
+        let node = table.node(field)?;
+        self.robot_of(node, &table.path_of(field), table.report)
+    }
+
+    /// The one robot that a text names.
+    pub fn robot_of(&self, node: &Node, path: &str, report: &Report) -> Option<RobotId> {
+        let Value::Text(name) = &node.value else {
+            return None;
+        };
+        let robot = self.present_robot(name);
+        if robot.is_none() {
+            self.unknown(name, node.origin, path, report);
+        }
+        robot
+    }
+
+    /// How many robots there have been by the moment.
+    fn present(&self) -> u32 {
+        self.total.saturating_add(self.joins.count(self.moment))
+    }
+
+    /// The robot that is called so at the moment, or has the number that is written so: `#3`.
+    fn present_robot(&self, name: &str) -> Option<RobotId> {
+        let number = || {
+            let number: u32 = name.strip_prefix('#')?.parse().ok()?;
+            (number < self.present()).then_some(RobotId(number))
+        };
+        let joined = self.joins.find(name, self.moment);
+        joined.or_else(|| self.find(name)).or_else(number)
     }
 
     /// As [`Names::robots`]; none where the field is left out, which means all.
@@ -160,11 +204,12 @@ impl Names {
         parts
     }
 
-    fn of_node(&self, node: &Node, path: &str, report: &Report) -> Vec<RobotId> {
+    /// The robots that a node names.
+    pub fn of_node(&self, node: &Node, path: &str, report: &Report) -> Vec<RobotId> {
         let help = "write a list of names of robots or groups, or \"all\"";
         let mut robots = Vec::new();
         match &node.value {
-            Value::Text(text) if text == "all" => robots.extend((0..self.total).map(RobotId)),
+            Value::Text(text) if text == "all" => robots.extend((0..self.present()).map(RobotId)),
             Value::List(list) if list.is_empty() => {
                 report.problem_with_help(node.origin, path, "the list is empty", help);
             }
@@ -194,7 +239,7 @@ impl Names {
             report.problem_with_help(node.origin, path, message, "write its name in quotes");
             return;
         };
-        if let Some(robot) = self.find(name) {
+        if let Some(robot) = self.present_robot(name) {
             robots.push(robot);
             return;
         }
@@ -211,6 +256,11 @@ impl Names {
     }
 
     fn unknown(&self, name: &str, origin: Origin, path: &str, report: &Report) {
+        if let Some(at) = self.joins.first(name) {
+            let message = format!("{name} is not there yet: it joins at {}", Duration(at.0));
+            let help = "name it only in events on schedule that come later in time";
+            return report.problem_with_help(origin, path, message, help);
+        }
         let mut known: Vec<String> = Vec::new();
         for group in self.groups.iter().filter(|group| group.count > 0) {
             known.extend((0..group.count.min(64)).map(|index| group.name_of(index)));

@@ -10,6 +10,20 @@ const SHAPES: [&str; 4] = ["polygon", "circle", "rectangle", "box"];
 
 /// One obstacle.
 pub(super) fn read(table: Section<'_>) -> Option<WorldObstacle> {
+    let obstacle = shape(table);
+    let hidden = table.flag("hidden");
+    let expires = table
+        .optional_duration("expires")
+        .map_or(Time::NEVER, |span| Time(span.0));
+    Some(WorldObstacle {
+        obstacle: obstacle?,
+        hidden,
+        expires,
+    })
+}
+
+/// The shape and place of an obstacle.
+pub(super) fn shape(table: Section<'_>) -> Option<Obstacle> {
     let given: Vec<&str> = SHAPES.into_iter().filter(|name| table.has(name)).collect();
     match given.as_slice() {
         [_] => {}
@@ -52,19 +66,10 @@ pub(super) fn read(table: Section<'_>) -> Option<WorldObstacle> {
     if height.is_some() && given == ["box"] {
         table.problem("height", "a box has heights of its own", "leave it out");
     }
-    let hidden = table.flag("hidden");
-    let expires = table
-        .optional_duration("expires")
-        .map_or(Time::NEVER, |span| Time(span.0));
-    let obstacle = match height {
-        Some(height) => obstacle?.with_height(height),
-        None => obstacle?,
-    };
-    Some(WorldObstacle {
-        obstacle,
-        hidden,
-        expires,
-    })
+    match height {
+        Some(height) => Some(obstacle?.with_height(height)),
+        None => obstacle,
+    }
 }
 
 /// The field `height`; none where the obstacle is unbounded.

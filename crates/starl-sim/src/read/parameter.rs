@@ -31,7 +31,8 @@ pub(super) fn add_parameters(table: Section<'_>, parameters: &mut BTreeMap<Strin
     }
 }
 
-fn parameter(node: &Node, path: &str, report: &Report) -> Option<Parameter> {
+/// A value as a program takes it.
+pub(super) fn parameter(node: &Node, path: &str, report: &Report) -> Option<Parameter> {
     let parameter = match &node.value {
         Value::Flag(flag) => Parameter::Bool(*flag),
         Value::Integer(number) => Parameter::Int(*number),
@@ -52,7 +53,7 @@ fn parameter(node: &Node, path: &str, report: &Report) -> Option<Parameter> {
 }
 
 /// A text that is a number with a unit we know.
-fn quantity(text: &str) -> Option<Parameter> {
+pub(crate) fn quantity(text: &str) -> Option<Parameter> {
     let (dimension, number) = Quantity::split(text)?.in_si()?;
     if !number.is_finite() {
         return None;

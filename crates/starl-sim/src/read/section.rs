@@ -78,6 +78,11 @@ impl<'a> Section<'a> {
         }
     }
 
+    /// The names of all fields.
+    pub fn names(&self) -> impl Iterator<Item = &'static str> {
+        self.fields.iter().map(|field| field.name)
+    }
+
     /// What the schema says of a field.
     pub fn field(&self, name: &str) -> &'static Field {
         self.fields
@@ -90,10 +95,15 @@ impl<'a> Section<'a> {
     pub fn node(&self, name: &str) -> Option<&'a Node> {
         let node = &self.table?.get(name)?.node;
         let absent = match (&node.value, self.field(name).default) {
-            (Value::Text(text), Default::Word(word)) => text == word,
+            (Value::Text(text), Default::Word(word) | Default::Kept(Some(word))) => text == word,
             _ => false,
         };
         (!absent).then_some(node)
+    }
+
+    /// Whether the field is written, even if only as the word that says that there is none.
+    pub fn is_written(&self, name: &str) -> bool {
+        self.table.is_some_and(|table| table.contains_key(name))
     }
 
     /// Whether the field is given.

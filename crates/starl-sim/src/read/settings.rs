@@ -4,7 +4,7 @@ use super::fleet::{self, Draft};
 use super::inputs::{Recorder, Request};
 use super::names::Names;
 use super::section::Section;
-use super::{fault, network, place, reach, world};
+use super::{event, fault, network, place, reach, world};
 use crate::scenario::*;
 use starl_motion::avoidance;
 
@@ -27,8 +27,9 @@ pub(super) fn read(root: Section<'_>, request: &Request, files: &Recorder<'_>) -
         pose_period: table.duration("pose_period"),
     });
     let drafts = fleet::read(root, request.robots.as_deref());
-    let names = Names::new(&drafts, root.report);
+    let mut names = Names::new(&drafts, root.report);
     let network = root.table("network", |table| network::read(table, &names));
+    let events = event::read(root, &mut names, duration, &network);
     let faults = fault::read(root, &names, duration);
     let contents = root.table("world", |table| world::read(table, &names, files));
     let motion = root.table("motion", |table| motion(table, &positioning, &drafts));
@@ -54,7 +55,7 @@ pub(super) fn read(root: Section<'_>, request: &Request, files: &Recorder<'_>) -
         wind,
         network,
         faults,
-        events: Vec::new(),
+        events,
         properties,
         trace,
     };

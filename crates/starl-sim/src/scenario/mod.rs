@@ -9,6 +9,7 @@ mod fleet;
 mod network;
 mod world;
 
+pub(crate) use event::{Joins, Moment};
 pub use event::{Occasion, ScenarioEvent};
 pub use fault::{Fault, FaultRates, Faults};
 pub use fleet::{Clock, Detector, Fleet, Group, Parameter, Proximity, SensorSuite};

@@ -1,6 +1,6 @@
 //! How messages travel.
 
-use starl_core::intervention::DelayDistribution;
+use starl_core::intervention::{DelayDistribution, NetworkKnob};
 use starl_core::{Duration, RobotId};
 
 /// The simulated network. A datagram is sent once; every robot it could reach receives it, or not,
@@ -81,7 +81,59 @@ impl Default for Network {
     }
 }
 
+/// Parts of a link's delay that do not go together, and what to do about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Contradiction {
+    pub message: String,
+    pub help: &'static str,
+}
+
+impl Link {
+    /// Whether the distribution would reach below zero, or leave a jitter that is given without effect.
+    pub(crate) fn contradiction(&self, sets_jitter: bool) -> Option<Contradiction> {
+        let (delay, jitter) = (self.delay, self.jitter);
+        let (message, help) = match self.distribution {
+            DelayDistribution::Constant if sets_jitter && jitter > Duration::ZERO => (
+                "a constant delay has no jitter".to_string(),
+                "leave it out, or choose another distribution",
+            ),
+            DelayDistribution::Uniform if jitter.seconds() * 3.0_f64.sqrt() > delay.seconds() => (
+                format!(
+                    "a delay of {delay} cannot vary evenly with a jitter of {jitter}: it would be \
+                     negative at times"
+                ),
+                "make the jitter at most 0.57 of the delay, or choose another distribution",
+            ),
+            DelayDistribution::Exponential if jitter > delay => (
+                format!("an exponential delay of {delay} cannot have the greater jitter {jitter}"),
+                "make the jitter at most the delay, or choose another distribution",
+            ),
+            _ => return None,
+        };
+        Some(Contradiction { message, help })
+    }
+}
+
 impl Network {
+    /// Turns one knob.
+    pub(crate) fn turn(&mut self, knob: NetworkKnob) {
+        let link = &mut self.link;
+        match knob {
+            NetworkKnob::Delay(delay) => link.delay = delay,
+            NetworkKnob::Jitter(jitter) => link.jitter = jitter,
+            NetworkKnob::Distribution(distribution) => link.distribution = distribution,
+            NetworkKnob::Loss(loss) => link.loss = loss,
+            NetworkKnob::Duplication(duplication) => link.duplication = duplication,
+            NetworkKnob::Reordering(reordering) => link.reordering = reordering,
+            NetworkKnob::ReorderingDelay(delay) => link.reordering_delay = delay,
+            NetworkKnob::Range(range) => self.range = range,
+            NetworkKnob::LineOfSight(is_needed) => self.line_of_sight = is_needed,
+            NetworkKnob::Bandwidth(bandwidth) => self.bandwidth = bandwidth,
+            NetworkKnob::Queue(queue) => self.queue = queue,
+            NetworkKnob::Largest(largest) => self.largest = largest,
+        }
+    }
+
     /// What the link between two robots does.
     pub fn link(&self, from: RobotId, to: RobotId) -> &Link {
         let names = |set: &Option<Vec<RobotId>>, robot| {

@@ -19,36 +19,39 @@ fn fault(fault: &Fault, fleet: &Fleet) -> String {
     let Fault { at, kind } = fault;
     let mut table = Table::element("fault");
     table.set("at", time(Duration(at.0)));
-    let (word, robots) = match kind {
-        FaultKind::Crash(robots) => ("crash", robots),
-        FaultKind::Restart(robots) => ("restart", robots),
-        FaultKind::StuckMotor(robots) => ("stuck_motor", robots),
-        FaultKind::FrozenSensor(robots) => ("frozen_sensor", robots),
-        FaultKind::Repair(robots) => ("repair", robots),
-        FaultKind::CorruptState(robots) => ("corrupt_state", robots),
-        FaultKind::Partition(groups) => {
-            let manned = groups.iter().filter(|group| !group.is_empty());
-            let groups: Vec<String> = manned.map(|group| names(fleet, group)).collect();
-            table.set("kind", text("partition"));
-            table.set("groups", list(groups));
-            return table.finish_element();
-        }
-        FaultKind::Heal => {
-            table.set("kind", text("heal"));
-            return table.finish_element();
-        }
-    };
-    set_robots(table, word, fleet, robots)
-}
-
-/// A fault of nobody is none.
-fn set_robots(mut table: Table, word: &str, fleet: &Fleet, robots: &[RobotId]) -> String {
-    if robots.is_empty() {
+    if kind_of(kind).1.is_some_and(<[RobotId]>::is_empty) {
+        // A fault of nobody is none.
         return String::new();
     }
-    table.set("kind", text(word));
-    table.set("robots", names(fleet, robots));
+    set_kind(&mut table, kind, |robots| names(fleet, robots));
     table.finish_element()
+}
+
+/// The word for a kind of fault, and the robots that it concerns.
+fn kind_of(kind: &FaultKind) -> (&'static str, Option<&[RobotId]>) {
+    match kind {
+        FaultKind::Crash(robots) => ("crash", Some(robots)),
+        FaultKind::Restart(robots) => ("restart", Some(robots)),
+        FaultKind::StuckMotor(robots) => ("stuck_motor", Some(robots)),
+        FaultKind::FrozenSensor(robots) => ("frozen_sensor", Some(robots)),
+        FaultKind::Repair(robots) => ("repair", Some(robots)),
+        FaultKind::CorruptState(robots) => ("corrupt_state", Some(robots)),
+        FaultKind::Partition(_) => ("partition", None),
+        FaultKind::Heal => ("heal", None),
+    }
+}
+
+/// The fields of a fault.
+pub(super) fn set_kind(table: &mut Table, kind: &FaultKind, names: impl Fn(&[RobotId]) -> String) {
+    let (word, robots) = kind_of(kind);
+    table.set("kind", text(word));
+    if let Some(robots) = robots {
+        table.set("robots", names(robots));
+    }
+    if let FaultKind::Partition(groups) = kind {
+        let manned = groups.iter().filter(|group| !group.is_empty());
+        table.set("groups", list(manned.map(|group| names(group))));
+    }
 }
 
 fn rates(rates: &FaultRates) -> String {

@@ -3,10 +3,12 @@
 //! Invariant: what is read from the text behaves as the scenario does, to the last bit of the run's
 //! digest. What a scenario was read from is not kept: the text is whole without world files and images,
 //! robots have the starts that were drawn for them, and what is at its default is left out. Only what has
-//! no effect is lost: faults after the end or of nobody, and the jitter of a constant delay.
+//! no effect is lost: faults and events after the end, faults of nobody, events that are not valid, and the
+//! jitter of a constant delay.
 //!
 //! The structures are taken apart field by field, so that a knob that is not written does not compile.
 
+mod events;
 mod faults;
 mod fleet;
 mod network;
@@ -35,7 +37,7 @@ pub fn scenario(scenario: &Scenario) -> String {
         wind,
         network,
         faults,
-        events: _,
+        events,
         properties,
         trace,
     } = scenario;
@@ -57,6 +59,7 @@ pub fn scenario(scenario: &Scenario) -> String {
     out += &settings::wind(wind);
     out += &network::write(network, fleet);
     out += &faults::write(faults, fleet, *duration);
+    out += &events::write(events, fleet, *duration);
     out += &settings::properties(properties);
     out += &settings::trace(trace);
     out

@@ -65,14 +65,12 @@ fn set_link(table: &mut Table, link: &Link, base: Option<&Link>) {
     let has_jitter = distribution != DelayDistribution::Constant;
     let jitter_differs = differs(|a, b| a.jitter != b.jitter);
     set(has_jitter && jitter_differs, "jitter", time(jitter));
-    let word = match distribution {
-        DelayDistribution::Constant => "constant",
-        DelayDistribution::Uniform => "uniform",
-        DelayDistribution::Normal => "normal",
-        DelayDistribution::Exponential => "exponential",
-    };
     let distribution_differs = differs(|a, b| a.distribution != b.distribution);
-    set(distribution_differs, "distribution", text(word));
+    set(
+        distribution_differs,
+        "distribution",
+        text(word(distribution)),
+    );
     set(differs(|a, b| a.loss != b.loss), "loss", number(loss));
     let duplication_differs = differs(|a, b| a.duplication != b.duplication);
     set(duplication_differs, "duplication", number(duplication));
@@ -80,4 +78,14 @@ fn set_link(table: &mut Table, link: &Link, base: Option<&Link>) {
     set(reordering_differs, "reordering", number(reordering));
     let delay_differs = differs(|a, b| a.reordering_delay != b.reordering_delay);
     set(delay_differs, "reordering_delay", time(reordering_delay));
+}
+
+/// The word for a distribution of delays.
+pub(super) fn word(distribution: DelayDistribution) -> &'static str {
+    match distribution {
+        DelayDistribution::Constant => "constant",
+        DelayDistribution::Uniform => "uniform",
+        DelayDistribution::Normal => "normal",
+        DelayDistribution::Exponential => "exponential",
+    }
 }

@@ -107,7 +107,8 @@ pub(super) fn time(span: Duration) -> String {
 
 /// A number in SI with its unit.
 pub(super) fn quantity(number: f64, unit: &str) -> String {
-    match number == 0.0 {
+    // Not so for -0.
+    match number.to_bits() == 0 {
         true => "0".to_string(),
         false => format!("\"{number:?}{unit}\""),
     }
@@ -149,7 +150,7 @@ pub(super) fn planar(point: Point) -> String {
 
 /// A point or a velocity, with its height where it has one.
 pub(super) fn spatial(point: Point) -> String {
-    match point.z == 0.0 {
+    match point.z.to_bits() == 0 {
         true => planar(point),
         false => solid(point),
     }

@@ -3,7 +3,7 @@
 use super::table::{Table, flag, list, metres, planar, quantity, solid, spatial, text, time};
 use crate::scenario::{Bounds, Thing, World, WorldObstacle};
 use starl_core::geometry::{HeightSpan, Shape};
-use starl_core::{Duration, Time, WayPoint};
+use starl_core::{Duration, Obstacle, Time, WayPoint};
 
 /// Obstacles, way-points and things.
 pub(super) fn write(world: &World) -> String {
@@ -32,11 +32,19 @@ fn obstacle(entry: &WorldObstacle) -> String {
         expires,
     } = entry;
     let mut table = Table::element("world.obstacle");
+    set_shape(&mut table, obstacle);
+    table.differing("hidden", *hidden, false, flag);
+    table.differing("expires", *expires, Time::NEVER, |at| time(Duration(at.0)));
+    table.finish_element()
+}
+
+/// The shape and place of an obstacle.
+pub(super) fn set_shape(table: &mut Table, obstacle: &Obstacle) {
     match &obstacle.shape {
         Shape::Polygon { base, height } => {
             let corners = base.vertices().iter().map(|&corner| planar(corner));
             table.set("polygon", list(corners));
-            set_height(&mut table, *height);
+            set_height(table, *height);
         }
         Shape::Circle {
             center,
@@ -46,16 +54,13 @@ fn obstacle(entry: &WorldObstacle) -> String {
             let (center, radius) = (planar(*center), quantity(*radius, "m"));
             let circle = format!("{{ center = {center}, radius = {radius} }}");
             table.set("circle", circle);
-            set_height(&mut table, *height);
+            set_height(table, *height);
         }
         Shape::Cuboid { low, high } => {
             let (low, high) = (solid(*low), solid(*high));
             table.set("box", format!("{{ low = {low}, high = {high} }}"));
         }
     }
-    table.differing("hidden", *hidden, false, flag);
-    table.differing("expires", *expires, Time::NEVER, |at| time(Duration(at.0)));
-    table.finish_element()
 }
 
 fn set_height(table: &mut Table, height: Option<HeightSpan>) {

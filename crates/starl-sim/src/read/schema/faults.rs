@@ -2,21 +2,24 @@
 
 use super::*;
 
+/// The kinds of faults.
+const KINDS: &[&str] = &[
+    "crash",
+    "restart",
+    "partition",
+    "heal",
+    "stuck_motor",
+    "frozen_sensor",
+    "repair",
+    "corrupt_state",
+];
+
 /// A fault on the schedule.
 pub(super) const FAULT: &[Field] = &[
     field("at", TIME, Default::Required, "When it sets in."),
     field(
         "kind",
-        Kind::Choice(&[
-            "crash",
-            "restart",
-            "partition",
-            "heal",
-            "stuck_motor",
-            "frozen_sensor",
-            "repair",
-            "corrupt_state",
-        ]),
+        Kind::Choice(KINDS),
         Default::Required,
         "What happens; see the list below.",
     ),

@@ -4,6 +4,7 @@
 //! `docs/reference/scenario.md` is compared with it by a test. So a field cannot be read without
 //! being documented, nor documented without being read.
 
+mod event;
 mod faults;
 mod motion;
 mod network;
@@ -36,6 +37,8 @@ pub enum Default {
     Word(&'static str),
     /// Something that depends on other fields, in words.
     Depends(&'static str),
+    /// What held before, in a change; the word says that there is none from now on.
+    Kept(Option<&'static str>),
     /// It must not be left out.
     Required,
 }
@@ -121,6 +124,23 @@ const fn table(name: &'static str, fields: &'static [Field], about: &'static str
 
 const fn tables(name: &'static str, fields: &'static [Field], about: &'static str) -> Field {
     field(name, Kind::Tables(fields), Default::Word("none"), about)
+}
+
+/// Several lists of fields, one behind the other.
+const fn join<const COUNT: usize>(lists: &[&[Field]]) -> [Field; COUNT] {
+    let mut all = [lists[0][0]; COUNT];
+    let (mut list, mut count) = (0, 0);
+    while list < lists.len() {
+        let mut index = 0;
+        while index < lists[list].len() {
+            all[count] = lists[list][index];
+            count += 1;
+            index += 1;
+        }
+        list += 1;
+    }
+    assert!(count == COUNT);
+    all
 }
 
 /// A box in the floor plane, given by two corners.
@@ -224,6 +244,8 @@ impl Default {
             Default::Value(text) | Default::Word(text) | Default::Depends(text) => {
                 (*text).to_string()
             }
+            Default::Kept(None) => "as it is".to_string(),
+            Default::Kept(Some(word)) => format!("as it is; or `\"{word}\"`"),
             Default::Required => "required".to_string(),
         }
     }

@@ -43,7 +43,17 @@ const REORDERING_DELAY: Field = field(
 );
 
 /// How messages travel.
-pub(super) const NETWORK: &[Field] = &[
+pub(super) const NETWORK: &[Field] = &join::<{ KNOBS.len() + 1 }>(&[
+    KNOBS,
+    &[tables(
+        "link",
+        LINK,
+        "Links that differ from the rest; the last that matches counts.",
+    )],
+]);
+
+/// What can also be changed while a run goes on.
+const KNOBS: &[Field] = &[
     DELAY,
     JITTER,
     DISTRIBUTION,
@@ -81,12 +91,21 @@ pub(super) const NETWORK: &[Field] = &[
         Default::Value("65507"),
         "Largest datagram in bytes; larger ones are dropped, and the trace says so.",
     ),
-    tables(
-        "link",
-        LINK,
-        "Links that differ from the rest; the last that matches counts.",
-    ),
 ];
+
+/// The same in an event, where all that is left out stays as it is.
+pub(super) const CHANGES: &[Field] = &{
+    let mut fields = join::<{ KNOBS.len() }>(&[KNOBS]);
+    let mut index = 0;
+    while index < fields.len() {
+        fields[index].default = Default::Kept(match fields[index].default {
+            Default::Word(word) => Some(word),
+            _ => None,
+        });
+        index += 1;
+    }
+    fields
+};
 
 const fn inherited(field: Field) -> Field {
     Field {

@@ -68,6 +68,12 @@ pub const SCENARIO: &[Field] = &[
     ),
     table("network", network::NETWORK, "How messages travel."),
     tables("fault", faults::FAULT, "What breaks, and when."),
+    tables(
+        "event",
+        event::EVENT,
+        "Whatever else happens, and when: faults, changes of the world and of the network, orders, \
+         robots that join and leave.",
+    ),
     table(
         "fault_rates",
         faults::RATES,

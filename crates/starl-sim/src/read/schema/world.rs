@@ -40,7 +40,29 @@ pub(super) const WORLD: &[Field] = &[
     tables("thing", THING, "Things that detectors see."),
 ];
 
-const OBSTACLE: &[Field] = &[
+const OBSTACLE: &[Field] = &join::<{ SHAPE.len() + 2 }>(&[
+    SHAPE,
+    &[
+        HIDDEN,
+        field(
+            "expires",
+            SPAN,
+            Default::Word("never"),
+            "It vanishes at this time.",
+        ),
+    ],
+]);
+
+/// Whether an obstacle is known.
+pub(super) const HIDDEN: Field = field(
+    "hidden",
+    Kind::Flag,
+    Default::Value("false"),
+    "Robots do not know it until they meet it.",
+);
+
+/// The shape and place of an obstacle.
+pub(super) const SHAPE: &[Field] = &[
     field(
         "polygon",
         Kind::Outline,
@@ -71,18 +93,6 @@ const OBSTACLE: &[Field] = &[
         Default::Word("unbounded"),
         "Lowest and highest point; without it the obstacle reaches from the floor to the sky. Not \
          for a box, which has its own.",
-    ),
-    field(
-        "hidden",
-        Kind::Flag,
-        Default::Value("false"),
-        "Robots do not know it until they meet it.",
-    ),
-    field(
-        "expires",
-        SPAN,
-        Default::Word("never"),
-        "It vanishes at this time.",
     ),
 ];
 

@@ -61,6 +61,77 @@ robots = ["create0"]
 at = "1s"
 kind = "partition"
 groups = [["create0"], ["drone0"]]
+
+[[event]]
+at = "1s"
+kind = "crash"
+robots = ["create0"]
+
+[[event]]
+rate = "0.1/s"
+within = { low = [1, 1], high = [2, 2] }
+kind = "set_way_point"
+name = "B"
+
+[[event]]
+at = "2s"
+kind = "partition"
+groups = [["create0"], ["drone0"]]
+
+[[event]]
+at = "3s"
+kind = "push"
+robot = "create0"
+by = [0.1, 0]
+
+[[event]]
+at = "4s"
+kind = "network"
+loss = 0.5
+
+[[event]]
+at = "5s"
+kind = "add_obstacle"
+polygon = [[3, 5], [4, 5], [4, 6]]
+
+[[event]]
+at = "5s"
+kind = "add_obstacle"
+circle = { center = [6, 5], radius = "0.5m" }
+
+[[event]]
+at = "5s"
+kind = "add_obstacle"
+rectangle = { low = [8, 5], high = [8.5, 5.5] }
+
+[[event]]
+at = "5s"
+kind = "add_obstacle"
+box = { low = [6, 8, 0], high = [6.5, 8.5, 1] }
+
+[[event]]
+at = "6s"
+kind = "remove_obstacle"
+index = 0
+
+[[event]]
+at = "7s"
+kind = "tell"
+order = "go"
+fields = { to = [1, 2] }
+
+[[event]]
+at = "8s"
+kind = "join"
+like = "create0"
+name = "late"
+position = [2, -2]
+
+[[event]]
+at = "9s"
+kind = "set_thing"
+name = "cup"
+position = [0, 2]
 "#;
 
 /// Where a field is set in [`FULL`], and to what; most follow from its path and kind.
@@ -132,6 +203,7 @@ pub fn sample(path: &str, field: &Field) -> (String, String) {
         "fault.0.kind" => return set(path, "stuck_motor"),
         "fault.0.groups" => return set("fault.1.groups", r#"[["drone0"]]"#),
         "goal" => return set(path, "duration"),
+        path if path.starts_with("event.0.") => return of_event(path, field),
         _ => {}
     }
     let value = match field.kind {
@@ -155,6 +227,50 @@ pub fn sample(path: &str, field: &Field) -> (String, String) {
         kind => panic!("{path}: no sample for {kind:?}"),
     };
     set(path, value)
+}
+
+/// A field of an event, in an event of a kind that takes it.
+fn of_event(path: &str, field: &Field) -> (String, String) {
+    let (index, value) = match path.trim_start_matches("event.0.") {
+        "at" => (0, "2s"),
+        "kind" => (0, "leave"),
+        "robots" => (0, r#"["drone"]"#),
+        "rate" => (1, "0.2/s"),
+        "within.low" => (1, "[0, 0]"),
+        "within.high" => (1, "[3, 3]"),
+        "group" => (1, "3"),
+        "groups" => (2, r#"[["drone0"]]"#),
+        "robot" => (3, "drone0"),
+        "by" => (3, "[0, 0.5]"),
+        "distribution" => (4, "normal"),
+        "largest" => (4, "1000"),
+        "jitter" | "delay" => (4, "33ms"),
+        "polygon" => (5, "[[3, 5], [4, 5], [4, 7]]"),
+        "height" => (5, "[0, 0.5]"),
+        "hidden" => (5, "true"),
+        "circle.center" => (6, "[6, 5.1]"),
+        "circle.radius" => (6, "0.4m"),
+        "rectangle.low" => (7, "[8.1, 5]"),
+        "rectangle.high" => (7, "[9, 6]"),
+        "box.low" => (8, "[6, 8.1, 0]"),
+        "box.high" => (8, "[7, 9, 2]"),
+        "index" => (9, "2"),
+        "order" => (10, "stop"),
+        "fields" => (
+            10,
+            r#"{ answer = 42, by = { robot = "drone0" }, at = "5s" }"#,
+        ),
+        "like" => (11, "drone0"),
+        "name" => (11, "later"),
+        "heading" => (11, "30deg"),
+        "position" => (12, "[0.1, 2]"),
+        name => {
+            let path = format!("event.4.{name}");
+            return sample(&path, field);
+        }
+    };
+    let path = path.replace("event.0", &format!("event.{index}"));
+    (path, value.to_string())
 }
 
 /// Calls `visit` for every field with its path, the first element standing for each list.
