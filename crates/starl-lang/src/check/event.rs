@@ -136,7 +136,7 @@ impl Checker {
             (None, None) => problem
                 .note(format!("a message is declared: `message {name}(x: Int)`"))
                 .note(format!(
-                    "what operators tell robots begins with `on input {name}(`"
+                    "what an operator orders is handled by `on input {name}(x: Int)`"
                 )),
             _ => problem,
         });
