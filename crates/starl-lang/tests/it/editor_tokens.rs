@@ -94,7 +94,7 @@ fn of_inputs() {
         "Variable n",
         "Parameter input",
     ];
-    assert_eq!(shown(text)[5..], expected);
+    assert_eq!(shown(text)[4..], expected);
 }
 
 #[test]

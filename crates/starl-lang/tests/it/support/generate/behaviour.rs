@@ -86,7 +86,7 @@ impl Generator<'_> {
         let name = if fields.is_empty() {
             "way_points".into()
         } else {
-            format!("order{}", self.text.len())
+            format!("order{}", self.text.matches("on input").count())
         };
         self.line(&format!("on input {name}({})", fields.join(", ")));
         self.block(2);
