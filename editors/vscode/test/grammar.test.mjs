@@ -57,6 +57,8 @@ test("declarations", () => {
   expect("allread[causal] pos[RobotId]: Point", ["allread", "storage.modifier"], ["causal", "constant.language"], ["pos", "variable.other.readwrite"], ["RobotId", "support.type"]);
   expect("function half(x: Float) -> Float = x / 2.0", ["function", "storage.type.function"], ["half", "entity.name.function"], ["->", "keyword.operator.arrow"], ["2.0", "constant.numeric.float"]);
   expect("motion = ReachAvoid(vicinity = vicinity)", ["motion", "variable.other"], ["ReachAvoid", "entity.name.type"], ["vicinity", "variable.parameter"], ["=", "keyword.operator.assignment"], ["vicinity", "variable.other"]);
+  expect("on input go_home(to: Point)", ["on", "keyword.control"], ["input", "keyword.control"], ["go_home", "entity.name.type.event"], ["Point", "support.type"]);
+  expect("on input(from)", ["on", "keyword.control"], ["input", "entity.name.type.event"]);
   expect("role leader", ["role", "storage.type.class"], ["leader", "entity.name.class"]);
   expect("loc: enum {a, b} = a", ["loc", "variable.other"], ["enum", "storage.type"]);
 });

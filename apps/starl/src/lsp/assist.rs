@@ -133,7 +133,7 @@ fn kind(item: &Completion) -> CompletionItemKind {
             Symbol::Member(..) if item.call == Call::No => CompletionItemKind::PROPERTY,
             Symbol::Member(..) => CompletionItemKind::METHOD,
             Symbol::Primitive(_) => CompletionItemKind::CLASS,
-            Symbol::Event(..) | Symbol::Action(_) => CompletionItemKind::EVENT,
+            Symbol::Event(..) | Symbol::Action(_) | Symbol::Input(_) => CompletionItemKind::EVENT,
             Symbol::File(_) => CompletionItemKind::MODULE,
             Symbol::Parameter(_)
             | Symbol::Variable(_)

@@ -28,7 +28,9 @@ impl Checker {
             self.report(problem.replace("remove the brackets", brackets, ""));
             return self.name(signature.name, at, None);
         }
-        if !self.allowed(builtin.purity(), signature.name, at) {
+        if self.is_of_sensors(signature.name, at)
+            || !self.allowed(builtin.purity(), signature.name, at)
+        {
             self.check_anyway(arguments);
             let ty = self.shape_type(&signature.result, &Letters::new());
             return made(ExpressionKind::Error, something(ty), span);

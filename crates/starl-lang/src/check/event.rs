@@ -1,4 +1,4 @@
-//! Handlers: of messages, and of what primitives report.
+//! Handlers: of messages, and of what primitives report. Those of inputs are in `input`.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -13,7 +13,7 @@ use super::state::Checker;
 use super::surroundings::Surroundings;
 use super::tables::Event as EventSignature;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::ir::{Event, Handler, RecordId, Statement, StatementKind, Type};
+use crate::ir::{Event, Handler, Local, LocalId, RecordId, Statement, StatementKind, Type};
 use crate::syntax::SyntaxToken;
 use crate::syntax::ast;
 
@@ -23,6 +23,9 @@ type Parts = Vec<(String, Type)>;
 impl Checker {
     /// `on Message(from, a)` or `on primitive.event(a)`.
     pub fn check_handler(&mut self, role: Option<u16>, node: &ast::HandlerDeclaration) {
+        if let Some(name) = node.input() {
+            return self.check_input(role, node, &name);
+        }
         let words: Vec<SyntaxToken> = node
             .event()
             .iter()
@@ -59,6 +62,18 @@ impl Checker {
             checker.check_touched();
             (parameters, body)
         });
+        self.add_handler(event, role, parameters, (body, locals), span);
+    }
+
+    /// Adds a handler to the program. In a role its body begins with the question whether the robot has it.
+    pub(super) fn add_handler(
+        &mut self,
+        event: Event,
+        role: Option<u16>,
+        parameters: Vec<Option<LocalId>>,
+        (body, locals): (Vec<Statement>, Vec<Local>),
+        span: Span,
+    ) {
         let body = match self.in_role(role, span) {
             Some(condition) => {
                 let kind = StatementKind::If {
@@ -118,9 +133,11 @@ impl Checker {
             (Some(Entity::Binding(_)), _) => {
                 problem.note("what a primitive reports is named too: `on name.event(...)`")
             }
-            (None, None) => {
-                problem.note(format!("a message is declared: `message {name}(x: Int)`"))
-            }
+            (None, None) => problem
+                .note(format!("a message is declared: `message {name}(x: Int)`"))
+                .note(format!(
+                    "what an operator orders is handled by `on input {name}(x: Int)`"
+                )),
             _ => problem,
         });
         (Event::Error, None)

@@ -27,6 +27,7 @@ mod event;
 mod expression;
 pub(crate) mod feasible;
 mod fit;
+mod input;
 mod libraries;
 mod load;
 mod member;
@@ -58,6 +59,7 @@ use crate::diagnostic::{Diagnostic, has_errors};
 use crate::ir::Program;
 use crate::syntax::{Parse, parse};
 
+pub use input::is_input_field;
 pub use libraries::{Libraries, NoLibraries};
 pub use prelude::PRELUDE;
 pub use resolution::{Resolutions, Symbol};

@@ -181,14 +181,7 @@ impl Checker {
                 (Some(member), Some(robot)) => return self.of_robot(robot, member, span),
                 (Some(_), None) if name == "me" => return self.of_no_robot(name, "id", span),
                 (Some(_), None) => return self.of_no_robot(name, name, span),
-                (None, _) if OF_SENSORS.contains(&name) => {
-                    let message = format!("a property cannot ask for `{name}`");
-                    let problem = Diagnostic::new(Code::InvalidProperty, span, message);
-                    self.report(problem.note(
-                        "only a robot itself reads its sensors; keep what matters in a variable",
-                    ));
-                    return broken(span);
-                }
+                (None, _) if self.is_of_sensors(name, span) => return broken(span),
                 (None, _) => {}
             }
         }
@@ -202,6 +195,18 @@ impl Checker {
             rest: Vec::new(),
         };
         made(kind, ty.unwrap_or(Type::Error), span)
+    }
+
+    /// Whether a property asks for what only the sensors tell; reports it if so.
+    pub fn is_of_sensors(&mut self, name: &str, span: Span) -> bool {
+        if self.body.place != Where::Property || !OF_SENSORS.contains(&name) {
+            return false;
+        }
+        let message = format!("a property cannot ask for `{name}`");
+        let problem = Diagnostic::new(Code::InvalidProperty, span, message);
+        let note = "only a robot itself reads its sensors; keep what matters in a variable";
+        self.report(problem.note(note));
+        true
     }
 
     /// Whether something of this purity may stand here; reports it if not.
@@ -328,7 +333,14 @@ const FOREIGN: &[(&str, &str)] = &[
 ];
 
 /// What a robot's sensors measure.
-const OF_SENSORS: [&str; 3] = ["bumped", "ranges", "detected"];
+const OF_SENSORS: [&str; 6] = [
+    "bumped",
+    "ranges",
+    "detected",
+    "things",
+    "holding",
+    "thing_name",
+];
 
 /// What a property may say of a robot besides its variables.
 pub(super) fn robot_member(name: &str) -> Option<RobotMember> {

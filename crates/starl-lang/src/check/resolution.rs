@@ -41,6 +41,8 @@ pub enum Symbol {
     Action(u32),
     /// A property, by its number.
     Property(u32),
+    /// An input, by the number of its first handler.
+    Input(u32),
     /// The program or a library, by the number of its file.
     File(u32),
     /// A built-in function or name.

@@ -99,11 +99,11 @@ fn behaviour<'p>(unit: &mut Unit<'p>, bytecode: &mut Bytecode) {
     }
     for handler in &program.handlers {
         match unit.handler(handler) {
-            Ok((event, primitive, function)) => {
+            Ok((event, origin, function)) => {
                 let function = unit.add(Ok(function));
                 bytecode.handlers.push(Handler {
                     event,
-                    primitive,
+                    origin,
                     function,
                 });
             }

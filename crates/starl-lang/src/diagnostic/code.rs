@@ -202,6 +202,8 @@ codes! {
     MisplacedAtomic = "E0255",
     /// A parameter's range that is none.
     InvalidRange = "E0256",
+    /// A field of an input with a type that orders do not carry.
+    InputField = "E0257",
     /// More values at a time than the machine has registers.
     TooManyRegisters = "E0302",
     /// More of something than a compiled program can hold.

@@ -91,6 +91,7 @@ impl Analysis {
             Symbol::Function(id) => program[id].site,
             Symbol::Local(site) => site,
             Symbol::Action(number) => program.actions.get(number as usize)?.site,
+            Symbol::Input(number) => program.handlers.get(number as usize)?.site,
             Symbol::Property(number) => program.properties.get(number as usize)?.site,
             Symbol::File(file) => return Some(self.header(file)),
             Symbol::Builtin(_)

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use super::built_in::built_in;
 use super::index::headers;
 use crate::check::{Checked, Symbol};
-use crate::ir::{EnumId, RecordId, Site, Type};
+use crate::ir::{EnumId, Event, RecordId, Site, Type};
 use crate::syntax::ast::{self, AstNode, Documented, Item};
 use crate::syntax::{SyntaxKind, SyntaxNode};
 
@@ -103,6 +103,7 @@ pub(super) fn describe(checked: &Checked, symbol: Symbol) -> Description {
             ),
             None => Description::default(),
         },
+        Symbol::Input(number) => input(checked, number),
         Symbol::File(file) => header(checked, file),
         _ => built_in(symbol),
     }
@@ -216,6 +217,26 @@ pub(super) fn local_kind(name: &SyntaxNode) -> &'static str {
 fn parameter_documentation(name: &SyntaxNode) -> String {
     let parameter = name.parent().and_then(ast::Parameter::cast);
     parameter.map_or(String::new(), |parameter| parameter.documentation())
+}
+
+fn input(checked: &Checked, number: u32) -> Description {
+    let program = &checked.program;
+    let Some(handler) = program.handlers.get(number as usize) else {
+        return Description::default();
+    };
+    let Event::Input { name, fields } = &handler.event else {
+        return Description::default();
+    };
+    let fields = fields.iter();
+    let fields: Vec<String> = fields
+        .map(|(name, ty)| format!("{name}: {}", program.type_name(ty)))
+        .collect();
+    let node = node_at(checked, handler.site);
+    let node = node.and_then(|node| node.ancestors().find_map(Item::cast));
+    Description::new(
+        format!("on input {name}({})", fields.join(", ")),
+        node.map_or(String::new(), |node| node.documentation()),
+    )
 }
 
 fn header(checked: &Checked, file: u32) -> Description {

@@ -1,12 +1,13 @@
 //! Every name of the files, in order, with what it stands for.
 
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use crate::check::{Checked, Symbol};
 use crate::diagnostic::Span;
 use crate::ir::{
-    BindingId, ConstantId, EnumId, FunctionId, ParameterId, Program, RecordId, SharedId, Site,
-    Type, VariableId,
+    BindingId, ConstantId, EnumId, Event, FunctionId, ParameterId, Program, RecordId, SharedId,
+    Site, Type, VariableId,
 };
 
 /// A name.
@@ -138,6 +139,14 @@ fn others(program: &Program, define: &mut dyn FnMut(Site, Symbol)) {
     }
     for (number, action) in program.actions.iter().enumerate() {
         define(action.site, Symbol::Action(number as u32));
+    }
+    let mut inputs = BTreeSet::new();
+    for (number, handler) in program.handlers.iter().enumerate() {
+        if let Event::Input { name, .. } = &handler.event
+            && inputs.insert(name)
+        {
+            define(handler.site, Symbol::Input(number as u32));
+        }
     }
     for (number, property) in program.properties.iter().enumerate() {
         if property.name.is_some() {

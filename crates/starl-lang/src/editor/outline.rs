@@ -157,6 +157,16 @@ impl Outline<'_> {
     }
 
     fn handler(&self, node: &ast::HandlerDeclaration, span: Span) -> Option<OutlineEntry> {
+        if let Some(input) = node.input() {
+            return Some(OutlineEntry {
+                kind: OutlineKind::Handler,
+                name: format!("on input {}", input.text()),
+                detail: String::new(),
+                span,
+                name_span: input.span(),
+                parts: Vec::new(),
+            });
+        }
         let event = node.event()?;
         let name = self.text(&event);
         (!name.is_empty()).then(|| OutlineEntry {

@@ -19,6 +19,7 @@ use crate::diagnostic::{Edit, Span};
 use crate::ir::{Site, Type};
 use crate::syntax::SyntaxKind;
 use changes::{Changes, line};
+use starl_core::Order;
 
 /// The changes of one file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -67,6 +68,9 @@ impl Analysis {
             }
             (Symbol::Enum(id), _) if self.is_of_roles(id) => {
                 Err("`role` is a name that every program has".into())
+            }
+            (Symbol::Input(_), Some(site)) if self.name_at(site) == Order::WAY_POINTS => {
+                Err("`way_points` is an input that every program may hear".into())
             }
             (_, Some(site)) if site.file == PRELUDE_FILE => {
                 let name = name(site);

@@ -137,7 +137,7 @@ fn name_token(analysis: &Analysis, name: Occurrence) -> Token {
                 _ => TokenKind::Variable,
             }
         }
-        Symbol::Action(_) | Symbol::Event(..) => TokenKind::Event,
+        Symbol::Action(_) | Symbol::Event(..) | Symbol::Input(_) => TokenKind::Event,
         Symbol::File(_) => TokenKind::Namespace,
         Symbol::Builtin(builtin) => builtin_kind(builtin, &mut modifiers),
         Symbol::Type(_) => TokenKind::Type,

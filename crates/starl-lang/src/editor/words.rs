@@ -102,6 +102,14 @@ pub(super) const DECLARATIONS: &[Word] = &[
     ),
 ];
 
+/// Words after `on`.
+pub(super) const HANDLERS: &[Word] = &[word(
+    "input",
+    "on input name(field: Type)",
+    "What is done when an operator gives an order of this name with these fields; `on input way_points()`: \
+     when the way-points have changed.",
+)];
+
 /// Words that begin a part of an action.
 pub(super) const CLAUSES: &[Word] = &[
     word("pre", "pre condition", "When the action may fire."),
@@ -210,7 +218,14 @@ pub(super) fn at(parse: &Parse, offset: u32) -> Option<(Span, Description)> {
     }
     let token = root.token_at_offset(offset.into()).find(is_word)?;
     let text = String::from(token.text());
-    let tables = [CLAUSES, STATEMENTS, EXPRESSIONS, QUANTIFIERS, DECLARATIONS];
+    let tables = [
+        CLAUSES,
+        STATEMENTS,
+        EXPRESSIONS,
+        QUANTIFIERS,
+        DECLARATIONS,
+        HANDLERS,
+    ];
     let mut words = tables.into_iter().flatten();
     let found = words.find(|word| word.word == text)?;
     Some((token.text_range().into(), found.description()))

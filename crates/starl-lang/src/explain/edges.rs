@@ -182,6 +182,7 @@ fn handler_cause(program: &Program, handler: &Handler) -> Cause {
             let binding = &program[*binding].name;
             alloc::format!("{binding}.{}", event.name())
         }
+        Event::Input { name, .. } => alloc::format!("input {name}"),
     };
     Cause {
         is_handler: true,

@@ -227,7 +227,7 @@ pub struct Action {
     pub documentation: String,
 }
 
-/// What is done when a message arrives, or a primitive reports something.
+/// What is done when a message arrives, a primitive reports something, or an operator gives an order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Handler {
     /// What it handles.
@@ -235,13 +235,13 @@ pub struct Handler {
     /// The role whose robots do it, by its variant; the body says so too.
     pub role: Option<u16>,
     /// The locals that get the sender and the fields, or what the event carries; none for `_`. Of what
-    /// a primitive's event carries the last parts may be missing here.
+    /// a primitive's event carries the last parts may be missing here. Of an input they are its fields.
     pub parameters: Vec<Option<LocalId>>,
     /// The local variables.
     pub locals: Vec<Local>,
     /// What it does.
     pub body: Vec<Statement>,
-    /// Where it is declared: the name of the message or event.
+    /// Where it is declared: the name of the message, event or input.
     pub site: Site,
 }
 
@@ -258,6 +258,15 @@ pub enum Event {
         binding: super::BindingId,
         /// What it reports.
         event: &'static EventSignature,
+    },
+    /// An operator's order, or the notice that the way-points have changed
+    /// ([`starl_core::Order::WAY_POINTS`]).
+    Input {
+        /// Its name.
+        name: String,
+        /// The fields that the order must have, by name: [`crate::check::is_input_field`] says which types
+        /// they may have. Handlers of one input have the same.
+        fields: Vec<(String, Type)>,
     },
 }
 

@@ -208,15 +208,27 @@ pub struct Action {
 }
 
 /// What is done about an event. Arguments of its procedure: for a message the sender, a robot, then
-/// the fields of the message; for a primitive's event the fields of the event.
+/// the fields of the message; for a primitive's event or an input its fields.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Handler {
-    /// The name of the message or event.
+    /// The name of the message, event or input.
     pub event: String,
-    /// The primitive whose event it is; none for a message.
-    pub primitive: Option<u32>,
+    /// Where it comes from.
+    pub origin: Origin,
     /// The procedure.
     pub function: u32,
+}
+
+/// Where an event comes from.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Origin {
+    /// A robot sends a message.
+    Message,
+    /// This primitive reports it.
+    Primitive(u32),
+    /// An operator gives an order with these fields, in the order of the procedure's arguments.
+    Input(Vec<String>),
 }
 
 /// A primitive bound to a name.

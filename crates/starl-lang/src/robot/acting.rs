@@ -7,15 +7,15 @@ use super::atomic::{Conflicts, Script, Step, Values};
 use super::code::Instance;
 use super::host::{Context, RobotHost};
 use super::primitives::Report;
-use super::program::{Part, Phase, RobotProgram};
+use super::program::{Part, Phase, RobotProgram, Waiting};
 use super::workbench::Workbench;
 use crate::machine::{Limits, Machine};
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
-use starl_core::{Message, Robot};
+use starl_core::{Message, Program, Robot};
 
-/// At most so many messages, and so many events of primitives, wait for an action with `atomic`; beyond that
+/// At most so many messages and orders, and so many events of primitives, wait for an action with `atomic`; beyond that
 /// the oldest are dropped.
 const MOST_WAITING: usize = 1000;
 
@@ -106,20 +106,25 @@ impl RobotProgram {
 
     /// Whether a message must wait until an action with `atomic` has taken place.
     pub(super) fn must_wait(&self, message: &Message) -> bool {
-        let Some(held) = self.services.held(&self.code) else {
+        if self.services.held(&self.code).is_none() {
             return false;
-        };
+        }
         let program = self.code.program();
         let arrival = self.code.inbox().decode(program, &message.payload);
-        arrival.is_some_and(|arrival| {
-            let mut handlers = arrival.handlers.iter();
+        arrival.is_some_and(|arrival| self.holds(arrival.handlers))
+    }
+
+    /// Whether what has these handlers must wait until an action with `atomic` has taken place.
+    pub(super) fn holds(&self, handlers: &[u32]) -> bool {
+        self.services.held(&self.code).is_some_and(|held| {
+            let mut handlers = handlers.iter();
             !self.waiting.is_empty() || handlers.any(|&handler| held.keeps_handler(handler))
         })
     }
 
-    /// Has a message wait.
-    pub(super) fn keep_waiting(&mut self, message: &Message) {
-        self.waiting.push_back(message.clone());
+    /// Has a message or an order wait.
+    pub(super) fn keep_waiting(&mut self, waiting: Waiting) {
+        self.waiting.push_back(waiting);
         if self.waiting.len() > MOST_WAITING {
             self.waiting.pop_front();
         }
@@ -133,8 +138,11 @@ impl RobotProgram {
         if !self.reports.is_empty() {
             self.run(robot, Part::Nothing);
         }
-        while let Some(message) = self.waiting.pop_front() {
-            self.run(robot, Part::Message(&message));
+        while let Some(waiting) = self.waiting.pop_front() {
+            match waiting {
+                Waiting::Message(message) => self.run(robot, Part::Message(&message)),
+                Waiting::Order(order) => self.told(robot, &order),
+            }
         }
     }
 }

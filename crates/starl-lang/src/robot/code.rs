@@ -3,12 +3,13 @@
 use super::atomic::{self, Conflicts, join_groups};
 use super::joint::{Joiner, Joint};
 use super::messages::Inbox;
+use super::orders::Orders;
 use super::parameter;
 use super::primitives::{KINDS, Needs};
 use super::rest;
 use super::services::Services;
 use super::shape::Declared;
-use crate::machine::{Bytecode, Import, LoadError, Program, RuntimeError, State};
+use crate::machine::{Bytecode, Import, LoadError, Origin, Program, RuntimeError, State};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::sync::Arc;
@@ -31,6 +32,7 @@ struct Inner {
     /// The same, made once for all robots: it takes longer to make than to copy.
     services: Services,
     inbox: Inbox,
+    orders: Orders,
     /// The parameters' defaults; or what went wrong when they were worked out.
     initial: Result<State, String>,
 }
@@ -62,6 +64,10 @@ impl Code {
             position: None,
             reason: "a message's handler does not take the sender and the message's fields",
         })?;
+        let orders = Orders::of(program.bytecode()).ok_or(LoadError::Invalid {
+            position: None,
+            reason: "handlers of one input have different fields",
+        })?;
         let initial = parameter::defaults(&program);
         let joints = joiner.finish();
         Ok(Code(Arc::new(Inner {
@@ -74,6 +80,7 @@ impl Code {
             program,
             instances,
             inbox,
+            orders,
         })))
     }
 
@@ -135,6 +142,11 @@ impl Code {
         &self.0.inbox
     }
 
+    /// The inputs that the program handles.
+    pub(super) fn orders(&self) -> &Orders {
+        &self.0.orders
+    }
+
     /// An error in words, with its place: `race.starl:12:5: index 5 is out of range 0..3`.
     pub fn describe(&self, error: &RuntimeError) -> String {
         place(self.program(), error)
@@ -160,7 +172,7 @@ fn instances(bytecode: &Bytecode, declared: &Declared) -> Result<Vec<Instance>, 
         };
         let mut handlers = Vec::new();
         for (number, handler) in bytecode.handlers.iter().enumerate() {
-            if handler.primitive != Some(index as u32) {
+            if handler.origin != Origin::Primitive(index as u32) {
                 continue;
             }
             let function = bytecode.functions.get(handler.function as usize);

@@ -5,7 +5,7 @@
 //! come from anywhere: what is no message of the program is none, and nothing happens.
 
 use super::shape::Declared;
-use crate::machine::{Bytecode, Layout, Object, ObjectType, Program, Type};
+use crate::machine::{Bytecode, Layout, Object, ObjectType, Origin, Program, Type};
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt::{self, Write};
@@ -68,7 +68,7 @@ struct Incoming {
 #[derive(Clone, Debug, Default)]
 pub struct Inbox(Vec<Incoming>);
 
-/// A message that arrived.
+/// A message or an order that arrived.
 pub struct Arrival<'a> {
     /// What handles it.
     pub handlers: &'a [u32],
@@ -83,7 +83,7 @@ impl Inbox {
     pub fn of(bytecode: &Bytecode, declared: &Declared) -> Option<Inbox> {
         let mut inbox = Inbox::default();
         for (index, handler) in bytecode.handlers.iter().enumerate() {
-            if handler.primitive.is_some() {
+            if handler.origin != Origin::Message {
                 continue;
             }
             let function = bytecode.functions.get(handler.function as usize)?;

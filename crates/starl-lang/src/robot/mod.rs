@@ -7,7 +7,7 @@
 //! What robots offer is in two tables: the language's built-in names, and kinds of primitives. Both
 //! say of each function what it takes and gives, so that loading refuses bytecode that was compiled for
 //! others. Nothing that comes from the network makes a program stop: what is no message of the program
-//! is ignored. A run-time error stops the program of this one robot and names the place in its source.
+//! is ignored, and so is an order whose fields do not fit, with a warning. A run-time error stops the program of this one robot and names the place in its source.
 
 mod acting;
 mod arguments;
@@ -18,6 +18,7 @@ mod corruption;
 mod host;
 mod joint;
 mod messages;
+mod orders;
 mod parameter;
 mod primitives;
 mod program;

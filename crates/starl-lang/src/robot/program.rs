@@ -5,6 +5,7 @@ use super::atomic::{Conflicts, Script, Turn};
 use super::code::{Code, Instance};
 use super::corruption;
 use super::host::{Context, RobotHost};
+use super::messages::Arrival;
 use super::parameter::{self, ParameterError};
 use super::primitives::{Attended, Report, Slot};
 use super::rest::Disturbing;
@@ -13,17 +14,19 @@ use super::workbench::Workbench;
 use crate::machine::{Limits, Machine, RuntimeError, State, Value};
 use alloc::boxed::Box;
 use alloc::collections::VecDeque;
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::any::Any;
 use core::{fmt, mem};
+use starl_core::event::Level;
 use starl_core::random::hash_key;
-use starl_core::{Message, Port, Primitive, Primitives, Program, Random, Robot};
+use starl_core::{Message, Order, Port, Primitive, Primitives, Program, Random, Robot};
 
 /// A StarL program on one robot.
 ///
-/// Events of primitives are handled before anything else; a message runs its handlers as it comes, and
-/// actions wait for the next activation. A run-time error stops the robot and ends its program with
+/// Events of primitives are handled before anything else; a message or an order runs its handlers as it comes,
+/// and actions wait for the next activation. A run-time error stops the robot and ends its program with
 /// the place in the source.
 #[derive(Clone)]
 pub struct RobotProgram {
@@ -33,13 +36,20 @@ pub struct RobotProgram {
     pub(super) services: Services,
     /// Events of primitives that wait for their handlers: the instance's number and what happened.
     pub(super) reports: Vec<(u32, Report)>,
-    /// Messages that wait for an action with `atomic`.
-    pub(super) waiting: VecDeque<Message>,
+    /// Messages and orders that wait for an action with `atomic`.
+    pub(super) waiting: VecDeque<Waiting>,
     /// See [`RobotProgram::version`].
     version: u64,
     pub(super) phase: Phase,
     /// Whether it rests: see [`rest`](super::rest).
     rests: bool,
+}
+
+/// What waits for an action with `atomic`.
+#[derive(Clone, Debug)]
+pub(super) enum Waiting {
+    Message(Message),
+    Order(Order),
 }
 
 /// How far the program is.
@@ -150,6 +160,8 @@ pub(super) enum Part<'a> {
     Perform(u32, Script),
     /// All handlers of a message; nothing, if it is no message of the program.
     Message(&'a Message),
+    /// All handlers of an order.
+    Order(Arrival<'a>),
     /// Nothing more than the handlers of what primitives have reported.
     Nothing,
 }
@@ -192,12 +204,19 @@ impl Part<'_> {
                     return Ok(());
                 };
                 let from = [u64::from(message.from.0)];
-                let scalars: Vec<u64> = from.into_iter().chain(arrival.scalars).collect();
-                let mut handlers = arrival.handlers.iter();
-                handlers
-                    .try_for_each(|&handler| machine.handler(handler, &scalars, &arrival.objects))
+                let scalars = from.into_iter().chain(arrival.scalars).collect();
+                Arrival { scalars, ..arrival }.handle(machine)
             }
+            Part::Order(arrival) => arrival.handle(machine),
         }
+    }
+}
+
+impl Arrival<'_> {
+    /// Runs its handlers.
+    fn handle(&self, machine: &mut Machine<'_>) -> Result<(), RuntimeError> {
+        let mut handlers = self.handlers.iter();
+        handlers.try_for_each(|&handler| machine.handler(handler, &self.scalars, &self.objects))
     }
 }
 
@@ -284,9 +303,30 @@ impl Program for RobotProgram {
             return;
         }
         if self.must_wait(message) {
-            self.keep_waiting(message);
+            self.keep_waiting(Waiting::Message(message.clone()));
         } else {
             self.run(robot, Part::Message(message));
+        }
+    }
+
+    fn told(&mut self, robot: &mut Robot<'_>, order: &Order) {
+        // The way-points may have changed, and guards may ask for them.
+        self.rests = false;
+        if self.phase != Phase::Running {
+            return;
+        }
+        let code = self.code.clone();
+        match code.orders().decode(code.program(), order) {
+            Ok(Some(arrival)) if self.holds(arrival.handlers) => {
+                self.keep_waiting(Waiting::Order(order.clone()));
+            }
+            Ok(Some(arrival)) => self.run(robot, Part::Order(arrival)),
+            Ok(None) if order.name == Order::WAY_POINTS => {}
+            Ok(None) => {
+                let text = format!("order `{}` ignored: it has no handler", order.name);
+                robot.log(Level::Debug, text);
+            }
+            Err(problem) => robot.log(Level::Warning, problem),
         }
     }
 

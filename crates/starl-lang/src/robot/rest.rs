@@ -3,7 +3,8 @@
 //!
 //! Invariant: while a program rests, what its guards depend on is as it was when none of them held. They depend
 //! on its variables, which only the program itself and faults change, and on what its primitives tell. A
-//! primitive tells something else only after an input, or where an activation makes it do something.
+//! primitive tells something else only after an input, or where an activation makes it do something. The
+//! way-points change only with an order, which ends the rest.
 
 use super::joint::{Joint, OnRobot};
 use crate::machine::{Bytecode, Instruction};

@@ -44,6 +44,8 @@ pub enum Shape {
     Order,
     /// The record `Detection` of the prelude.
     Detection,
+    /// The record `Thing` of the prelude.
+    Thing,
     /// A list.
     List(&'static Shape),
     /// A set.
@@ -194,6 +196,10 @@ impl Declared {
                     Shape::Point,
                 ];
                 self.all(&PARTS, &kinds)
+            }
+            (Shape::Thing, Type::Record(fields)) => {
+                let kinds: Vec<Type> = fields.iter().map(|(_, kind)| kind.clone()).collect();
+                self.all(&[Shape::Int, Shape::Text, Shape::Point], &kinds)
             }
             (Shape::Optional(shape), Type::Optional(kind)) => self.is(*shape, kind),
             (_, Type::Object(index)) => match (shape, self.object(*index)) {

@@ -164,7 +164,7 @@ fn in_an_action_its_clauses() {
 #[test]
 fn after_on_messages_and_what_reports() {
     let found = labels(&effect("\non $0(from, index)\n    loc = pick"));
-    has(&found, &["Ping", "radio"]);
+    has(&found, &["Ping", "radio", "input"]);
     lacks(&found, &["motion", "Pair"]);
     assert_eq!(
         labels(&effect("\non radio.$0(number)\n    loc = pick")),

@@ -48,6 +48,11 @@ on Reached(from, index)
     sum = index
 on radio.failed(number)
     sum = number
+/// Comes home.
+on input go_home(
+    /// The door.
+    to: Point, fast: Bool)
+    if fast then log(\"{}\", to)
 /// Never less.
 invariant rising: sum_of >= 0 and forall r: r.up
 sum_of: Int
@@ -123,6 +128,17 @@ fn of_a_bound_primitive_what_kind_it_is() {
         documentation.starts_with("Goes.\n\nGoes to targets"),
         "{documentation}"
     );
+}
+
+#[test]
+fn of_inputs_their_fields() {
+    let declared = "on input go_home(to: Point, fast: Bool)";
+    shows("input go_home", "go_home", declared, "Comes home.");
+    shows("Point, fast", "fast", "fast: Bool", "");
+    shows("\"{}\", to)\n///", "to", "to: Point", "The door.");
+    let (form, meaning) = shown("on input go_home", "input");
+    assert_eq!(form, "on input name(field: Type)");
+    assert!(meaning.contains("operator"), "{meaning}");
 }
 
 #[test]

@@ -62,6 +62,8 @@ on M(from, n)
     e = a
 on radio.failed(n)
     e = a
+on input go_home(to: Point)
+    e = a
 role leader
     term: Int = 0
     init
@@ -91,6 +93,7 @@ Action init
 Action go
 Handler on M
 Handler on radio.failed
+Handler on input go_home
 Role leader
   Variable term Int
   Action init

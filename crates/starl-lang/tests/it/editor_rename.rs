@@ -128,6 +128,28 @@ fn what_every_program_has_keeps_its_name() {
 }
 
 #[test]
+fn an_input_changes_its_name_in_every_role_and_the_way_points_keep_theirs() {
+    let text = "program P\non input go$0(to: Point)\n    log(\"{}\", to)\nrole a\n    on input go(to: Point)\n        log(\"a {}\", to)\n";
+    let after = "program P\non input walk(to: Point)\n    log(\"{}\", to)\nrole a\n    on input walk(to: Point)\n        log(\"a {}\", to)\n";
+    assert_eq!(renamed(text, "walk").as_deref(), Ok(after));
+    let reason = refused("program P\non input way_$0points()\n    stop()\n", "b");
+    assert_eq!(
+        reason,
+        "`way_points` is an input that every program may hear"
+    );
+}
+
+#[test]
+fn a_field_of_an_input_keeps_its_name_where_another_role_would_differ() {
+    let text = "program P\non input go(to$0: Point)\n    log(\"{}\", to)\n";
+    let after = "program P\non input go(place: Point)\n    log(\"{}\", place)\n";
+    assert_eq!(renamed(text, "place").as_deref(), Ok(after));
+    let role = "role a\n    on input go(to: Point)\n        log(\"a {}\", to)\n";
+    let reason = refused(&[text, role].concat(), "place");
+    assert!(reason.contains("have different fields"), "{reason}");
+}
+
+#[test]
 fn where_it_is_not_known_what_the_name_means_it_stays() {
     let text = "program P\ncount$0: Int = 0\ngo()\n    eff count = 1\n) count +\nstop_it()\n    eff count = 1\n";
     let reason = refused(text, "number");

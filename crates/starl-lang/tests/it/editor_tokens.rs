@@ -83,6 +83,21 @@ fn of_effects_and_properties() {
 }
 
 #[test]
+fn of_inputs() {
+    let text = "program P\nn: Int\non input input(input: Int)\n    n = input\n";
+    let expected = [
+        "Keyword on",
+        "Keyword input",
+        "Event+ input",
+        "Parameter+ input",
+        "Type* Int",
+        "Variable n",
+        "Parameter input",
+    ];
+    assert_eq!(shown(text)[4..], expected);
+}
+
+#[test]
 fn a_role_is_a_word_a_name_and_a_variable() {
     let text = "program P\nrole a\n    go()\n        eff role = a\n";
     let found = shown(text);

@@ -52,6 +52,13 @@ fn a_handler_that_asks_for_the_state_leaves_that_state_alone() {
 }
 
 #[test]
+fn an_input_leaves_the_states_that_it_asks_for() {
+    let text = "program P\nloc: enum {a, b} = a\non input go(far: Bool)\n    if loc == a and far then loc = b\non input way_points()\n    loc = a\n";
+    let expected = ["-> a", "a -> b: on input go", "b -> a: on input way_points"];
+    assert_eq!(steps(text), expected);
+}
+
+#[test]
 fn the_last_value_on_each_way_counts() {
     let text = "program P\nloc: enum {a, b, c, d} = a\nn: Int = 0\ngo()\n    pre loc == a\n    eff\n        loc = b\n        if n > 3\n            loc = c\n            return\n        n += 1\n        loc = d\nback()\n    pre loc != a\n    eff loc = a\n";
     let expected = [

@@ -97,6 +97,14 @@ fn an_effect_that_goes_on_is_aligned() {
 }
 
 #[test]
+fn an_input_stands_like_a_function() {
+    check(
+        "program P\non   input  go (to :Point,fast:Bool ,)\n  stop( )\non input(x)\n  stop()\n",
+        "program P\n\non input go(to: Point, fast: Bool,)\n    stop()\n\non input(x)\n    stop()\n",
+    );
+}
+
+#[test]
 fn line_ends_of_other_systems_become_plain() {
     check(
         "program P\r\n\r\nx: Int // a\r\n",

@@ -3,8 +3,8 @@
 
 use crate::robot_support::World;
 use crate::support::{generate, hold};
-use starl_core::{Input, Message, Point, Pose, Random, RobotId};
-use starl_lang::machine::State;
+use starl_core::{Input, Message, Order, Point, Pose, Random, RobotId, Value};
+use starl_lang::machine::{Origin, State};
 use starl_lang::robot::properties::{Fleet, Judge};
 use starl_lang::robot::{Code, RobotProgram};
 
@@ -66,6 +66,7 @@ fn run(code: &Code, seed: u64, copies: bool) -> (World, String) {
         }
         world.step();
         garble(&mut world, &mut random);
+        order(&mut world, &mut random);
         let seen = Seen(&world, (0..ROBOTS).map(RobotId).collect());
         judged += &format!("{:?}", judge.observe(world.now, &seen));
     }
@@ -89,6 +90,42 @@ fn garble(world: &mut World, random: &mut Random) {
         };
         let to = (from.0 + 1) % ROBOTS;
         world.feed(to as usize, &Input::Message(message));
+    }
+}
+
+/// Gives each robot every order that it handles, with values of any types.
+fn order(world: &mut World, random: &mut Random) {
+    for robot in 0..ROBOTS as usize {
+        let bytecode = world.program(robot).code().program().bytecode();
+        let inputs: Vec<(String, Vec<String>)> = (bytecode.handlers.iter())
+            .filter_map(|handler| match &handler.origin {
+                Origin::Input(fields) => Some((handler.event.clone(), fields.clone())),
+                _ => None,
+            })
+            .collect();
+        for (name, fields) in inputs {
+            let fields = fields.into_iter();
+            let fields = fields.map(|field| (field.into(), detail(random)));
+            let order = Order {
+                name: name.into(),
+                fields: fields.collect(),
+            };
+            world.feed(robot, &Input::Order(order));
+        }
+    }
+}
+
+/// Some field of an order.
+fn detail(random: &mut Random) -> Value {
+    let number = random.below(5);
+    match random.below(8) {
+        0 | 1 => Value::Int(i64::from(number)),
+        2 => Value::Bool(number == 0),
+        3 => Value::Float(f64::from(number) - 0.5),
+        4 => Value::Text("text".into()),
+        5 => Value::Point(Point::planar(f64::from(number), 1.0)),
+        6 => Value::Robot(RobotId(number)),
+        _ => Value::Path(vec![Point::ZERO; number as usize]),
     }
 }
 

@@ -6,7 +6,10 @@ use starl_lang::machine::{Bytecode, Instruction, assemble, disassemble};
 
 #[test]
 fn what_is_written_is_read_back() {
-    for text in [RACE, EVERY] {
+    let inputs = "program P\nhandler go input f0 f1 speed\nhandler halt input f1\nfunction on.input.go \
+                  procedure (Bool, Float) () registers 2 objects 0\n return #0 #0\nfunction on.input.halt \
+                  procedure () () registers 1 objects 0\n return #0 #0\n";
+    for text in [RACE, EVERY, inputs] {
         let bytecode = assemble(text).expect("it is well written");
         let written = disassemble(&bytecode);
         assert_eq!(assemble(&written).as_ref(), Ok(&bytecode), "{written}");

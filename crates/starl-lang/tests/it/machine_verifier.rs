@@ -314,6 +314,14 @@ fn entry_points() {
             "there is no such primitive",
         ),
         (
+            format!("handler go input f1\n{good}"),
+            "an input has other fields than its handler",
+        ),
+        (
+            format!("handler go input f1 to speed\n{good}"),
+            "an input has other fields than its handler",
+        ),
+        (
             format!("property p 1 always f1\n{good}"),
             "an entry point is of the wrong kind",
         ),

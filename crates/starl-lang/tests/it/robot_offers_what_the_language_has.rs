@@ -4,7 +4,7 @@
 use starl_lang::check::{BUILTINS, Builtin, PRIMITIVES, Purity, Shape, Signature};
 use starl_lang::machine::{
     Binding, Bytecode, Enum, Function, FunctionKind, Handler, Import, Instruction, LoadError,
-    ObjectType, Type, operand::Count,
+    ObjectType, Origin, Type, operand::Count,
 };
 use starl_lang::robot::{Code, functions};
 use std::collections::BTreeSet;
@@ -62,6 +62,14 @@ impl Types {
                 let fields = [
                     ("robot", optional(Type::Robot)),
                     ("thing", optional(Type::Int)),
+                    ("position", Type::Point),
+                ];
+                Type::Record(fields.map(|(name, kind)| (name.into(), kind)).to_vec())
+            }
+            Shape::Named("Thing") => {
+                let fields = [
+                    ("number", Type::Int),
+                    ("name", self.object(ObjectType::Text)),
                     ("position", Type::Point),
                 ];
                 Type::Record(fields.map(|(name, kind)| (name.into(), kind)).to_vec())
@@ -226,7 +234,7 @@ fn events_of_primitives_carry_what_the_language_says() {
                 }];
                 types.0.handlers = vec![Handler {
                     event: event.name().into(),
-                    primitive: Some(0),
+                    origin: Origin::Primitive(0),
                     function: 0,
                 }];
                 Code::load(types.0.clone()).map(|_| ())

@@ -54,6 +54,9 @@ builtins! {
     Bumped = "bumped: Side?" Query "Where something touches the robot; none if nothing does."
     Ranges = "ranges: List[Float]" Query "What the proximity sensors measure, metres, from right to left."
     Detected = "detected: List[Detection]" Query "The things and robots in sight, nearest first."
+    Things = "things: List[Thing]" Query "The things in sight, nearest first."
+    Holding = "holding: Int?" Query "The number of the thing that the robot holds; none if it holds nothing."
+    ThingName = "thing_name(thing: Int) -> String" Query "The name of the thing with this number; an empty text if there is none."
 
     AtomicBlocked = "atomic_blocked: Bool" Query "Whether the action with `atomic` that this robot waits for, or has run, cannot go on: no majority of the robots answers."
 
@@ -112,6 +115,8 @@ builtins! {
     DrawNothing = "draw_nothing(label: String)" Effect "Takes the mark with the label away."
     Finish = "finish()" Effect "Says that the program has reached its goal."
     Fail = "fail(text: String)" Effect "Says that the program cannot go on, and why."
+    Take = "take(thing: Int)" Effect "Takes hold of the thing with this number, if it is within reach and the robot holds nothing; `holding` tells whether it worked."
+    PutDown = "put_down()" Effect "Puts down the thing that the robot holds, where the robot is."
     Stop = "stop()" Effect "Stops the robot where it is."
 }
 

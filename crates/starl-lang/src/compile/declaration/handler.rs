@@ -1,4 +1,4 @@
-//! Handlers of messages and of what primitives report.
+//! Handlers of messages, of what primitives report and of inputs.
 
 use alloc::format;
 use alloc::string::String;
@@ -9,30 +9,31 @@ use crate::compile::problem::Compiled;
 use crate::compile::unit::{Finished, Unit};
 use crate::ir;
 use crate::ir::Type;
-use crate::machine::FunctionKind;
+use crate::machine::{FunctionKind, Origin};
 
 impl<'p> Unit<'p> {
-    /// A handler; gives the name of its event and its primitive too.
-    pub fn handler(
-        &mut self,
-        handler: &'p ir::Handler,
-    ) -> Compiled<(String, Option<u32>, Finished)> {
+    /// A handler; gives the name of its event and where that comes from too.
+    pub fn handler(&mut self, handler: &'p ir::Handler) -> Compiled<(String, Origin, Finished)> {
         let program = self.program;
         let mut body = Body::new(self, FunctionKind::Procedure, &handler.locals, handler.site);
-        let (event, primitive, types) = match &handler.event {
+        let (event, origin, types) = match &handler.event {
             ir::Event::Error => return Err(body.broken()),
             ir::Event::Message(id) => {
                 let message = &program[*id];
                 let fields = message.fields.iter().map(|field| field.ty.clone());
                 let types: Vec<Type> = core::iter::once(Type::Robot).chain(fields).collect();
-                (program.message_name(*id), None, types)
+                (program.message_name(*id), Origin::Message, types)
             }
             ir::Event::Primitive { binding, event } => {
                 let shapes = event.signature().parameters;
                 let types = shapes.iter().map(|part| body.shape(&part.shape));
                 let types = types.collect::<Option<Vec<Type>>>();
                 let types = types.ok_or_else(|| body.broken())?;
-                (event.name().into(), Some(binding.0), types)
+                (event.name().into(), Origin::Primitive(binding.0), types)
+            }
+            ir::Event::Input { name, fields } => {
+                let (fields, types) = fields.iter().cloned().unzip();
+                (name.clone(), Origin::Input(fields), types)
             }
         };
         let mut arguments = Vec::new();
@@ -45,10 +46,13 @@ impl<'p> Unit<'p> {
         }
         body.block(&handler.body)?;
         body.end();
-        let name = match primitive {
-            Some(number) => format!("on.{}.{event}", program.bindings[number as usize].name),
-            None => format!("on.{event}"),
+        let name = match &origin {
+            Origin::Primitive(number) => {
+                format!("on.{}.{event}", program.bindings[*number as usize].name)
+            }
+            Origin::Input(_) => format!("on.input.{event}"),
+            Origin::Message => format!("on.{event}"),
         };
-        Ok((event, primitive, body.finish(&name, arguments, Vec::new())))
+        Ok((event, origin, body.finish(&name, arguments, Vec::new())))
     }
 }

@@ -77,7 +77,7 @@ impl<'a> Candidates<'a> {
         }
     }
 
-    fn words(&mut self, words: &[Word]) {
+    pub fn words(&mut self, words: &[Word]) {
         for word in words {
             self.items.push(Completion {
                 label: word.word.to_string(),

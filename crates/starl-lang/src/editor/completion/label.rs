@@ -60,7 +60,11 @@ impl Candidates<'_> {
                 let event = PRIMITIVES.get(primitive)?.events.get(number)?;
                 (event.name().into(), Call::Arguments)
             }
-            Symbol::Argument(..) | Symbol::Local(_) | Symbol::Action(_) | Symbol::Property(_) => {
+            Symbol::Argument(..)
+            | Symbol::Local(_)
+            | Symbol::Action(_)
+            | Symbol::Property(_)
+            | Symbol::Input(_) => {
                 return None;
             }
         })

@@ -5,6 +5,7 @@ use alloc::string::String;
 use super::super::analysis::PRELUDE_FILE;
 use super::super::built_in::TYPES;
 use super::super::index::headers;
+use super::super::words;
 use super::candidates::{COMMON, Candidates, OWN};
 use super::{Call, Completion};
 use crate::check::{Libraries, Method, PRIMITIVES, Symbol};
@@ -107,6 +108,7 @@ impl Candidates<'_> {
                 item.call = Call::Arguments;
             }
         }
+        self.words(words::HANDLERS);
     }
 
     pub fn events_of(&mut self, symbol: Symbol) {

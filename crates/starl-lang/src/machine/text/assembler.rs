@@ -23,6 +23,7 @@
 //! action count f10 f11 atomic 1
 //! handler Reached f3
 //! handler done primitive 0 f4
+//! handler go_to input f5 place hurry
 //! property in_order 1 always f5
 //! property all_done 0 eventually f6 within 120000000000
 //! property answered 1 leads_to f7 f8 within 5000000000
@@ -41,8 +42,8 @@
 use crate::machine::host::Import;
 use crate::machine::instruction::Instruction;
 use crate::machine::program::{
-    Action, Binding, Bytecode, Claim, Enum, Function, FunctionKind, Handler, Parameter, Property,
-    Range, SourceFile, Span, Variable,
+    Action, Binding, Bytecode, Claim, Enum, Function, FunctionKind, Handler, Origin, Parameter,
+    Property, Range, SourceFile, Span, Variable,
 };
 use crate::machine::text::types::Cursor;
 use alloc::collections::BTreeMap;
@@ -258,14 +259,19 @@ impl Assembler {
 
     fn handler(&mut self, cursor: &mut Cursor<'_>) -> Option<()> {
         let event = cursor.word()?.into();
-        let primitive = match cursor.eat("primitive") {
-            true => Some(cursor.word()?.parse().ok()?),
-            false => None,
+        let (origin, function) = if cursor.eat("primitive") {
+            let primitive = cursor.word()?.parse().ok()?;
+            (Origin::Primitive(primitive), cursor.numbered("f")?)
+        } else if cursor.eat("input") {
+            let function = cursor.numbered("f")?;
+            let fields = core::iter::from_fn(|| cursor.word());
+            (Origin::Input(fields.map(String::from).collect()), function)
+        } else {
+            (Origin::Message, cursor.numbered("f")?)
         };
-        let function = cursor.numbered("f")?;
         self.bytecode.handlers.push(Handler {
             event,
-            primitive,
+            origin,
             function,
         });
         Some(())

@@ -3,7 +3,7 @@
 
 use crate::machine::instruction::Instruction;
 use crate::machine::operand::Use;
-use crate::machine::program::{Bytecode, Claim, Function, FunctionKind, Parameter};
+use crate::machine::program::{Bytecode, Claim, Function, FunctionKind, Origin, Parameter};
 use crate::machine::types::Type;
 use alloc::collections::BTreeSet;
 use alloc::string::String;
@@ -97,10 +97,20 @@ fn entry_points(out: &mut String, bytecode: &Bytecode) -> fmt::Result {
     }
     for handler in &bytecode.handlers {
         write!(out, "handler {}", handler.event)?;
-        if let Some(primitive) = handler.primitive {
-            write!(out, " primitive {primitive}")?;
+        let function = handler.function;
+        match &handler.origin {
+            Origin::Message => writeln!(out, " f{function}")?,
+            Origin::Primitive(primitive) => {
+                writeln!(out, " primitive {primitive} f{function}")?;
+            }
+            Origin::Input(fields) => {
+                write!(out, " input f{function}")?;
+                for field in fields {
+                    write!(out, " {field}")?;
+                }
+                writeln!(out)?;
+            }
         }
-        writeln!(out, " f{}", handler.function)?;
     }
     for property in &bytecode.properties {
         write!(out, "property {} {} ", property.name, property.robots)?;

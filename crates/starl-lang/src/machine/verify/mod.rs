@@ -13,7 +13,7 @@ mod rules;
 use crate::machine::error::LoadError;
 use crate::machine::interpreter::workspace::{OBJECT_WINDOW, WINDOW};
 use crate::machine::operand::FIRST_STATE_OPERAND;
-use crate::machine::program::{Bytecode, Claim, Function, FunctionKind};
+use crate::machine::program::{Bytecode, Claim, Function, FunctionKind, Origin};
 use crate::machine::types::{DEEPEST_TYPE, Layout, ObjectType, Parts, Type};
 use alloc::vec::Vec;
 
@@ -211,13 +211,18 @@ fn entry_points(bytecode: &Bytecode) -> Result<(), LoadError> {
         )?;
     }
     for handler in &bytecode.handlers {
-        function(bytecode, handler.function, FunctionKind::Procedure)?;
-        check(
-            handler
-                .primitive
-                .is_none_or(|p| (p as usize) < bytecode.primitives.len()),
-            "there is no such primitive",
-        )?;
+        let procedure = function(bytecode, handler.function, FunctionKind::Procedure)?;
+        match &handler.origin {
+            Origin::Message => {}
+            Origin::Primitive(primitive) => check(
+                (*primitive as usize) < bytecode.primitives.len(),
+                "there is no such primitive",
+            )?,
+            Origin::Input(fields) => check(
+                fields.len() == procedure.arguments.len(),
+                "an input has other fields than its handler",
+            )?,
+        }
     }
     for property in &bytecode.properties {
         let (first, second) = match property.claim {

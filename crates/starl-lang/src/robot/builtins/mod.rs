@@ -16,7 +16,7 @@ use crate::machine::HostCall;
 pub struct Builtin {
     /// What it is called, takes and gives.
     pub signature: Signature,
-    /// Whether what it tells depends on its arguments alone, and on what is the same as long as the robot runs.
+    /// Whether what it tells depends on its arguments alone, and on what is the same from one input to the next.
     pub is_steady: bool,
     /// What it does.
     pub run: Run,
@@ -46,7 +46,7 @@ const fn query(
     }
 }
 
-/// One that tells what is the same as long as the robot runs.
+/// One that tells what is the same as long as the robot runs, or until an order says that it has changed.
 const fn steady(
     name: &'static str,
     parameters: &'static [Shape],
@@ -124,6 +124,24 @@ pub static BUILTINS: &[Builtin] = &[
         &[],
         Shape::List(&Shape::Detection),
         sensing::detected,
+    ),
+    query("things", &[], Shape::List(&Shape::Thing), sensing::things),
+    query(
+        "holding",
+        &[],
+        Shape::Optional(&Shape::Int),
+        |host, call| {
+            let held = host.context.robot.sensors().holding;
+            call.set_bool(0, held.is_some());
+            call.set_int(1, held.map_or(0, i64::from));
+            Ok(0)
+        },
+    ),
+    query(
+        "thing_name",
+        &[Shape::Int],
+        Shape::Text,
+        sensing::thing_name,
     ),
     query("atomic_blocked", &[], Shape::Bool, |host, call| {
         let atomic = host.context.services.atomic.as_ref();
@@ -247,6 +265,17 @@ pub static BUILTINS: &[Builtin] = &[
         Ok(0)
     }),
     effect("fail", &[Shape::Text], None, telling::fail),
+    effect("take", &[Shape::Int], None, |host, call| {
+        // Numbers beyond these stand for no thing, so that there is nothing to take.
+        if let Ok(thing) = u32::try_from(Arguments::of(call).int()) {
+            host.context.robot.take(thing);
+        }
+        Ok(1)
+    }),
+    effect("put_down", &[], None, |host, _| {
+        host.context.robot.put_down();
+        Ok(1)
+    }),
     effect("stop", &[], None, |host, _| {
         for seat in host.bound.iter_mut().flatten() {
             seat.is_stirred = true;

@@ -63,6 +63,38 @@ pub fn detected(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called
     Ok(0)
 }
 
+pub fn things(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {
+    let sensors = host.context.robot.sensors();
+    // A text is an object whatever its number among the program's types.
+    let parts = [Type::Int, Type::Object(0), Type::Point];
+    let mut list = List::new(&Layout::of(&parts));
+    for detection in sensors.detections {
+        let Detected::Thing(thing) = detection.what else {
+            continue;
+        };
+        let p = detection.position;
+        let place = [p.x, p.y, p.z].map(f64::to_bits);
+        let scalars: Vec<u64> = [u64::from(thing)].into_iter().chain(place).collect();
+        let name = sensors.thing_names.get(thing as usize);
+        let name: &str = name.map_or("", |name| name);
+        let _ = list.push(Block {
+            scalars: &scalars,
+            objects: &[name.into()],
+        }); // it is as wide as the list's elements
+    }
+    call.set_object(0, list.into());
+    Ok(sensors.detections.len() as u64)
+}
+
+pub fn thing_name(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {
+    let names = host.context.robot.sensors().thing_names;
+    let thing = usize::try_from(Arguments::of(call).int());
+    let name = thing.ok().and_then(|thing| names.get(thing));
+    let name: &str = name.map_or("", |name| name);
+    call.set_object(0, name.into());
+    Ok(1)
+}
+
 /// The place of the way-point that the call names; gives what the search costs.
 pub fn way_point(way_points: &[WayPoint], call: &mut HostCall<'_>) -> u64 {
     let name = String::from(Arguments::of(call).text());

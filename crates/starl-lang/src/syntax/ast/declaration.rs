@@ -45,7 +45,7 @@ nodes! {
     PreClause
     /// `eff` and statements
     EffClause
-    /// `on Message(from, a)` and statements
+    /// `on Message(from, a)` or `on input name(a: T)`, and statements
     HandlerDeclaration
     /// `Message` or `primitive.event`
     EventPath
@@ -189,7 +189,20 @@ impl EffClause {
 }
 
 impl HandlerDeclaration {
-    /// The message or the primitive's event that it handles.
+    /// The name of the input that it handles, if it is one.
+    #[must_use]
+    pub fn input(&self) -> Option<Name> {
+        child(&self.0)
+    }
+
+    /// The fields of the input.
+    pub fn fields(&self) -> impl Iterator<Item = Parameter> + use<> {
+        child::<ParameterList>(&self.0)
+            .into_iter()
+            .flat_map(|list| children(&list.0))
+    }
+
+    /// The message or the primitive's event that it handles; none for an input.
     #[must_use]
     pub fn event(&self) -> Option<EventPath> {
         child(&self.0)

@@ -168,7 +168,8 @@ pub(super) fn function(parser: &mut Parser<'_>) {
     }
 }
 
-fn parameters(parser: &mut Parser<'_>) {
+/// `(a: T, b: T)`.
+pub(super) fn parameters(parser: &mut Parser<'_>) {
     let open = parser.span();
     if !parser.at(LeftParen) {
         return parser.unexpected("parameters in brackets, as in `(x: Int)`");

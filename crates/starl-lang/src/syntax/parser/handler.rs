@@ -1,11 +1,20 @@
-//! Handlers: what a robot does when a message arrives or a primitive tells of something.
+//! Handlers: what a robot does when a message arrives, a primitive reports something, or an operator gives an
+//! order.
 
 use super::item::name;
-use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, block, types};
+use super::{Code, Diagnostic, Parser, Span, SyntaxKind::*, block, declaration, types};
 
-/// `on Message(from, a, b)` or `on primitive.event(a)`, and statements.
+/// `on Message(from, a, b)`, `on primitive.event(a)` or `on input name(a: T)`, and statements.
 pub(super) fn handler(parser: &mut Parser<'_>) {
     parser.bump();
+    // `input` may also be the name of a message or of a primitive.
+    let next = parser.nth(1);
+    if parser.at_word("input") && (next == Identifier || next.is_keyword()) {
+        parser.bump();
+        name(parser);
+        declaration::parameters(parser);
+        return block::indented(parser, "a handler");
+    }
     parser.start(EventPath);
     if parser.expect(Identifier) && parser.eat(Dot) {
         parser.expect(Identifier);

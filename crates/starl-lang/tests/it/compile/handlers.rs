@@ -1,6 +1,6 @@
 //! Handlers of messages and of what primitives report.
 
-use starl_lang::machine::{Type, Value};
+use starl_lang::machine::{Origin, Type, Value};
 
 use super::support::{Robot, robot};
 
@@ -57,14 +57,14 @@ fn handlers_take_all_that_the_message_has() {
         let mut handlers = bytecode.handlers.iter();
         let handler = handlers.find(|handler| handler.event == event).unwrap();
         let function = &bytecode.functions[handler.function as usize];
-        (handler.primitive, function.arguments.clone())
+        (handler.origin.clone(), function.arguments.clone())
     };
-    let (primitive, arguments) = kinds("Reached");
-    assert_eq!((primitive, arguments.len()), (None, 5));
+    let (origin, arguments) = kinds("Reached");
+    assert_eq!((origin, arguments.len()), (Origin::Message, 5));
     assert_eq!(arguments[..3], [Type::Robot, Type::Int, Type::Point]);
-    assert_eq!(kinds("Ping"), (None, vec![Type::Robot]));
-    let (primitive, arguments) = kinds("failed");
-    assert_eq!((primitive, arguments.len()), (Some(0), 2));
+    assert_eq!(kinds("Ping"), (Origin::Message, vec![Type::Robot]));
+    let (origin, arguments) = kinds("failed");
+    assert_eq!((origin, arguments.len()), (Origin::Primitive(0), 2));
 }
 
 #[test]
@@ -84,4 +84,31 @@ fn messages_are_sent_as_records_with_their_name() {
     test.handle("failed", &[Value::Int(4), Value::List(Vec::new())])
         .unwrap();
     assert_eq!(test.told(), ["log(\"failed 4\")"]);
+}
+
+#[test]
+fn handlers_of_inputs_take_the_fields_by_name() {
+    let source = "program Test
+on input go(to: Point, speed: Float, names: List[RobotId])
+    log(\"{} {} {}\", to, speed, names)
+on input way_points()
+    log(\"new\")
+";
+    let mut test = Robot::started(source);
+    let handlers = &test.program.bytecode().handlers;
+    let fields = ["to", "speed", "names"].map(String::from).to_vec();
+    assert_eq!(handlers[0].origin, Origin::Input(fields));
+    assert_eq!(handlers[1].origin, Origin::Input(Vec::new()));
+    let function = &test.program.bytecode().functions[handlers[0].function as usize];
+    assert_eq!(function.name, "on.input.go");
+    assert_eq!(function.arguments[..2], [Type::Point, Type::Float]);
+    let place = Value::Point(starl_core::Point::planar(1.0, 0.0));
+    let names = Value::List(vec![robot(2)]);
+    test.handle("go", &[place, Value::Float(0.5), names])
+        .unwrap();
+    test.handle("way_points", &[]).unwrap();
+    assert_eq!(
+        test.told(),
+        ["log(\"(1.0, 0.0, 0.0) 0.5 [robot2]\")", "log(\"new\")"]
+    );
 }

@@ -32,6 +32,8 @@ pub struct Node {
     pub rays: Vec<Ray>,
     pub detections: Vec<Detection>,
     pub bumper: Option<starl_core::sensor::Contact>,
+    /// The thing that it holds. It takes whatever it is told to take, unless it holds something.
+    pub holding: Option<u32>,
     timers: BTreeMap<TimerKey, Time>,
 }
 
@@ -41,6 +43,8 @@ pub struct World {
     pub now: Time,
     pub nodes: Vec<Node>,
     pub way_points: Vec<WayPoint>,
+    /// The names of the things, by number.
+    pub thing_names: Vec<starl_core::event::Name>,
     pub obstacles: Obstacles,
     /// All events of all robots.
     pub records: Vec<(Time, RobotId, Event)>,
@@ -103,12 +107,14 @@ impl World {
             rays: Vec::new(),
             detections: Vec::new(),
             bumper: None,
+            holding: None,
             timers: BTreeMap::new(),
         });
         World {
             now: Time::ZERO,
             nodes: nodes.collect(),
             way_points: Vec::new(),
+            thing_names: Vec::new(),
             obstacles: [].into(),
             records: Vec::new(),
             loses: |_, _| false,
@@ -241,7 +247,8 @@ impl World {
                     bumper: node.bumper,
                     proximity: &node.rays,
                     detections: &node.detections,
-                    ..Sensors::default()
+                    holding: node.holding,
+                    thing_names: &self.thing_names,
                 },
                 fleet: &self.fleet,
                 way_points: &self.way_points,
@@ -277,7 +284,8 @@ impl World {
             Effect::Move(MotionRequest::Track { target, .. }) => node.position = target,
             Effect::Move(MotionRequest::Halt) => node.halts += 1,
             Effect::Move(MotionRequest::Drive(_)) => {}
-            Effect::Take(_) | Effect::PutDown => {}
+            Effect::Take(thing) => node.holding = node.holding.or(Some(thing)),
+            Effect::PutDown => node.holding = None,
             Effect::Record(event) => self.records.push((self.now, RobotId(robot as u32), event)),
             Effect::Finish => node.finished = true,
             Effect::Fail(reason) => node.failed = Some(reason.into()),

@@ -95,6 +95,7 @@ fn run_event(program: &ir::Program, run: &Run<'_>, input: Input) -> Vec<(ir::Typ
             let fields = program[*id].fields.iter().map(|field| field.ty.clone());
             std::iter::once(ir::Type::Robot).chain(fields).collect()
         }
+        ir::Event::Input { fields, .. } => fields.iter().map(|(_, ty)| ty.clone()).collect(),
         _ => vec![ir::Type::Int, ir::Type::list(ir::Type::Robot)],
     };
     types

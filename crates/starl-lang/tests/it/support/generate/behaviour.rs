@@ -67,6 +67,44 @@ impl Generator<'_> {
             self.block(2);
             self.locals.clear();
         }
+        if self.choices.below(4) == 3 {
+            self.input();
+        }
+    }
+
+    /// A handler of an input with a name that no other has, but for that of the way-points.
+    fn input(&mut self) {
+        self.place = Place::Effect;
+        let count = self.choices.below(4);
+        let fields: Vec<String> = (0..count)
+            .map(|_| {
+                let ty = self.field_of_order();
+                let written = self.model.written(&ty);
+                format!("{}: {written}", self.add_local(ty, false))
+            })
+            .collect();
+        let name = if fields.is_empty() {
+            "way_points".into()
+        } else {
+            format!("order{}", self.text.matches("on input").count())
+        };
+        self.line(&format!("on input {name}({})", fields.join(", ")));
+        self.block(2);
+        self.locals.clear();
+    }
+
+    /// The type of a field of an order.
+    fn field_of_order(&mut self) -> Type {
+        match self.choices.below(8) {
+            0 => Type::Int,
+            1 => Type::Bool,
+            2 => Type::Float,
+            3 => Type::String,
+            4 => Type::Point,
+            5 => Type::Robot,
+            6 => Type::list(Type::Point),
+            _ => Type::list(Type::Robot),
+        }
     }
 
     /// The roles are known before anything that may name them.

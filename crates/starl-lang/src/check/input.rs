@@ -1,0 +1,141 @@
+//! Inputs: handlers of what operators tell robots, `on input go_home(to: Point)`.
+
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use starl_core::Order;
+
+use super::body::Where;
+use super::collect::name_of;
+use super::report::counted;
+use super::resolution::Symbol;
+use super::state::Checker;
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::ir::{Event, Site, Type};
+use crate::syntax::ast::{self, AstNode};
+
+/// The fields of an input with the places of their names.
+type Fields = Vec<(String, Type, Span)>;
+
+/// Whether the field of an input may be of this type: one of which an order can carry a value.
+#[must_use]
+pub fn is_input_field(ty: &Type) -> bool {
+    match ty {
+        Type::Bool | Type::Int | Type::Float | Type::String | Type::Point | Type::Robot => true,
+        Type::List(element) => matches!(**element, Type::Point | Type::Robot),
+        _ => false,
+    }
+}
+
+impl Checker {
+    /// `on input name(a: T)`
+    pub(super) fn check_input(
+        &mut self,
+        role: Option<u16>,
+        node: &ast::HandlerDeclaration,
+        name: &ast::Name,
+    ) {
+        let (text, span) = (name.text(), name.span());
+        let fields = self.input_fields(node);
+        if text == Order::WAY_POINTS && !fields.is_empty() {
+            let message = "the input `way_points` has no fields";
+            let problem = Diagnostic::new(Code::HandlerParameters, span, message);
+            let problem = problem.expected("`on input way_points()`");
+            let problem = problem.found(counted(fields.len(), "field"));
+            self.report(problem.note("it tells that they have changed: read `way_points()` anew"));
+        }
+        self.compare_with_others(role, &text, &fields, span);
+        let ((parameters, body), locals) = self.in_body(Where::Effect, |checker| {
+            let mut parameters = Vec::new();
+            for (parameter, (_, ty, _)) in node.fields().zip(&fields) {
+                let name = ast::Named::name(&parameter);
+                let unread = Some(Code::UnusedLocal);
+                let local = name.and_then(|name| checker.declare_local(&name, ty.clone(), unread));
+                if let Some(local) = local {
+                    checker.body.fixed[local.index()] = Some("what the handler was given");
+                }
+                parameters.push(local);
+            }
+            let body = checker.block(node.body());
+            checker.check_touched();
+            (parameters, body)
+        });
+        let fields = fields.into_iter().map(|(name, ty, _)| (name, ty));
+        let event = Event::Input {
+            name: text,
+            fields: fields.collect(),
+        };
+        self.add_handler(event, role, parameters, (body, locals), span);
+    }
+
+    /// The fields that are named, with their types; reports types that no order carries.
+    fn input_fields(&mut self, node: &ast::HandlerDeclaration) -> Fields {
+        let mut fields = Fields::new();
+        for parameter in node.fields() {
+            let ty = self.written_or_error(parameter.ty());
+            let name = name_of(&parameter);
+            let (name, span) = name.map_or((String::new(), parameter.span()), |name| {
+                (name.text, name.span)
+            });
+            if name == "_" {
+                let message = "a field of an input has a name";
+                let problem = Diagnostic::new(Code::HandlerParameters, span, message);
+                self.report(problem.note("leave out the fields that are not wanted"));
+            }
+            let is_known = ty == Type::Error || is_input_field(&ty);
+            if let Some(written) = parameter.ty().filter(|_| !is_known) {
+                let message = format!("an order carries no {}", self.name_of(&ty));
+                let problem = Diagnostic::new(Code::InputField, written.span(), message);
+                self.report(problem.note(
+                    "it carries Bool, Int, Float, String, Point, RobotId, List[Point] and List[RobotId]",
+                ));
+            }
+            let ty = if is_known { ty } else { Type::Error };
+            fields.push((name, ty, span));
+        }
+        fields
+    }
+
+    /// Reports a second handler of an input in one role, and one that has other fields than the first.
+    fn compare_with_others(&mut self, role: Option<u16>, name: &str, fields: &Fields, span: Span) {
+        let others: Vec<_> = (self.program.handlers.iter().enumerate())
+            .filter_map(|(number, handler)| match &handler.event {
+                Event::Input {
+                    name: other,
+                    fields,
+                } if other == name => Some((number, handler.role, handler.site, fields.clone())),
+                _ => None,
+            })
+            .collect();
+        let Some((first, _, site, expected)) = others.first() else {
+            return;
+        };
+        self.resolve(span, Symbol::Input(*first as u32));
+        if let Some((_, _, Site { span: first, .. }, _)) =
+            others.iter().find(|(_, other, ..)| *other == role)
+        {
+            let message = format!("there are two handlers of the input `{name}`");
+            let problem = Diagnostic::new(Code::DuplicateName, span, message);
+            let problem = problem.label(*first, "the first one");
+            self.report(problem.note("put the statements together"));
+            return;
+        }
+        let is_same = expected.len() == fields.len()
+            && expected.iter().zip(fields).all(|(expected, field)| {
+                let is_error = expected.1 == Type::Error || field.1 == Type::Error;
+                expected.0 == field.0 && (is_error || expected.1 == field.1)
+            });
+        if !is_same {
+            let message = format!("handlers of the input `{name}` have different fields");
+            let fields = expected.iter();
+            let fields: Vec<String> = fields
+                .map(|(name, ty)| format!("{name}: {}", self.name_of(ty)))
+                .collect();
+            let form = format!("`on input {name}({})`", fields.join(", "));
+            let problem = Diagnostic::new(Code::HandlerParameters, span, message);
+            let problem = problem.label(site.span, "the first one").expected(form);
+            self.report(problem);
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Orders of operators, and the inputs by which programs handle them.
+//!
+//! An order comes from outside, so nothing about it is trusted: where a field is missing or of another type the
+//! order is not run, and the text says why. Fields that the program does not name are of no concern to it.
+
+use super::messages::Arrival;
+use super::words::type_name;
+use crate::machine::{Bytecode, ObjectType, Origin, Program, Type, Value};
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+use starl_core::{self as core, Order};
+
+/// An input that the program handles.
+#[derive(Clone, Debug)]
+struct Incoming {
+    name: String,
+    fields: Vec<(String, Type)>,
+    /// Its handlers, in the order of the text.
+    handlers: Vec<u32>,
+}
+
+/// The inputs that a program handles.
+#[derive(Clone, Debug, Default)]
+pub struct Orders(Vec<Incoming>);
+
+impl Orders {
+    /// Those of a program; none if handlers of one input have different fields.
+    pub fn of(bytecode: &Bytecode) -> Option<Orders> {
+        let mut orders = Orders::default();
+        for (index, handler) in bytecode.handlers.iter().enumerate() {
+            let Origin::Input(names) = &handler.origin else {
+                continue;
+            };
+            let function = bytecode.functions.get(handler.function as usize)?;
+            let types = function.arguments.iter().cloned();
+            let fields: Vec<(String, Type)> = names.iter().cloned().zip(types).collect();
+            let mut known = orders.0.iter_mut();
+            match known.find(|known| known.name == handler.event) {
+                Some(known) if known.fields == fields => known.handlers.push(index as u32),
+                Some(_) => return None,
+                None => orders.0.push(Incoming {
+                    name: handler.event.clone(),
+                    fields,
+                    handlers: Vec::from([index as u32]),
+                }),
+            }
+        }
+        Some(orders)
+    }
+
+    /// What the order's handlers are given; `None` if it has no handler.
+    ///
+    /// # Errors
+    /// A sentence that names the order, the first field that does not fit, and its type.
+    pub fn decode(&self, program: &Program, order: &Order) -> Result<Option<Arrival<'_>>, String> {
+        let Some(incoming) = self.0.iter().find(|known| known.name == order.name) else {
+            return Ok(None);
+        };
+        let (mut scalars, mut objects) = (Vec::new(), Vec::new());
+        for (name, kind) in &incoming.fields {
+            let problem = |found: &str| {
+                let expected = type_name(program.bytecode(), kind);
+                let order = &order.name;
+                Err(format!(
+                    "order `{order}` ignored: its field `{name}` must be {expected}, but {found}"
+                ))
+            };
+            let mut given = order.fields.iter();
+            let Some((_, given)) = given.find(|(field, _)| field == name) else {
+                return problem("it is missing");
+            };
+            let value = value(given, program.bytecode(), kind);
+            let fits =
+                value.is_some_and(|value| value.write(program, kind, &mut scalars, &mut objects));
+            if !fits {
+                return problem(&format!("it is {}", type_of(given)));
+            }
+        }
+        Ok(Some(Arrival {
+            handlers: &incoming.handlers,
+            scalars,
+            objects,
+        }))
+    }
+}
+
+/// A field of an order as a value of this type; `None` if it is of another. An empty list is a list of anything.
+fn value(given: &core::Value, bytecode: &Bytecode, kind: &Type) -> Option<Value> {
+    let element = match kind {
+        Type::Object(index) => match bytecode.types.get(usize::from(*index)) {
+            Some(ObjectType::List(element)) => Some(element),
+            _ => None,
+        },
+        _ => None,
+    };
+    Some(match (given, element) {
+        (core::Value::Bool(value), _) => Value::Bool(*value),
+        (core::Value::Int(value), _) if *kind == Type::Float => Value::Float(*value as f64),
+        (core::Value::Int(value), _) => Value::Int(*value),
+        (core::Value::Float(value), _) => Value::Float(*value),
+        (core::Value::Text(value), _) => Value::Text(value.clone().into_owned()),
+        (core::Value::Point(value), _) => Value::Point(*value),
+        (core::Value::Robot(value), _) => Value::Robot(*value),
+        (core::Value::Path(values), Some(_)) => {
+            Value::List(values.iter().copied().map(Value::Point).collect())
+        }
+        (core::Value::Robots(values), Some(_)) => {
+            Value::List(values.iter().copied().map(Value::Robot).collect())
+        }
+        _ => return None,
+    })
+}
+
+/// The type of an order's field, as the language writes it.
+fn type_of(value: &core::Value) -> &'static str {
+    match value {
+        core::Value::Bool(_) => "Bool",
+        core::Value::Int(_) => "Int",
+        core::Value::Float(_) => "Float",
+        core::Value::Text(_) => "String",
+        core::Value::Time(_) => "Time",
+        core::Value::Point(_) => "Point",
+        core::Value::Path(_) => "List[Point]",
+        core::Value::Robot(_) => "RobotId",
+        core::Value::Robots(_) => "List[RobotId]",
+        core::Value::Obstacles(_) => "Obstacles",
+        core::Value::Area(_) => "Area",
+    }
+}
