@@ -9,7 +9,8 @@ use starl_lang::check::{NoLibraries, check};
 use starl_lang::compile::compile;
 use starl_lang::machine::{Parameter, assemble, disassemble};
 
-#[path = "../../crates/starl-lang/tests/support/mod.rs"]
+#[allow(dead_code, reason = "the tests use the rest")]
+#[path = "../../crates/starl-lang/tests/it/support/mod.rs"]
 mod support;
 
 fuzz_target!(|text: &str| {

@@ -6,7 +6,8 @@
 
 use libfuzzer_sys::fuzz_target;
 
-#[path = "../../crates/starl-lang/tests/support/mod.rs"]
+#[allow(dead_code, reason = "the tests use the rest")]
+#[path = "../../crates/starl-lang/tests/it/support/mod.rs"]
 mod support;
 
 fuzz_target!(|bytes: &[u8]| {

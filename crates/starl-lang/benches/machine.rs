@@ -9,7 +9,8 @@
     reason = "a benchmark reads the clock, nothing else does"
 )]
 
-#[path = "../tests/machine_support/mod.rs"]
+#[allow(dead_code, reason = "the tests use the rest")]
+#[path = "../tests/it/machine_support/mod.rs"]
 mod machine_support;
 mod measure;
 

@@ -8,7 +8,8 @@
     reason = "a benchmark reads the clock, nothing else does"
 )]
 
-#[path = "../tests/robot_support/mod.rs"]
+#[allow(dead_code, reason = "the tests use the rest")]
+#[path = "../tests/it/robot_support/mod.rs"]
 mod robot_support;
 
 use robot_support::compile;

@@ -14,7 +14,8 @@
     reason = "a benchmark reads the clock, nothing else does"
 )]
 
-#[path = "../../tests/harness/mod.rs"]
+#[allow(dead_code, reason = "the tests use the rest")]
+#[path = "../../tests/it/harness/mod.rs"]
 mod harness;
 mod tasks;
 

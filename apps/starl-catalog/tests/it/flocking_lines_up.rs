@@ -1,0 +1,18 @@
+//! The robots of Flocking line up, whatever they are, as its README has them.
+
+use crate::support::Case;
+use starl_sim::Outcome;
+
+/// Who flies is above its place, and in it.
+#[test]
+fn quadcopters_among_robots_on_the_ground() {
+    for seed in 1..=5 {
+        let run = Case {
+            robots: Some("create=4,drone=4"),
+            ..Case::new("flocking", &[], seed)
+        }
+        .run();
+        assert_eq!(run.outcome(), Outcome::Reached, "seed {seed}");
+        assert!(run.violations().is_empty(), "{seed} {:?}", run.violations());
+    }
+}

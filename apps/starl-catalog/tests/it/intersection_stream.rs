@@ -1,0 +1,50 @@
+//! Streams of cars that come at random all get through, under every kind of fault that is mended; and where cars
+//! break down for good nobody runs into them, and who does not get on knows it.
+
+use crate::intersection_support::{Traffic, drive};
+use rayon::prelude::*;
+use starl_sim::Outcome;
+
+fn stream(sets: &[&str]) -> Traffic {
+    let traffic = drive("intersection-stream", sets, "");
+    assert!(
+        traffic.violations.is_empty(),
+        "{sets:?} {:?}",
+        traffic.violations
+    );
+    traffic
+}
+
+#[test]
+fn all_get_through_in_calm() {
+    let traffic = stream(&[]);
+    assert_eq!(traffic.outcome, Some(Outcome::Reached));
+    assert_eq!(traffic.through.len(), 100);
+    traffic.holders();
+}
+
+#[test]
+fn all_get_through_with_faults_that_are_mended() {
+    let profiles: [&[&str]; 3] = [
+        &[
+            "network.loss=0.2",
+            "network.delay=100ms",
+            "network.jitter=40ms",
+        ],
+        &["fault_rates.partition=3/min", "fault_rates.heal_after=5s"],
+        &["fault_rates.crash=0.1/min", "fault_rates.restart_after=6s"],
+    ];
+    profiles.into_par_iter().for_each(|profile| {
+        let traffic = stream(profile);
+        assert_eq!(traffic.outcome, Some(Outcome::Reached), "{profile:?}");
+    });
+}
+
+#[test]
+fn nobody_runs_into_cars_that_break_down() {
+    (1..=2).into_par_iter().for_each(|seed: u32| {
+        let seed = format!("seed={seed}");
+        let traffic = stream(&["fault_rates.crash=0.05/min", &seed, "duration=240s"]);
+        assert!(!traffic.stuck_at_the_end().is_empty(), "{seed}");
+    });
+}

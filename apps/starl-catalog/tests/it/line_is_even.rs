@@ -1,0 +1,92 @@
+//! The robots of Line come to stand evenly on a line and stay there, from any start and over a bad network;
+//! where one dies the others close the gap, or stand as near to their places as it leaves them room.
+
+use crate::support::Case;
+use rayon::prelude::*;
+use starl_core::{Duration, Event, Point, RobotId, Time};
+use starl_sim::Outcome;
+use std::collections::BTreeMap;
+
+const SEEDS: u64 = 10;
+
+fn all_form(sets: &[&str]) {
+    let sets: Vec<&str> = sets.iter().copied().chain(["duration=3min"]).collect();
+    (0..SEEDS).into_par_iter().for_each(|seed| {
+        let run = Case::new("line", &sets, seed).run();
+        assert_eq!(
+            run.outcome(),
+            Outcome::Reached,
+            "{sets:?} seed {seed} {:?}",
+            run.violations()
+        );
+    });
+}
+
+#[test]
+fn seven_in_calm() {
+    all_form(&[]);
+}
+
+#[test]
+fn seven_over_a_bad_network() {
+    all_form(&["network.loss=0.2", "network.delay=100ms"]);
+}
+
+#[test]
+fn ten() {
+    all_form(&["robots.1.count=7"]);
+}
+
+#[test]
+fn those_that_are_left_close_the_gap_of_one_that_died() {
+    let crash = "[[fault]]\nat = \"100ms\"\nkind = \"crash\"\nrobots = [\"iRobot1\"]\n";
+    let mut at = [Point::ZERO; 7];
+    let mut run = Case {
+        faults: crash,
+        ..Case::new("line", &["duration=3min"], 1)
+    }
+    .start();
+    while !run.is_over() {
+        for record in run.step() {
+            if let (Some(robot), Event::Moved(pose)) = (record.robot, &record.event) {
+                at[robot.index()] = pose.position;
+            }
+        }
+    }
+    assert_eq!(run.outcome(), Outcome::Reached, "{:?}", run.violations());
+    let left = [0, 1, 3, 4, 5, 6].map(|robot: usize| at[robot].at_height(0.0));
+    for neighbours in left.windows(3) {
+        let middle = neighbours[0].lerp(neighbours[2], 0.5);
+        assert!(neighbours[1].distance(middle) < 0.15, "{left:?}");
+    }
+}
+
+/// The wreck lies 30 cm from where the robot before it is to stand then. One that kept trying to get there would go to
+/// and fro beside it, and its neighbours with it: 24 m in these runs.
+#[test]
+fn who_finds_a_wreck_in_its_place_hardly_moves_any_more() {
+    let crash = "[[fault]]\nat = \"60s\"\nkind = \"crash\"\nrobots = [\"quadcopter0\"]\n";
+    let ways = (1..=4).into_par_iter().map(|seed| {
+        let mut run = Case {
+            faults: crash,
+            ..Case::new("line", &["duration=4min"], seed)
+        }
+        .start();
+        let settled = Time::ZERO + Duration::from_seconds(120);
+        let mut at: BTreeMap<RobotId, Point> = BTreeMap::new();
+        let mut way = 0.0;
+        while !run.is_over() {
+            for record in run.step() {
+                if let (Some(robot), Event::Moved(pose)) = (record.robot, &record.event) {
+                    let before = at.insert(robot, pose.position);
+                    let step = before.map_or(0.0, |before| before.distance(pose.position));
+                    way += if record.at > settled { step } else { 0.0 };
+                }
+            }
+        }
+        assert_eq!(run.outcome(), Outcome::Reached, "{:?}", run.violations());
+        way
+    });
+    let ways: Vec<f64> = ways.collect();
+    assert!(ways.iter().sum::<f64>() < 6.0, "{ways:?}");
+}

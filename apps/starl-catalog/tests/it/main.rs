@@ -1,0 +1,19 @@
+//! The tests of `starl-catalog`, in one binary so that they link once.
+
+mod corruption_is_recovered_from;
+mod election_finds_leaders;
+mod flocking_lines_up;
+mod formation_forms_polygons;
+mod intersection_breakdowns;
+mod intersection_is_safe_and_live;
+mod intersection_stream;
+mod intersection_support;
+mod intersection_throughput;
+mod line_is_even;
+mod mutex_gives_turns;
+mod program_parameters;
+mod race_in_both_languages;
+mod race_thousand_seeds;
+mod search_shares_rooms;
+mod shared_variables_are_consistent;
+mod support;

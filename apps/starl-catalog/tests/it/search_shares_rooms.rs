@@ -1,0 +1,143 @@
+//! No two robots search one room, but while the network is parted; none is searched again because the robot that
+//! searched it starts again; and robots go to their rooms by short ways.
+
+use crate::support::Case;
+use rayon::prelude::*;
+use starl_core::{Duration, Event, Point, RobotId, Time, Value};
+use std::collections::BTreeMap;
+
+/// Nobody sees the item, so that all rooms are searched.
+const BLIND: &[&str] = &["robots.0.sensors.detector.range=1mm"];
+
+/// What a robot did about a room.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Deed {
+    Enters,
+    Searched,
+    Leaves,
+}
+
+/// What came of a run.
+#[derive(Debug, Default)]
+struct Story {
+    /// When who did what about which room.
+    deeds: Vec<(Time, RobotId, Deed, i64)>,
+    /// The paths that were planned.
+    paths: Vec<(RobotId, Vec<Point>)>,
+}
+
+impl Story {
+    /// What comes of a case that goes well.
+    fn of(case: Case) -> Story {
+        let mut run = case.start();
+        let mut story = Story::default();
+        while !run.is_over() {
+            for record in run.step() {
+                if let Some(robot) = record.robot {
+                    story.note(record.at, robot, &record.event);
+                }
+            }
+        }
+        assert!(run.violations().is_empty(), "{:?}", run.violations());
+        assert!(run.failures().is_empty(), "{:?}", run.failures());
+        story
+    }
+
+    fn note(&mut self, at: Time, robot: RobotId, event: &Event) {
+        match event {
+            Event::Program { name, fields } => {
+                let deed = match &**name {
+                    "enters" => Deed::Enters,
+                    "searched" => Deed::Searched,
+                    "leaves" => Deed::Leaves,
+                    _ => return,
+                };
+                if let Some((_, Value::Int(room))) = fields.first() {
+                    self.deeds.push((at, robot, deed, *room));
+                }
+            }
+            Event::Primitive { name, fields, .. } if &**name == "path" => {
+                if let Some((_, Value::Path(path))) = fields.first() {
+                    self.paths.push((robot, path.to_vec()));
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// How often a room has been searched to its end.
+    fn times_searched(&self, room: i64) -> usize {
+        let searched = |deed: &&(_, _, Deed, i64)| deed.2 == Deed::Searched && deed.3 == room;
+        self.deeds.iter().filter(searched).count()
+    }
+
+    /// Who enters a room that another is in, or was given and has not left, after a time.
+    fn intruders(&self, after: Time) -> Vec<(Time, RobotId, i64)> {
+        let mut inside: BTreeMap<RobotId, i64> = BTreeMap::new();
+        let mut intruders = Vec::new();
+        for &(at, robot, deed, room) in &self.deeds {
+            inside.remove(&robot);
+            if deed == Deed::Enters {
+                if at > after && inside.values().any(|theirs| *theirs == room) {
+                    intruders.push((at, robot, room));
+                }
+                inside.insert(robot, room);
+            }
+        }
+        intruders
+    }
+}
+
+/// A fault that concerns one robot.
+fn fault(at: f64, kind: &str, robot: RobotId) -> String {
+    let name = robot.0;
+    format!("[[fault]]\nat = \"{at}s\"\nkind = \"{kind}\"\nrobots = [\"searcher{name}\"]\n")
+}
+
+#[test]
+fn after_a_partition_no_two_search_one_room() {
+    (1..=6).into_par_iter().for_each(|seed| {
+        let parted = "[[fault]]\nat = \"1s\"\nkind = \"partition\"\n\
+            groups = [[\"searcher0\", \"searcher2\"], [\"searcher1\", \"searcher3\"]]\n\
+            [[fault]]\nat = \"30s\"\nkind = \"heal\"\n";
+        let story = Story::of(Case {
+            faults: parted,
+            ..Case::new("search", BLIND, seed)
+        });
+        let leaves = story.deeds.iter().any(|deed| deed.2 == Deed::Leaves);
+        assert!(leaves, "{seed}: the two parts searched one room");
+        let healed = Time::ZERO + Duration::from_seconds(33);
+        assert_eq!(story.intruders(healed), [], "{seed}");
+        assert!((1..=6).all(|room| story.times_searched(room) >= 1));
+    });
+}
+
+#[test]
+fn what_a_robot_searched_before_a_crash_is_not_searched_again() {
+    (1..=4).into_par_iter().for_each(|seed| {
+        let case = Case::new("search", BLIND, seed);
+        let calm = Story::of(case);
+        let first = calm.deeds.iter().find(|deed| deed.2 == Deed::Searched);
+        let &(at, robot, _, room) = first.expect("rooms are searched");
+        let at = at.seconds();
+        let faults = fault(at + 3.0, "crash", robot) + &fault(at + 6.0, "restart", robot);
+        let story = Story::of(Case {
+            faults: &faults,
+            ..case
+        });
+        assert_eq!(story.times_searched(room), 1, "{seed}");
+    });
+}
+
+/// The lobby is 20 m long, and the rooms that are given out first are the nearest to it.
+#[test]
+fn nobody_goes_round_the_building() {
+    (1..=4).into_par_iter().for_each(|seed| {
+        let story = Story::of(Case::new("search-building", &["duration=4s"], seed));
+        assert!(story.paths.len() >= 10, "{seed}: {}", story.paths.len());
+        for (robot, path) in &story.paths {
+            let length: f64 = path.windows(2).map(|leg| leg[0].distance(leg[1])).sum();
+            assert!(length < 30.0, "{seed} {robot}: {path:?}");
+        }
+    });
+}

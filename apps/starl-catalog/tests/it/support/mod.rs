@@ -1,0 +1,56 @@
+//! Runs of the examples, as a test wants them.
+
+use starl_catalog::examples;
+use starl_sim::Run;
+use starl_sim::read::{Override, Request, Source};
+
+/// What is run.
+#[derive(Clone, Copy, Debug)]
+pub struct Case<'a> {
+    /// The example.
+    pub example: &'a str,
+    /// Another fleet than its own.
+    pub robots: Option<&'a str>,
+    /// Settings of its scenario.
+    pub sets: &'a [&'a str],
+    /// Another seed than its own.
+    pub seed: Option<u64>,
+    /// Faults, as the text of a file.
+    pub faults: &'a str,
+}
+
+impl<'a> Case<'a> {
+    pub const fn new(example: &'a str, sets: &'a [&'a str], seed: u64) -> Case<'a> {
+        Case {
+            example,
+            robots: None,
+            sets,
+            seed: Some(seed),
+            faults: "",
+        }
+    }
+
+    /// The run before its first step.
+    pub fn start(&self) -> Run {
+        let example = examples::find(self.example).expect("it is an example");
+        let seed = self.seed.map(|seed| format!("seed={seed}"));
+        let sets = self.sets.iter().copied().chain(seed.as_deref());
+        let request = Request {
+            overrides: sets.map(|set| Override::set(set).unwrap()).collect(),
+            robots: self.robots.map(String::from),
+            faults: (!self.faults.is_empty()).then(|| Source::new("faults.toml", self.faults)),
+            ..Request::new(example.source())
+        };
+        let application = starl_catalog::read(&request, example).unwrap();
+        application.run().unwrap()
+    }
+
+    /// The run when it is over.
+    pub fn run(&self) -> Run {
+        let mut run = self.start();
+        while !run.is_over() {
+            run.step();
+        }
+        run
+    }
+}

@@ -1,0 +1,262 @@
+//! Whatever is wrong with what the user gives, there is one clear message that names it, exit status
+//! 2, and nothing on standard output.
+
+use crate::support::*;
+use std::path::Path;
+
+fn refused(folder: &Path, arguments: &[&str], expected: &[&str]) {
+    let output = starl(folder, arguments);
+    let text = stderr(&output);
+    assert_eq!(
+        (status(&output), stdout(&output)),
+        (2, String::new()),
+        "{arguments:?}: {text}"
+    );
+    assert!(text.starts_with("error: "), "{arguments:?}: {text}");
+    assert!(!text.contains("panicked"), "{text}");
+    for part in expected {
+        assert!(
+            text.contains(part),
+            "no {part:?} in the message on {arguments:?}: {text}"
+        );
+    }
+}
+
+/// A change of the small scenario, and what the message names.
+const SCENARIOS: [(&str, &str, &[&str]); 14] = [
+    (
+        "[network]\nloss",
+        "[network]\nlos",
+        &["bad.toml:20", "network.los", "loss"],
+    ),
+    (
+        "\"20%\"",
+        "1.5",
+        &["bad.toml:20", "network.loss", "probability"],
+    ),
+    ("\"20%\"", "nan", &["bad.toml:20", "network.loss"]),
+    ("\"30s\"", "30", &["bad.toml:3", "duration", "unit"]),
+    ("\"30s\"", "\"30m\"", &["bad.toml:3", "duration"]),
+    (
+        "\"5mm\"",
+        "\"-5mm\"",
+        &["bad.toml:17", "positioning.position_noise", "negative"],
+    ),
+    (
+        "count = 2",
+        "count = \"two\"",
+        &["bad.toml:13", "robots.0.count"],
+    ),
+    ("[0, 1]", "[0, 0.1]", &["bad.toml:14", "overlap"]),
+    (
+        "[0, 1]",
+        "[0, nan]",
+        &["bad.toml:14", "robots.0.start.1.position"],
+    ),
+    (
+        "\"race\"",
+        "\"rice\"",
+        &["bad.toml:2", "program", "rice", "race"],
+    ),
+    (
+        "\"holonomic\"",
+        "\"holonomc\"",
+        &["bad.toml:12", "robots.0.model", "holonomic"],
+    ),
+    ("name = \"B\"", "name = \"A\"", &["bad.toml:8", "A"]),
+    ("[[robots]]", "[[robots]", &["bad.toml:11"]),
+    (
+        "count = 2",
+        "count = 2\nparameters = { vicinty = \"1m\" }",
+        &["bad.toml:14", "vicinty", "vicinity,"],
+    ),
+];
+
+#[test]
+fn a_bad_scenario_is_refused_with_line_and_field() {
+    let folder = folder("bad_scenario");
+    for (from, to, expected) in SCENARIOS {
+        assert!(SMALL.contains(from), "{from}");
+        file(&folder, "bad.toml", &SMALL.replacen(from, to, 1));
+        refused(&folder, &["run", "bad.toml"], expected);
+    }
+}
+
+#[test]
+fn impossible_worlds_are_refused() {
+    let folder = folder("bad_world");
+    let obstacle = |shape: &str| format!("{SMALL}\n[[world.obstacle]]\n{shape}\n");
+    let cases: [(&str, &[&str]); 5] = [
+        (
+            "circle = { center = [5, 5], radius = \"-1m\" }",
+            &["bad.toml:23", "radius", "above zero"],
+        ),
+        (
+            "circle = { center = [5, 5], radius = 1 }",
+            &["bad.toml:23", "radius", "unit"],
+        ),
+        (
+            "circle = { center = [0, 0], radius = \"0.5m\" }",
+            &["bad.toml:14", "robots.0.start.0.position", "obstacle"],
+        ),
+        (
+            "circle = { center = [2, 2], radius = \"0.3m\" }",
+            &["bad.toml:8", "B"],
+        ),
+        ("circle = { center = [9, 9] }", &["bad.toml:23", "radius"]),
+    ];
+    for (shape, expected) in cases {
+        // The table of way-points stands inside `world`, so that one more can be added to it.
+        file(&folder, "bad.toml", &obstacle(shape));
+        refused(&folder, &["run", "bad.toml"], expected);
+    }
+}
+
+#[test]
+fn bad_options_are_refused() {
+    let folder = folder("bad_options");
+    file(&folder, "small.toml", SMALL);
+    file(
+        &folder,
+        "faults.toml",
+        "[[fault]]\nat = \"2s\"\nkind = \"crush\"\nrobots = [\"holonomic0\"]\n",
+    );
+    let cases: [(&[&str], &[&str]); 20] = [
+        (&["--set", "network.loss"], &["--set network.loss", "value"]),
+        (
+            &["--set", "network.lost=0.1"],
+            &["--set network.lost", "loss"],
+        ),
+        (
+            &["--set", "network.loss=2"],
+            &["--set network.loss", "probability"],
+        ),
+        (&["--seed", "-1"], &["--seed"]),
+        (&["--seed", "one"], &["--seed"]),
+        (&["--duration", "0s"], &["--duration"]),
+        (&["--duration", "120"], &["--duration", "unit"]),
+        (&["--robots", "create"], &["--robots create"]),
+        (
+            &["--robots", "horse=2"],
+            &["--robots horse=2", "horse", "create"],
+        ),
+        (&["--robots", "create=0"], &["--robots create=0", "empty"]),
+        (&["--faults", "none.toml"], &["none.toml", "no such file"]),
+        (
+            &["--faults", "faults.toml"],
+            &["faults.toml:3", "crush", "crash"],
+        ),
+        (&["--plot", "a.pdf"], &["--plot a.pdf", ".svg", ".png"]),
+        (
+            &["--plot", "none/a.svg"],
+            &["none/a.svg", "cannot be written"],
+        ),
+        (
+            &["--trace", "none/a.mcap"],
+            &["none/a.mcap", "cannot be written"],
+        ),
+        (&["--trace", "."], &["."]),
+        (&["--threads", "0"], &["--threads", "'0'", "from 1 to 1024"]),
+        (
+            &["--threads", "two"],
+            &["--threads", "'two'", "from 1 to 1024"],
+        ),
+        (
+            &["--set", "parameters.planner=rtr"],
+            &["--set parameters.planner", "give one of auto, rrt"],
+        ),
+        (&["--speed", "2"], &["--speed"]),
+    ];
+    for (options, expected) in cases {
+        refused(
+            &folder,
+            &[&["run", "small.toml"], options].concat(),
+            expected,
+        );
+    }
+    assert_eq!(
+        names(&folder),
+        ["faults.toml", "small.toml"],
+        "nothing half-written is left"
+    );
+}
+
+#[test]
+fn bad_parameters_are_refused() {
+    let folder = folder("bad_parameters");
+    let range = "parameters.entries: -1 is out of range; give a whole number, without unit or point, from 1 to";
+    for (options, expected) in [
+        (&["--set", "parameters.entries=-1"][..], range),
+        (
+            &["--set", "parameters.entries", "-1"],
+            "--set parameters.count=-1",
+        ),
+        (
+            &["--set", "entries=1"],
+            "--set entries: there is no such field; is it a parameter of the program, `parameters.entries`?",
+        ),
+        (
+            &["--set", "parameters.Entries=1"],
+            "did you mean `entries`?",
+        ),
+    ] {
+        refused(&folder, &[&["run", "mutex"], options].concat(), &[expected]);
+    }
+}
+
+#[test]
+fn what_is_no_scenario_or_trace_is_refused() {
+    let folder = folder("bad_files");
+    file(&folder, "empty", "");
+    file(&folder, "words", "these are only words");
+    std::fs::write(folder.join("bytes"), [0x80, 0xff, 0x00]).expect("the folder can be written to");
+    refused(
+        &folder,
+        &["run", "rcae"],
+        &[
+            "rcae",
+            "no example or scenario file",
+            "did you mean `race`?",
+        ],
+    );
+    refused(&folder, &["run", "nosuch"], &["nosuch", "starl list"]);
+    refused(&folder, &["run", "."], &["folder"]);
+    refused(&folder, &["run", "empty"], &["empty:1", "robots"]);
+    refused(&folder, &["run", "words"], &["words:1"]);
+    refused(&folder, &["run", "bytes"], &["bytes:1", "UTF-8"]);
+    refused(&folder, &["replay", "none"], &["none", "no such file"]);
+    refused(&folder, &["replay", "empty"], &["empty"]);
+    refused(&folder, &["replay", "words"], &["words", "not a trace"]);
+    refused(&folder, &["replay", "."], &[".: is a folder"]);
+}
+
+#[test]
+fn commands_that_do_not_exist_are_refused() {
+    let folder = folder("bad_commands");
+    for arguments in [
+        &["walk"][..],
+        &["run"],
+        &["replay"],
+        &["bench"],
+        &["bench", "walk"],
+    ] {
+        let output = starl(&folder, arguments);
+        assert_eq!(status(&output), 2, "{arguments:?}");
+        assert!(!stderr(&output).is_empty(), "{arguments:?}");
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn files_without_end_are_not_read_to_it() {
+    let folder = folder("files_without_end");
+    refused(&folder, &["run", "/dev/zero"], &["/dev/zero", "256 MiB"]);
+    let text =
+        "program = \"race\"\nworld.files = [\"/dev/zero\"]\n[[robots]]\nmodel = \"create\"\n";
+    file(&folder, "endless.toml", text);
+    refused(
+        &folder,
+        &["run", "endless.toml"],
+        &["endless.toml:2", "256 MiB"],
+    );
+}

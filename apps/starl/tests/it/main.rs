@@ -1,0 +1,23 @@
+//! The tests of `starl`, in one binary so that they link once.
+
+mod bad_input;
+mod bench_workloads;
+mod check_programs;
+mod diagram_command;
+mod exit_status;
+mod explain_program;
+mod explore_programs;
+mod first_program;
+mod format_programs;
+mod interrupted_run;
+mod json_report;
+mod list_what_there_is;
+mod lsp;
+mod lsp_files;
+mod lsp_support;
+mod output_files;
+mod replay_trace;
+mod run_programs;
+mod same_seed_same_run;
+mod support;
+mod test_command;

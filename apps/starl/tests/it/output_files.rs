@@ -1,0 +1,145 @@
+//! A file has its name only when it is whole.
+
+use crate::support::*;
+use std::fs;
+
+#[test]
+fn a_plot_is_a_picture_of_the_kind_asked_for() {
+    let folder = folder("plot_kinds");
+    file(&folder, "small.toml", SMALL);
+    for name in ["a.svg", "a.png"] {
+        let output = starl(&folder, &["run", "small.toml", "--quiet", "--plot", name]);
+        assert_eq!(status(&output), 0, "{}", stderr(&output));
+    }
+    let svg = fs::read_to_string(folder.join("a.svg")).expect("the picture was drawn");
+    assert!(svg.contains("<svg") && svg.trim_end().ends_with("</svg>"));
+    assert_eq!(svg.matches("<svg").count(), svg.matches("</svg>").count());
+    for name in ["holonomic0", "holonomic1"] {
+        assert!(svg.contains(name), "the legend names {name}");
+    }
+    let png = fs::read(folder.join("a.png")).expect("the picture was drawn");
+    assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
+    assert_eq!(&png[png.len() - 8..png.len() - 4], b"IEND");
+    assert_eq!(names(&folder), ["a.png", "a.svg", "small.toml"]);
+}
+
+#[test]
+fn a_run_that_cannot_start_leaves_what_was_there() {
+    let folder = folder("plot_kept");
+    file(&folder, "small.toml", SMALL);
+    file(&folder, "a.svg", "a picture of before");
+    let output = starl(
+        &folder,
+        &[
+            "run",
+            "small.toml",
+            "--plot",
+            "a.svg",
+            "--trace",
+            "none/a.mcap",
+        ],
+    );
+    assert_eq!(status(&output), 2);
+    let kept = fs::read_to_string(folder.join("a.svg")).expect("it is still there");
+    assert_eq!(kept, "a picture of before");
+    assert_eq!(names(&folder), ["a.svg", "small.toml"]);
+}
+
+#[test]
+fn two_outputs_do_not_share_a_file() {
+    let folder = folder("plot_shared");
+    for trace in ["a.svg", "./a.svg", "../plot_shared/a.svg"] {
+        let arguments = ["run", "race", "--plot", "a.svg", "--trace", trace];
+        let output = starl(&folder, &arguments);
+        assert_eq!(status(&output), 2, "{trace}");
+        assert!(
+            stderr(&output).contains("the same file"),
+            "{trace}: {}",
+            stderr(&output)
+        );
+    }
+}
+
+#[test]
+fn what_a_run_reads_is_not_overwritten() {
+    let folder = folder("output_reads");
+    let scenario = SMALL.replace("[world]", "[world]\nfiles = [\"some.wpt\"]");
+    file(&folder, "small.toml", &scenario);
+    file(&folder, "some.wpt", "// nothing\n");
+    file(&folder, "faults.toml", "");
+    for trace in ["small.toml", "some.wpt", "./faults.toml"] {
+        let arguments = ["run", "small.toml", "--faults", "faults.toml"];
+        let output = starl(&folder, &[&arguments[..], &["--trace", trace]].concat());
+        assert_eq!(status(&output), 2, "{trace}");
+        assert!(
+            stderr(&output).contains("the run reads this file"),
+            "{trace}: {}",
+            stderr(&output)
+        );
+    }
+    let kept = fs::read_to_string(folder.join("small.toml")).expect("it is still there");
+    assert_eq!(kept, scenario);
+    assert_eq!(names(&folder), ["faults.toml", "small.toml", "some.wpt"]);
+}
+
+#[test]
+fn a_file_that_may_not_be_written_stays() {
+    let folder = folder("output_read_only");
+    let path = file(&folder, "a.mcap", "a trace of before");
+    let mut permissions = fs::metadata(&path).expect("it is there").permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(&path, permissions).expect("it is the test's own");
+    let output = starl(&folder, &["run", "race", "--trace", "a.mcap"]);
+    assert_eq!(status(&output), 2);
+    assert!(stderr(&output).contains("a.mcap: cannot be written"));
+    let kept = fs::read_to_string(path).expect("it is still there");
+    assert_eq!(kept, "a trace of before");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_stays_a_link() {
+    let folder = folder("output_link");
+    file(&folder, "real.svg", "a picture of before");
+    std::os::unix::fs::symlink("real.svg", folder.join("a.svg")).expect("links can be made");
+    let output = starl(&folder, &["run", "race", "--quiet", "--plot", "a.svg"]);
+    assert_eq!(stderr(&output), "");
+    let link = fs::symlink_metadata(folder.join("a.svg")).expect("it is still there");
+    assert!(link.is_symlink());
+    let real = fs::read_to_string(folder.join("real.svg")).expect("it is there");
+    assert!(real.contains("<svg"), "{real}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_cannot_be_written_is_told() {
+    let folder = folder("output_full");
+    for arguments in [&["run", "race", "--json"][..], &["list"]] {
+        let full = fs::File::options().write(true).open("/dev/full");
+        let output = command(&folder, arguments)
+            .stdout(full.expect("Linux has one"))
+            .output()
+            .expect("the command was built");
+        assert_eq!(status(&output), 2, "{arguments:?}");
+        let text = stderr(&output);
+        assert!(
+            text.contains("standard output") && text.contains("full"),
+            "{arguments:?}: {text}"
+        );
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_that_has_gone_is_no_error() {
+    use std::process::Stdio;
+    let folder = folder("output_closed");
+    let mut run = command(&folder, &["run", "race", "--duration", "1s"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command was built");
+    drop(run.stdout.take());
+    let output = run.wait_with_output().expect("it ends");
+    assert_eq!((status(&output), stderr(&output)), (1, String::new()));
+}

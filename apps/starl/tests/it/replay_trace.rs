@@ -1,0 +1,157 @@
+//! `starl replay` proves that a trace is what its inputs bring about, or shows where it is not.
+
+use crate::support::*;
+use starl_core::Event;
+use starl_trace::{Reader, ViewOptions, Writer};
+use std::fs;
+use std::path::Path;
+
+fn recorded(name: &str, arguments: &[&str]) -> std::path::PathBuf {
+    let folder = folder(name);
+    file(&folder, "small.toml", SMALL);
+    let mut all = vec!["run", "small.toml", "--quiet", "--trace", "a.mcap"];
+    all.extend_from_slice(arguments);
+    let output = starl(&folder, &all);
+    assert_eq!(stderr(&output), "");
+    // A replay needs nothing but the trace.
+    fs::remove_file(folder.join("small.toml")).expect("it was written before");
+    folder
+}
+
+#[test]
+fn a_fresh_trace_is_identical() {
+    let folder = recorded(
+        "replay_fresh",
+        &["--seed", "9", "--set", "network.loss=0.3"],
+    );
+    let output = starl(&folder, &["replay", "a.mcap"]);
+    assert_eq!(status(&output), 0, "{}{}", stdout(&output), stderr(&output));
+    assert!(
+        stdout(&output).contains("identical: "),
+        "{}",
+        stdout(&output)
+    );
+}
+
+#[test]
+fn so_is_that_of_an_example_with_another_fleet_and_faults() {
+    let folder = folder("replay_race");
+    file(
+        &folder,
+        "faults.toml",
+        "[[fault]]\nat = \"2s\"\nkind = \"crash\"\nrobots = [\"iRobot1\"]\n",
+    );
+    let arguments = [
+        "run",
+        "race",
+        "--robots",
+        "create=3,drone=1",
+        "--faults",
+        "faults.toml",
+    ];
+    let arguments = [
+        &arguments[..],
+        &["--duration", "5s", "--quiet", "--trace", "a.mcap"],
+    ]
+    .concat();
+    let output = starl(&folder, &arguments);
+    assert_eq!(stderr(&output), "");
+    fs::remove_file(folder.join("faults.toml")).expect("it was written before");
+    let output = starl(&folder, &["replay", "a.mcap", "--threads", "2"]);
+    assert_eq!(status(&output), 0, "{}{}", stdout(&output), stderr(&output));
+}
+
+/// Writes a trace anew with one pose moved by a hair, and gives the time of that record.
+fn tamper(from: &Path, to: &Path) -> f64 {
+    let mut reader = Reader::new(fs::File::open(from).expect("it is there")).expect("it is whole");
+    let file = fs::File::create(to).expect("the folder can be written to");
+    let header = reader.header().clone();
+    let mut writer = Writer::new(file, &header, &ViewOptions::none()).expect("it can be written");
+    let (mut moves, mut changed) = (0, 0.0);
+    for record in &mut reader {
+        let mut record = record.expect("the trace is whole");
+        if let Event::Moved(pose) = &mut record.event {
+            moves += 1;
+            if moves == 20 {
+                pose.position.x += 1e-9;
+                changed = record.at.seconds();
+            }
+        }
+        writer.write(&record).expect("it can be written");
+    }
+    let outcome = reader
+        .summary()
+        .expect("the trace is whole")
+        .outcome
+        .clone();
+    writer.finish(&outcome).expect("it can be written");
+    changed
+}
+
+#[test]
+fn a_changed_record_is_found() {
+    let folder = recorded("replay_tampered", &[]);
+    let at = tamper(&folder.join("a.mcap"), &folder.join("b.mcap"));
+    let output = starl(&folder, &["replay", "b.mcap"]);
+    assert_eq!(status(&output), 1, "{}{}", stdout(&output), stderr(&output));
+    let text = stdout(&output);
+    for expected in [
+        &format!("first at {at:.9} s, robot holonomic"),
+        "recorded:  ",
+        "run again: ",
+        "Moved",
+    ] {
+        assert!(text.contains(expected), "no {expected:?} in {text}");
+    }
+}
+
+#[test]
+fn a_truncated_trace_says_how_far_it_reads() {
+    let folder = recorded("replay_truncated", &[]);
+    let whole = fs::read(folder.join("a.mcap")).expect("it was written");
+    for part in [
+        whole.len() - 1,
+        whole.len() * 2 / 3,
+        whole.len() / 3,
+        100,
+        8,
+        3,
+        0,
+    ] {
+        fs::write(folder.join("cut.mcap"), &whole[..part]).expect("the folder can be written to");
+        let output = starl(&folder, &["replay", "cut.mcap"]);
+        assert_eq!(
+            (status(&output), stdout(&output)),
+            (2, String::new()),
+            "{part} bytes"
+        );
+        let text = stderr(&output);
+        assert!(
+            text.starts_with("error: cut.mcap: "),
+            "{part} bytes: {text}"
+        );
+        assert!(!text.contains("panicked"), "{text}");
+        if part > whole.len() / 4 {
+            assert!(
+                text.contains("truncated") && text.contains("at byte"),
+                "{part}: {text}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_flipped_bit_anywhere_is_told_without_panic() {
+    let folder = recorded("replay_flipped", &["--duration", "2s"]);
+    let whole = fs::read(folder.join("a.mcap")).expect("it was written");
+    for place in (0..whole.len()).step_by(whole.len() / 40) {
+        let mut damaged = whole.clone();
+        damaged[place] ^= 0x10;
+        fs::write(folder.join("bad.mcap"), &damaged).expect("the folder can be written to");
+        let output = starl(&folder, &["replay", "bad.mcap"]);
+        let text = stderr(&output) + &stdout(&output);
+        assert!(!text.contains("panicked"), "byte {place}: {text}");
+        // A bit of a view or of the index beyond the end record may change unnoticed.
+        assert!([0, 1, 2].contains(&status(&output)), "byte {place}: {text}");
+    }
+}

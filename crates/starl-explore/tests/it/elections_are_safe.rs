@@ -1,0 +1,82 @@
+//! Elections of three robots in all their behaviours after a warm-up, in a network that delivers within a tick
+//! or not at all, in any order. The checkers are those of every run: an epoch has one leader, no two lead at
+//! once, a leader has stood for election.
+
+use crate::support::elector::Elector;
+use crate::support::{all_is_well, happens, seconds, setup, watched};
+use starl_core::Duration;
+use starl_explore::{Bounds, Setup};
+use starl_primitives::election::{Algorithm, Options};
+
+fn explore(algorithm: Algorithm, ticks: u16, delay: u8, crashes: u8) -> (u32, u64, u32) {
+    all_is_well(watched(election(algorithm, ticks, delay, crashes)), 3)
+}
+
+fn election(algorithm: Algorithm, ticks: u16, delay: u8, crashes: u8) -> Setup {
+    let options = Options {
+        algorithm,
+        lease: Duration::from_seconds(2),
+        drift: 0.0,
+        period: Duration::from_seconds(2),
+        first_timeout: Duration::from_seconds(2),
+        answer_timeout: Duration::from_seconds(1),
+        patience: Duration::from_seconds(4),
+        give_up: Duration::from_seconds(100),
+        ..Options::default()
+    };
+    let bounds = Bounds {
+        crashes,
+        clocks: seconds(3, ticks, Some(delay)),
+        ..Bounds::default()
+    };
+    setup(3, Elector::new(options), bounds)
+}
+
+#[test]
+fn leaders_are_elected_in_what_is_explored() {
+    for (algorithm, ticks) in [
+        (Algorithm::Bully, 2),
+        (Algorithm::Ballots, 2),
+        (Algorithm::Leases, 1),
+    ] {
+        let election = election(algorithm, ticks, 0, 0);
+        assert!(happens(election, 3, "leader"), "{algorithm:?}");
+    }
+}
+
+#[test]
+fn bully() {
+    assert_eq!(explore(Algorithm::Bully, 2, 0, 0), (21_066, 52_479, 17));
+}
+
+#[test]
+fn ballots() {
+    assert_eq!(explore(Algorithm::Ballots, 2, 0, 0), (14_817, 45_424, 19));
+}
+
+#[test]
+fn leases() {
+    assert_eq!(explore(Algorithm::Leases, 1, 0, 0), (33_845, 169_606, 21));
+}
+
+#[test]
+#[ignore = "takes a minute without optimisation"]
+fn leases_that_end() {
+    assert_eq!(
+        explore(Algorithm::Leases, 2, 0, 0),
+        (1_899_397, 12_175_998, 31)
+    );
+}
+
+#[test]
+fn leases_with_a_crash() {
+    assert_eq!(
+        explore(Algorithm::Leases, 1, 0, 1),
+        (595_367, 3_090_062, 25)
+    );
+}
+
+#[test]
+fn bully_with_a_crash() {
+    assert_eq!(explore(Algorithm::Bully, 1, 0, 1), (143_958, 423_672, 20));
+}

@@ -1,0 +1,9 @@
+//! The tests of `starl-explore`, in one binary so that they link once.
+
+mod arbitrated_mutexes_are_safe;
+mod elections_are_safe;
+mod permission_mutex_is_safe;
+mod registrations_agree;
+mod support;
+mod ties_that_nobody_breaks_are_caught;
+mod what_can_go_wrong_is_told_apart;

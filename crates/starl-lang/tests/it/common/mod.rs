@@ -1,0 +1,115 @@
+//! What the tests of the language share: programs to try, and what must hold of any text.
+
+pub mod generator;
+pub mod mutation;
+
+use starl_lang::diagnostic::{Code, Severity, has_errors};
+use starl_lang::syntax::{Parse, SyntaxKind, SyntaxToken, parse};
+
+/// The thesis's four listings, by name.
+pub const LISTINGS: &[(&str, &str)] = &[
+    ("race", include_str!("../../listings/race.starl")),
+    (
+        "mutex_usage",
+        include_str!("../../listings/mutex_usage.starl"),
+    ),
+    (
+        "intersection",
+        include_str!("../../listings/intersection.starl"),
+    ),
+    ("formation", include_str!("../../listings/formation.starl")),
+];
+
+/// A program that uses every form of the language.
+pub const EVERY_FORM: &str = include_str!("../../listings/every_form.starl");
+
+/// All programs that are written down.
+pub fn written() -> impl Iterator<Item = (&'static str, &'static str)> {
+    LISTINGS.iter().copied().chain([("every_form", EVERY_FORM)])
+}
+
+/// Reads a text and holds it to what is promised of any: the tree's text is the text, every diagnostic
+/// lies in it, and nothing is left out without an error.
+pub fn parsed(text: &str) -> Parse {
+    let parse = parse(text);
+    assert_eq!(
+        parse.syntax().text().to_string(),
+        text,
+        "the tree's text is not the source"
+    );
+    for diagnostic in parse.diagnostics() {
+        let spans = diagnostic
+            .labels
+            .iter()
+            .map(|label| label.span)
+            .chain([diagnostic.span]);
+        for span in spans {
+            let inside = span.start <= span.end
+                && text.get(span.start as usize..span.end as usize).is_some();
+            assert!(inside, "{diagnostic:?} lies outside of {text:?}");
+        }
+        for edit in diagnostic.mend.iter().flat_map(|mend| &mend.edits) {
+            let range = edit.span.start as usize..edit.span.end as usize;
+            assert!(
+                text.get(range).is_some(),
+                "{diagnostic:?} mends outside of {text:?}"
+            );
+        }
+    }
+    let skipped = parse
+        .syntax()
+        .descendants()
+        .any(|node| node.kind() == SyntaxKind::Error);
+    let told = has_errors(parse.diagnostics());
+    assert!(
+        told || !skipped,
+        "something is left out without a word: {text:?}"
+    );
+    parse
+}
+
+/// Whether it has errors, aside from warnings and from tabs, which formatting mends.
+pub fn is_wrong(parse: &Parse) -> bool {
+    parse.diagnostics().iter().any(|diagnostic| {
+        diagnostic.severity() == Severity::Error && diagnostic.code != Code::TabIndentation
+    })
+}
+
+/// The tokens without white space, each with its text, comments without spaces at their ends.
+pub fn tokens(parse: &Parse) -> Vec<(SyntaxKind, String)> {
+    let tokens = parse
+        .syntax()
+        .descendants_with_tokens()
+        .filter_map(|element| element.into_token());
+    let matters = |token: &SyntaxToken| {
+        !matches!(
+            token.kind(),
+            SyntaxKind::Whitespace | SyntaxKind::LineBreak | SyntaxKind::Newline
+        )
+    };
+    let text = |token: SyntaxToken| {
+        (
+            token.kind(),
+            token.text().trim_end_matches([' ', '\t', '\r']).to_string(),
+        )
+    };
+    tokens.filter(matters).map(text).collect()
+}
+
+/// The shape of the tree: nodes and tokens by kind, without trivia and line ends.
+pub fn shape(parse: &Parse) -> String {
+    let mut shape = String::new();
+    for event in parse.syntax().preorder_with_tokens() {
+        match event {
+            rowan::WalkEvent::Enter(element) => match element.kind() {
+                kind if kind.is_trivia() || kind == SyntaxKind::Newline => {}
+                kind => shape += &format!("({kind:?} "),
+            },
+            rowan::WalkEvent::Leave(element) => match element.kind() {
+                kind if kind.is_trivia() || kind == SyntaxKind::Newline => {}
+                _ => shape.push(')'),
+            },
+        }
+    }
+    shape
+}

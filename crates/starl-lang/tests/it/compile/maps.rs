@@ -1,0 +1,86 @@
+//! Maps: literals, entries, methods.
+
+use starl_lang::machine::Fault;
+
+use super::support::{effect, faults, values};
+
+const DECLARATIONS: &str = "
+m: Map[String, Int] = {\"b\": 2, \"a\": 1}
+e: Map[Int, Point]
+p: Map[Int, Point] = {1: Point(1.0, 2.0)}
+n: Map[Int, Map[String, List[Int]]] = {1: {\"x\": [1, 2]}}
+k: String = \"a\"";
+
+#[test]
+fn reading() {
+    values(
+        DECLARATIONS,
+        &[
+            ("m", "{\"a\": 1, \"b\": 2}"),
+            ("e", "{:}"),
+            ("{1: k, 0: k + k}", "{0: \"aa\", 1: \"a\"}"),
+            ("{1: 1, 1: 2}", "{1: 2}"),
+            ("m[\"b\"]", "2"),
+            ("m[k] + 1", "2"),
+            ("p[1].y", "2.0"),
+            ("n[1][\"x\"][1]", "2"),
+            ("m.size()", "2"),
+            ("m.get(k)", "1"),
+            ("m.get(\"c\")", "none"),
+            ("m.get(\"c\") ?? 0", "0"),
+            ("p.get(1)!.x", "1.0"),
+            ("p.get(2)", "none"),
+            ("m.keys()", "{\"a\", \"b\"}"),
+            ("m.values()", "[1, 2]"),
+            ("m.values().sum()", "3"),
+            ("m.contains(\"a\")", "true"),
+            ("e.contains(1)", "false"),
+            ("{:} == m", "false"),
+        ],
+    );
+}
+
+#[test]
+fn changing() {
+    let body = "
+m[\"c\"] = 3
+m[k] += 10
+m.remove(\"b\")
+m.remove(\"z\")
+log(\"{}\", m)
+e[4] = Point(1.0, 1.0)
+e[4].x = 5.0
+e[2] = e[4] * 2.0
+log(\"{}\", e)
+n[1][\"x\"].add(3)
+n[1][\"y\"] = [4]
+n[2] = {:}
+n[2][\"z\"] = n[1][\"x\"]
+n[1][\"x\"][0] -= 1
+log(\"{}\", n)
+let c = m
+c[\"a\"] = 0
+log(\"{} {}\", c, m)";
+    let told = effect(DECLARATIONS, body.trim()).unwrap();
+    let expected = [
+        "{\"a\": 11, \"c\": 3}",
+        "{2: (10.0, 2.0, 0.0), 4: (5.0, 1.0, 0.0)}",
+        "{1: {\"x\": [0, 2, 3], \"y\": [4]}, 2: {\"z\": [1, 2, 3]}}",
+        "{\"a\": 0, \"c\": 3} {\"a\": 11, \"c\": 3}",
+    ];
+    assert_eq!(told, expected.map(|text| format!("log({text:?})")));
+}
+
+#[test]
+fn a_key_that_is_not_there() {
+    faults(
+        DECLARATIONS,
+        &[
+            ("log(\"{}\", m[\"z\"])", 1, Fault::KeyMissing),
+            ("m[\"z\"] += 1", 1, Fault::KeyMissing),
+            ("e[1].x = 1.0", 1, Fault::KeyMissing),
+            ("m[k] = 1\nn[7][\"x\"] = []", 2, Fault::KeyMissing),
+            ("n[1][\"q\"].add(1)", 1, Fault::KeyMissing),
+        ],
+    );
+}

@@ -1,0 +1,76 @@
+//! Formatting changes neither tokens nor the tree, and formatting again changes nothing.
+
+use crate::common::{generator, is_wrong, mutation, parsed, shape, tokens, written};
+use starl_lang::format::format;
+
+fn check(text: &str) {
+    let before = parsed(text);
+    let formatted = format(text);
+    let after = parsed(&formatted);
+    assert_eq!(
+        tokens(&before),
+        tokens(&after),
+        "tokens changed:\n{text}\n--- became\n{formatted}"
+    );
+    assert_eq!(
+        is_wrong(&before),
+        is_wrong(&after),
+        "{text}\n--- became\n{formatted}"
+    );
+    if !is_wrong(&before) {
+        assert_eq!(
+            shape(&before),
+            shape(&after),
+            "the tree changed:\n{text}\n--- became\n{formatted}"
+        );
+    }
+    let again = format(&formatted);
+    let changed = formatted
+        .lines()
+        .zip(again.lines())
+        .find(|(first, second)| first != second);
+    assert_eq!(
+        changed, None,
+        "formatting again changes a line; it was\n{text}"
+    );
+    assert_eq!(
+        again, formatted,
+        "formatting again changes it; it was\n{text}"
+    );
+}
+
+#[test]
+fn of_what_is_written_down() {
+    for (name, text) in written() {
+        check(text);
+        assert_eq!(format(text), text, "{name} is not in canonical layout");
+    }
+}
+
+#[test]
+fn of_random_programs() {
+    for seed in 0..1000 {
+        check(&generator::program(seed));
+    }
+}
+
+#[test]
+fn of_what_is_nearly_a_program() {
+    for (_, text) in written() {
+        for seed in 0..1000 {
+            check(&mutation::mutated(text, seed));
+        }
+    }
+}
+
+#[test]
+fn of_noise() {
+    for seed in 0..5000 {
+        check(&mutation::noise(seed));
+    }
+}
+
+#[test]
+fn of_a_form_feed_at_the_end_of_what_stays_as_it_is() {
+    check("program P\n\nx: = 1 )\u{c}\u{c}\ny: Int\n");
+}

@@ -1,0 +1,142 @@
+//! Random well-typed programs on robots that talk to each other: nothing panics, no value is of a wrong
+//! type, the same happens again, and a copy goes on as what it was copied from.
+
+use crate::robot_support::World;
+use crate::support::{generate, hold};
+use starl_core::{Input, Message, Point, Pose, Random, RobotId};
+use starl_lang::machine::State;
+use starl_lang::robot::properties::{Fleet, Judge};
+use starl_lang::robot::{Code, RobotProgram};
+
+const ROBOTS: u32 = 2;
+
+/// What may be known of the robots from outside.
+struct Seen<'a>(&'a World, Vec<RobotId>);
+
+impl Fleet for Seen<'_> {
+    fn robots(&self) -> &[RobotId] {
+        &self.1
+    }
+
+    fn state_of(&self, robot: RobotId) -> Option<&State> {
+        let is_known = robot.0 < ROBOTS;
+        is_known.then(|| self.0.program(robot.index()).state())
+    }
+
+    fn pose(&self, robot: RobotId) -> Option<Pose> {
+        let position = self.0.nodes.get(robot.index())?.position;
+        Some(Pose {
+            position,
+            ..Pose::default()
+        })
+    }
+
+    fn velocity(&self, robot: RobotId) -> Option<Point> {
+        self.0.nodes.get(robot.index()).map(|_| Point::ZERO)
+    }
+
+    fn has_finished(&self, robot: RobotId) -> bool {
+        self.0
+            .nodes
+            .get(robot.index())
+            .is_some_and(|node| node.finished)
+    }
+
+    fn is_up(&self, robot: RobotId) -> bool {
+        self.0
+            .nodes
+            .get(robot.index())
+            .is_some_and(|node| !node.down)
+    }
+}
+
+/// A run of a program on all robots; if asked for, with copies in their places halfway.
+fn run(code: &Code, seed: u64, copies: bool) -> (World, String) {
+    let mut random = Random::keyed(seed, &[5]);
+    let program = RobotProgram::new(code, &[]).expect("it was made before");
+    let programs = vec![program; ROBOTS as usize];
+    let mut world = World::new(programs).with_way_points(&[(1.0, 2.0), (3.0, -1.0)]);
+    let mut judge = Judge::new(code);
+    let mut judged = String::new();
+    for step in 0..8 {
+        if step == 4 && copies {
+            for node in &mut world.nodes {
+                node.agent = node.agent.clone();
+            }
+        }
+        world.step();
+        garble(&mut world, &mut random);
+        let seen = Seen(&world, (0..ROBOTS).map(RobotId).collect());
+        judged += &format!("{:?}", judge.observe(world.now, &seen));
+    }
+    (world, judged)
+}
+
+/// Delivers what was sent once more, with a few bytes changed.
+fn garble(world: &mut World, random: &mut Random) {
+    let sent: Vec<_> = world.sent.iter().take(3).cloned().collect();
+    for (from, _, port, payload) in sent {
+        let mut bytes = payload.to_vec();
+        for byte in &mut bytes {
+            if random.chance(0.1) {
+                *byte = random.below(256) as u8;
+            }
+        }
+        let message = Message {
+            from,
+            port,
+            payload: bytes.into(),
+        };
+        let to = (from.0 + 1) % ROBOTS;
+        world.feed(to as usize, &Input::Message(message));
+    }
+}
+
+/// What there is to see of a run.
+fn seen((world, judged): &(World, String)) -> String {
+    let mut text = format!("{:?}{judged}", world.records);
+    for (robot, node) in world.nodes.iter().enumerate() {
+        let state = world.program(robot).state();
+        text += &format!("{state:?}{:?}{}", node.failed, node.halts);
+    }
+    text
+}
+
+#[test]
+fn never_go_wrong() {
+    let (mut running, mut events) = (0, 0);
+    for seed in 0..300 {
+        let mut random = Random::keyed(seed, &[4]);
+        let bytes: Vec<u8> = (0..random.below(1500))
+            .map(|_| random.below(256) as u8)
+            .collect();
+        let text = generate::program(&bytes);
+        let Some((_, bytecode)) = hold::compiled(&text) else {
+            continue;
+        };
+        let code = Code::load(bytecode).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        // A default that is a run-time error is told at once.
+        if RobotProgram::new(&code, &[]).is_err() {
+            continue;
+        }
+        let first = run(&code, seed, false);
+        for node in &first.0.nodes {
+            let failed = node.failed.as_deref().unwrap_or_default();
+            assert!(!failed.contains("wrong type"), "{failed}\n{text}");
+        }
+        assert_eq!(seen(&run(&code, seed, false)), seen(&first), "{text}");
+        assert_eq!(seen(&run(&code, seed, true)), seen(&first), "{text}");
+        running += first
+            .0
+            .nodes
+            .iter()
+            .filter(|node| node.failed.is_none())
+            .count();
+        events += first.0.records.len();
+    }
+    // Else too little would be shown.
+    assert!(
+        running > 200 && events > 5000,
+        "{running} robots ran, with {events} events"
+    );
+}

@@ -1,0 +1,104 @@
+//! ReachAvoid in a program: its settings, its flags, and what stops it.
+
+use crate::robot_support::{World, compile};
+use starl_core::{Event, Obstacle, Point, Value};
+
+const MOVES: &str = r#"
+program Moves
+
+motion = ReachAvoid(vicinity = 20cm, most_replans = 3)
+reached: Bool = false
+trouble: Bool = false
+
+go()
+    pre not motion.active and not motion.done and not motion.failed
+    eff motion.reach_avoid(Point(3.0, 0.0), obstacles())
+
+arrive()
+    pre motion.done
+    eff reached = true; finish()
+
+fail_there()
+    pre motion.failed
+    eff trouble = true
+"#;
+
+#[test]
+fn it_goes_there_with_the_settings_of_the_binding() {
+    let mut world = World::of(&compile(MOVES), 1);
+    world.steps(3);
+    assert_eq!(world.get(0, "reached").to_string(), "true");
+    assert!(world.nodes[0].finished);
+    let starts = world.events_of(0).filter_map(|event| match event {
+        Event::Primitive { name, fields, .. } if name == "start" => Some(fields.clone()),
+        _ => None,
+    });
+    let fields = starts.last().unwrap_or_default();
+    assert!(fields.contains(&("vicinity".into(), Value::Float(0.2))));
+    assert!(fields.contains(&("target".into(), Value::Point(Point::planar(3.0, 0.0)))));
+}
+
+#[test]
+fn in_the_unsafe_set_it_has_failed() {
+    let mut world = World::of(&compile(MOVES), 1);
+    world.obstacles = [Obstacle::circle(Point::ZERO, 1.0)].into();
+    world.steps(2);
+    assert_eq!(world.get(0, "trouble").to_string(), "true");
+}
+
+const FOLLOWS: &str = r#"
+program Follows
+
+motion = ReachAvoid()
+sent: Bool = false
+
+go()
+    pre not sent
+    eff motion.follow([Point(1.0, 0.0), Point(1.0, 2.0, 0.5)], obstacles()); sent = true
+"#;
+
+#[test]
+fn it_follows_a_list_of_points() {
+    let mut world = World::of(&compile(FOLLOWS), 1);
+    world.steps(1);
+    let paths = world.events_of(0).filter_map(|event| match event {
+        Event::Primitive { name, fields, .. } if name == "path" => Some(fields.clone()),
+        _ => None,
+    });
+    let path = Value::from(vec![
+        Point::ZERO,
+        Point::planar(1.0, 0.0),
+        Point::planar(1.0, 2.0),
+    ]);
+    let paths: Vec<_> = paths.collect();
+    assert_eq!(paths.len(), 1);
+    assert!(paths[0].contains(&("path".into(), path)), "{paths:?}");
+}
+
+const STOPS: &str = r#"
+program Stops
+
+motion = ReachAvoid()
+step: Int = 0
+
+go()
+    pre step == 0
+    eff motion.reach_avoid(Point(3.0, 0.0), obstacles()); step = 1
+
+halt()
+    pre step == 1 and motion.active
+    eff stop(); step = 2
+"#;
+
+#[test]
+fn stop_stops_whatever_moves_the_robot() {
+    let mut world = World::of(&compile(STOPS), 1);
+    world.step();
+    world.step();
+    assert_eq!(world.int(0, "step"), 2);
+    let stops = world.events_of(0).filter(|event| {
+        matches!(event, Event::Primitive { primitive, name, .. } if primitive == "reach_avoid" && name == "stop")
+    });
+    assert_eq!(stops.count(), 1);
+    assert!(world.nodes[0].halts > 0);
+}

@@ -1,0 +1,304 @@
+//! Actions with `atomic`: what several robots count together is counted once each, whatever the network does
+//! and whoever crashes; without `atomic` it is not.
+
+use crate::robot_support::{self, World, compile};
+use starl_core::{Agent, Event, Input, Port, Random};
+use starl_lang::machine::Value;
+use starl_lang::robot::Code;
+
+/// Each robot adds one to the sum twenty times.
+const COUNT: &str = r#"
+program Count
+
+allwrite[linearizable] sum: Int = 0
+added: Int = 0
+seen: Int = 0
+blocked: Bool = false
+
+add()
+    pre added < 20
+    eff
+        atomic
+            sum += 1
+            seen = sum
+        added += 1
+
+look()
+    eff blocked = atomic_blocked
+"#;
+
+/// The same without keeping others out.
+const CARELESS: &str = r#"
+program Careless
+
+allwrite sum: Int = 0
+added: Int = 0
+seen: Int = 0
+
+add()
+    pre added < 20
+    eff
+        sum += 1
+        added += 1
+
+look()
+    eff seen = sum
+"#;
+
+fn sum(world: &World, robots: usize, variable: &str) -> i64 {
+    (0..robots).map(|robot| world.int(robot, variable)).sum()
+}
+
+fn most_seen(world: &World, robots: usize) -> i64 {
+    let seen = (0..robots).map(|robot| world.int(robot, "seen"));
+    seen.max().expect("there are robots")
+}
+
+/// The robot has crashed and starts again.
+fn restart(world: &mut World, code: &Code, robot: usize) {
+    let program = Box::new(robot_support::program(code));
+    world.nodes[robot].agent = Agent::new(program, Random::keyed(7, &[robot as u64]));
+    world.feed(robot, &Input::Start);
+}
+
+#[test]
+fn no_increment_is_lost() {
+    let code = compile(COUNT);
+    for seed in 0..30 {
+        let mut world = World::over_bad_network(&code, 4, seed, 200.0);
+        let mut steps = 0;
+        while sum(&world, 4, "added") < 80 {
+            world.step();
+            steps += 1;
+            let (added, seen) = (sum(&world, 4, "added"), most_seen(&world, 4));
+            // What others have seen may be stored and not be known to be.
+            assert!(added <= seen && seen <= added + 3, "seed {seed}");
+            assert!(steps < 10_000, "seed {seed}: {added} were added");
+        }
+        assert_eq!(most_seen(&world, 4), 80, "seed {seed}");
+    }
+}
+
+#[test]
+fn without_atomic_increments_are_lost() {
+    let code = compile(CARELESS);
+    let mut world = World::over_bad_network(&code, 4, 1, 200.0);
+    world.steps(600);
+    assert_eq!(sum(&world, 4, "added"), 80);
+    assert!(most_seen(&world, 4) < 80, "{}", most_seen(&world, 4));
+}
+
+#[test]
+fn partitions_delay_it_are_told_and_lose_nothing() {
+    let code = compile(COUNT);
+    for seed in 0..20 {
+        let mut world = World::over_bad_network(&code, 5, seed, 200.0);
+        let mut random = Random::keyed(seed, &[4]);
+        let mut was_blocked = false;
+        for _ in 0..12 {
+            let side: Vec<bool> = (0..5).map(|_| random.chance(0.5)).collect();
+            let pairs = (0..5).flat_map(|a| (0..5).map(move |b| (a, b)));
+            let cut = pairs.filter(|&(a, b)| side[a as usize] != side[b as usize]);
+            world.cut = cut.collect();
+            for _ in 0..80 {
+                world.step();
+                let (added, seen) = (sum(&world, 5, "added"), most_seen(&world, 5));
+                assert!(added <= seen && seen <= added + 4, "seed {seed}");
+                was_blocked |= (0..5).any(|r| world.get(r, "blocked") == Value::Bool(true));
+            }
+            world.cut.clear();
+            world.steps(30);
+        }
+        assert!(was_blocked, "seed {seed}");
+        let mut steps = 0;
+        while sum(&world, 5, "added") < 100 {
+            world.step();
+            steps += 1;
+            assert!(steps < 10_000, "seed {seed}");
+        }
+        assert_eq!(most_seen(&world, 5), 100, "seed {seed}");
+        world.steps(100);
+        assert!((0..5).all(|r| world.get(r, "blocked") == Value::Bool(false)));
+    }
+}
+
+/// Whether a robot is storing something: what it says of registers ends with an update.
+fn is_storing(world: &World, robot: usize) -> bool {
+    let names = world
+        .events_of(robot as u32)
+        .filter_map(|event| match event {
+            Event::Primitive {
+                primitive, name, ..
+            } if primitive == "register" && name != "up" => Some(name.to_string()),
+            _ => None,
+        });
+    names
+        .last()
+        .is_some_and(|name| name == "update" || name == "no_quorum")
+}
+
+#[test]
+fn what_a_robot_adds_before_it_crashes_counts_once_or_not_at_all() {
+    let code = compile(COUNT);
+    for seed in 0..60 {
+        let mut world = World::over_bad_network(&code, 3, seed, 200.0);
+        let mut random = Random::keyed(seed, &[5]);
+        world.steps(40);
+        // Added in lives that are over.
+        let mut before = 0;
+        // How many of these may not have been stored.
+        let mut uncertain = 0;
+        for _ in 0..10 {
+            let robot = random.below(3) as usize;
+            before += world.int(robot, "added");
+            uncertain += i64::from(is_storing(&world, robot));
+            world.nodes[robot].down = true;
+            world.steps(random.below(20));
+            world.nodes[robot].down = false;
+            restart(&mut world, &code, robot);
+            world.steps(60 + random.below(40));
+        }
+        let mut steps = 0;
+        while sum(&world, 3, "added") < 60 {
+            world.step();
+            steps += 1;
+            assert!(steps < 10_000, "seed {seed}");
+        }
+        let (added, seen) = (before + 60, most_seen(&world, 3));
+        let fits = seen >= added && seen <= added + uncertain;
+        assert!(
+            fits,
+            "seed {seed}: {seen} of {added}, {uncertain} uncertain"
+        );
+    }
+}
+
+#[test]
+fn after_a_corruption_it_goes_on() {
+    let code = compile(COUNT);
+    for seed in 0..40 {
+        let mut world = World::of(&code, 3);
+        world.random = Random::keyed(seed, &[3]);
+        world.steps(30);
+        for robot in 0..3 {
+            let mut random = Random::keyed(seed, &[6, robot as u64]);
+            world.nodes[robot].agent.corrupt(&mut random);
+        }
+        world.steps(600);
+        for robot in 0..3 {
+            // Whatever the numbers are, those that should be added are; overflow ends a program.
+            let is_done = world.nodes[robot].failed.is_some() || world.int(robot, "added") >= 20;
+            assert!(
+                is_done || world.int(robot, "added") < 0,
+                "seed {seed}, robot {robot}"
+            );
+        }
+    }
+}
+
+/// Several variables that actions use together, in different combinations.
+const TRANSFER: &str = r#"
+program Transfer
+
+allwrite[linearizable] left: Int = 1000
+allwrite[linearizable] right: Int = 0
+allwrite[linearizable] other: Int = 0
+moved: Int = 0
+checked: Int = 0
+is_wrong: Bool = false
+
+move()
+    pre moved < 20 and left > 0
+    eff
+        atomic
+            left -= 5
+            right += 5
+        moved += 1
+
+check()
+    pre checked < 20
+    eff
+        atomic
+            is_wrong = is_wrong or left + right != 1000
+        checked += 1
+
+count()
+    pre other < 30
+    eff
+        atomic
+            other += 1
+"#;
+
+#[test]
+fn what_is_written_together_is_seen_together_even_if_robots_crash() {
+    let code = compile(TRANSFER);
+    for seed in 0..20 {
+        let mut world = World::over_bad_network(&code, 3, seed, 200.0);
+        let mut random = Random::keyed(seed, &[5]);
+        world.steps(40);
+        for _ in 0..6 {
+            let robot = random.below(3) as usize;
+            world.nodes[robot].down = true;
+            world.steps(random.below(20));
+            world.nodes[robot].down = false;
+            restart(&mut world, &code, robot);
+            world.steps(60 + random.below(40));
+        }
+        let mut steps = 0;
+        while sum(&world, 3, "checked") < 60 || sum(&world, 3, "moved") < 60 {
+            world.step();
+            steps += 1;
+            assert!(steps < 20_000, "seed {seed}");
+        }
+        for robot in 0..3 {
+            assert_eq!(
+                world.get(robot, "is_wrong"),
+                Value::Bool(false),
+                "seed {seed}"
+            );
+        }
+    }
+}
+
+#[test]
+fn an_action_waits_no_longer_when_its_guard_holds_no_longer() {
+    let source = "program Patient\nallwrite[linearizable] sum: Int = 0\nwants: Bool = true\n\
+                  gave_up: Bool = false\nadd()\n    pre wants\n    eff\n        atomic\n            \
+                  sum += 1\n        wants = false\ngive_up()\n    pre wants and atomic_blocked\n    \
+                  eff wants = false; gave_up = true\n";
+    let mut world = World::of(&compile(source), 3);
+    world.steps(30);
+    assert_eq!(world.get(0, "gave_up"), Value::Bool(false));
+    let mut world = World::of(&compile(source), 3);
+    world.loses = |from, to| from == 0 || to == 0;
+    world.steps(200);
+    assert_eq!(world.get(0, "gave_up"), Value::Bool(true));
+    world.loses = |_, _| false;
+    world.steps(200);
+    assert_eq!(world.get(1, "wants"), Value::Bool(false));
+    assert!(world.nodes.iter().all(|node| node.failed.is_none()));
+}
+
+#[test]
+fn an_action_costs_what_is_documented() {
+    let source = COUNT.replace("pre added < 20", "pre added < 20 and peers.min() == me");
+    for robots in [3, 5] {
+        let mut world = World::of(&compile(&source), robots);
+        while world.int(0, "added") < 20 {
+            let before = (world.int(0, "added"), world.sent.len());
+            world.step();
+            let ports = ["Count/atomic", "Count/linearizable"].map(Port::named);
+            let sent = world.sent[before.1..].iter();
+            let sent = sent.filter(|(_, _, port, _)| ports.contains(port)).count();
+            if before.0 > 0 {
+                // The action is done within one step. Copies may be compared besides.
+                assert_eq!(world.int(0, "added"), before.0 + 1);
+                let count = 3 * robots as usize + 1;
+                assert!(
+                    (count..=count + 4).contains(&sent),
+                    "{robots} robots: {sent}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! What a robot says before it knows the generation counts for none: by the time it arrives the robot may have
+//! restarted, and passed.
+
+use crate::harness::crosser::{Crosser, arrive, barrier, crossings};
+use crate::harness::{Wire, World};
+use starl_core::{Duration, Input, Message, Port, RobotId};
+
+const SECOND: Duration = Duration::from_seconds(1);
+
+fn cross(world: &mut World, robots: &[usize]) {
+    for &robot in robots {
+        world.command(robot, arrive());
+    }
+    world.run_for(SECOND * 10);
+}
+
+#[test]
+fn a_late_question_of_an_earlier_life_is_no_arrival() {
+    let make = Crosser::boxed(None, None);
+    let mut world = World::new(4, 1, Wire::perfect(), None, make);
+    let mut crashes = Vec::new();
+    let mut restart = |world: &mut World| {
+        world.crash(2);
+        crashes.push((world.records.len(), 2));
+        world.start(2);
+    };
+    cross(&mut world, &[0, 1, 2, 3]);
+    cross(&mut world, &[0, 1, 3]);
+
+    // This life hears robot 0 alone, so it does not learn the generation.
+    restart(&mut world);
+    world.wire.cut.extend([(1, 2), (3, 2)]);
+    cross(&mut world, &[2]);
+    world.payloads.clear();
+    world.keep_payloads = true;
+    let port = Port::named("gate");
+    world.time_out(2, port);
+    world.keep_payloads = false;
+    let late = std::mem::take(&mut world.payloads);
+    assert!(!late.is_empty() && barrier(&world, 2).is_waiting());
+
+    // This one passes.
+    restart(&mut world);
+    world.wire.cut.clear();
+    cross(&mut world, &[2]);
+    assert!((0..4).all(|robot| barrier(&world, robot).passed()));
+
+    cross(&mut world, &[0, 1, 3]);
+    let from = RobotId(2);
+    for payload in late {
+        let message = Message {
+            from,
+            port,
+            payload,
+        };
+        for robot in [0, 1, 3] {
+            world.input(robot, &Input::Message(message.clone()));
+        }
+    }
+    world.run_for(SECOND * 10);
+    assert!(
+        [0, 1, 3]
+            .into_iter()
+            .all(|robot| barrier(&world, robot).is_waiting())
+    );
+    cross(&mut world, &[2]);
+    assert!((0..4).all(|robot| barrier(&world, robot).passed()));
+    crossings(&world, &crashes);
+}

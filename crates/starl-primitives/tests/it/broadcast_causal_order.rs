@@ -1,0 +1,156 @@
+//! In causal order a message is handed out after all that comes before it, whatever happens; what will
+//! not come is passed over, and that is on record.
+
+use crate::harness::teller::{
+    Teller, causal_violation, is_fifo, runs, sequences, tell, teller, trouble,
+};
+use crate::harness::{Wire, World, int};
+use starl_core::Duration;
+use starl_core::RobotId;
+use starl_primitives::broadcast::{Gap, Order};
+
+const PERIOD: Duration = Duration::from_millis(100);
+
+fn world(robots: usize, seed: u64, wire: Wire, count: u32) -> World {
+    let make = Teller::boxed(Order::Causal, count, 0.1);
+    World::new(robots, seed, wire, Some(PERIOD), make)
+}
+
+#[test]
+fn all_are_handed_all_messages_after_what_comes_before_them() {
+    for seed in 0..60 {
+        for wire in [Wire::perfect(), Wire::bad()] {
+            for robots in [2, 3, 5] {
+                let mut world = world(robots, seed, wire.clone(), 10);
+                world.run_for(Duration::from_seconds(60));
+                let runs = runs(&world, &[]);
+                assert_eq!(causal_violation(&runs), None, "seed {seed}");
+                for (robot, sequence) in sequences(&runs, seed) {
+                    assert_eq!(sequence.len(), 10 * (robots - 1), "seed {seed}: {robot}");
+                    assert!(is_fifo(&sequence), "seed {seed}: {robot}");
+                }
+                assert!(world.events("pass_over").is_empty(), "seed {seed}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_order_is_kept_under_crashes_and_partitions() {
+    let mut passed_over = 0;
+    for seed in 0..200 {
+        let wire = if seed % 2 == 0 {
+            Wire::perfect()
+        } else {
+            Wire::bad()
+        };
+        let robots = 3 + seed as usize % 3;
+        let mut world = world(robots, seed, wire, 40);
+        let starts = trouble(&mut world, robots, seed, Duration::from_seconds(40));
+        world.run_for(Duration::from_seconds(60));
+        let all = runs(&world, &starts);
+        sequences(&all, seed);
+        assert_eq!(causal_violation(&all), None, "seed {seed}");
+        passed_over += world.events("pass_over").len();
+        // It goes on when all are well.
+        for robot in 0..robots {
+            world.command(robot, tell(1007));
+        }
+        world.run_for(Duration::from_seconds(20));
+        let got = world.events("got");
+        let handed = got.iter().filter(|got| int(&got.2["value"]) == 1007);
+        assert_eq!(handed.count(), robots * (robots - 1), "seed {seed}");
+    }
+    assert!(passed_over > 100, "faults do strike: {passed_over}");
+}
+
+#[test]
+fn an_unordered_broadcast_breaks_it() {
+    let broken = (0..20).filter(|&seed| {
+        let make = Teller::boxed(Order::Fifo, 20, 0.3);
+        let mut world = World::new(3, seed, Wire::bad(), Some(PERIOD), make);
+        world.run_for(Duration::from_seconds(60));
+        causal_violation(&runs(&world, &[])).is_some()
+    });
+    assert_eq!(broken.count(), 20);
+}
+
+/// Robot 0 tells robot 1, which tells robot 2 of it; robot 2 does not hear robot 0.
+fn hearsay(seed: u64) -> World {
+    let mut world = world(3, seed, Wire::perfect(), 0);
+    for robot in 0..3 {
+        world.command(robot, tell(0));
+    }
+    world.run_for(Duration::from_seconds(5));
+    world.wire.cut.insert((0, 2));
+    world.command(0, tell(1));
+    world.run_for(Duration::from_millis(50));
+    world.command(1, tell(2));
+    world.run_for(Duration::from_seconds(1));
+    world
+}
+
+fn told_to_2(world: &World) -> Vec<i64> {
+    let got = world.events("got");
+    let to_2 = got.iter().filter(|got| got.1 == RobotId(2));
+    to_2.map(|got| int(&got.2["value"])).collect()
+}
+
+#[test]
+fn a_message_waits_for_the_one_before_it() {
+    let mut world = hearsay(1);
+    assert_eq!(told_to_2(&world), [0, 0]);
+    world.wire.cut.clear();
+    world.run_for(Duration::from_seconds(3));
+    assert_eq!(told_to_2(&world), [0, 0, 1, 2]);
+}
+
+#[test]
+fn a_message_that_will_not_come_is_passed_over_and_never_handed_out() {
+    let mut world = hearsay(2);
+    world.crash(0);
+    world.run_for(Duration::from_seconds(10));
+    assert_eq!(told_to_2(&world), [0, 0, 2], "its sender is suspected");
+    let passed = world.events("pass_over");
+    assert_eq!(passed.len(), 1);
+    assert_eq!(int(&passed[0].2["number"]), 2);
+
+    let mut world = hearsay(3);
+    world.run_for(Duration::from_seconds(120));
+    assert_eq!(told_to_2(&world), [0, 0, 2], "its sender gave it up");
+    world.wire.cut.clear();
+    world.command(0, tell(3));
+    world.run_for(Duration::from_seconds(5));
+    assert_eq!(told_to_2(&world), [0, 0, 2, 3]);
+}
+
+#[test]
+fn the_program_is_told_of_what_it_misses() {
+    let mut world = hearsay(4);
+    world.crash(0);
+    world.run_for(Duration::from_seconds(10));
+    let mut broadcast = teller(&world, 2).clone();
+    let from = Some(RobotId(0));
+    assert_eq!(broadcast.take_gaps(), [Gap { from }]);
+    assert_eq!(broadcast.take_gaps(), []);
+}
+
+#[test]
+fn who_joins_late_does_not_wait_for_what_was_before() {
+    let mut world = world(3, 5, Wire::perfect(), 0);
+    for value in 0..5 {
+        world.command(0, tell(value));
+        world.run_for(Duration::from_millis(50));
+        world.command(1, tell(value));
+        world.run_for(Duration::from_millis(50));
+    }
+    world.run_for(Duration::from_seconds(5));
+    world.join();
+    world.run_for(Duration::from_seconds(1));
+    world.command(1, tell(9));
+    world.run_for(Duration::from_seconds(2));
+    let got = world.events("got");
+    let (at, robot, fields) = got.last().expect("someone got it");
+    assert_eq!((*robot, int(&fields["value"])), (RobotId(3), 9), "at {at}");
+    assert_eq!(teller(&world, 3).clone().take_gaps(), [], "that is no loss");
+}

@@ -1,0 +1,70 @@
+//! Whatever arrives, and however much is sent, a broadcast in any order keeps little; and garbage does no
+//! harm.
+
+use crate::harness::teller::{Teller, tell, teller};
+use crate::harness::{Wire, World};
+use starl_core::{Duration, Input, Message, Payload, Port, Random, RobotId};
+use starl_primitives::broadcast::Order;
+
+fn size(world: &World, robot: usize) -> usize {
+    format!("{:?}", teller(world, robot)).len()
+}
+
+#[test]
+fn memory_does_not_grow_with_what_was_sent() {
+    for order in [Order::Causal, Order::Total] {
+        let make = Teller::boxed(order, 0, 0.0);
+        let mut world = World::new(3, 1, Wire::perfect(), None, make);
+        world.run_for(Duration::from_seconds(5));
+        let mut after = Vec::new();
+        for round in 0..3 {
+            for value in 0..1000 {
+                world.command(value as usize % 3, tell(value));
+                world.run_for(Duration::from_millis(5));
+            }
+            // One is down for good.
+            if round == 0 {
+                world.crash(2);
+            }
+            world.run_for(Duration::from_seconds(60));
+            after.push(size(&world, 0));
+        }
+        assert!(after[2] <= after[1] + 100, "{order:?}: {after:?}");
+    }
+}
+
+#[test]
+fn garbage_is_borne() {
+    for order in [Order::Fifo, Order::Causal, Order::Total] {
+        for seed in 0..20 {
+            let make = Teller::boxed(order, 20, 0.2);
+            let wire = Wire::bad();
+            let mut world = World::new(3, seed, wire, Some(Duration::from_millis(100)), make);
+            world.keep_payloads = true;
+            world.run_for(Duration::from_seconds(10));
+            let mut random = Random::keyed(seed, &[5]);
+            let genuine = world.payloads.clone();
+            let calm = size(&world, 0);
+            for _ in 0..3000 {
+                let pick = random.below(genuine.len() as u32) as usize;
+                let mut bytes: Payload = genuine[pick].clone();
+                for _ in 0..=random.below(3) {
+                    let at = random.below(bytes.len() as u32) as usize;
+                    bytes[at] = random.bits() as u8;
+                }
+                if random.chance(0.2) {
+                    bytes.truncate(random.below(30) as usize);
+                }
+                let message = Message {
+                    from: RobotId(random.below(5)),
+                    port: Port::named("news"),
+                    payload: bytes,
+                };
+                world.input(0, &Input::Message(message));
+            }
+            let size = size(&world, 0);
+            assert!(size < calm + 100_000, "{order:?}, seed {seed}: {size}");
+            world.run_for(Duration::from_seconds(30));
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! What a robot that restarts has to go through before it votes again, and why: each part of it, left out, would
+//! let two robots lead at once or epochs go back.
+
+use crate::harness::elector::{ELECT, Elector, RESIGN, agreed, by, judge};
+use crate::harness::{Wire, World};
+use starl_core::Duration;
+use starl_primitives::election::{Algorithm, Options};
+
+const SECOND: Duration = Duration::from_seconds(1);
+
+/// Of three robots one hears nothing any more, while the other two elect anew. Then the one that voted restarts,
+/// and is linked with the third alone: these two are a majority.
+fn voter_changes_sides(seed: u64, options: Options) -> (World, Vec<(usize, u32)>) {
+    let make = Elector::eager(options);
+    let mut world = World::new(3, seed, Wire::perfect(), None, make);
+    world.run_for(SECOND * 10);
+    let leader = agreed(&world, &[0, 1, 2]).expect("a leader");
+    let (voter, third) = ((leader + 1) % 3, (leader + 2) % 3);
+    // The third robot's clock stands still, as it were: its epochs would be earlier ones.
+    for robot in [leader, voter] {
+        world.clocks_ahead.insert(robot, 3_600_000_000_000);
+        world.wire.cut.extend([(robot, third), (third, robot)]);
+    }
+    world.command(leader as usize, RESIGN);
+    world.command(leader as usize, ELECT);
+    world.run_for(SECOND * 10);
+    let leader = agreed(&world, &[leader as usize, voter as usize]).expect("a leader");
+    let voter = 3 - third - leader;
+    let crashes = vec![(world.records.len(), voter)];
+    world.crash(voter as usize);
+    world.start(voter as usize);
+    world.wire.cut.clear();
+    for robot in [voter, third] {
+        world.wire.cut.extend([(robot, leader), (leader, robot)]);
+    }
+    (world, crashes)
+}
+
+/// The voter may not help the third robot to lead before it knows from the leader what it had promised: nobody
+/// leads until the three are linked.
+#[test]
+fn a_voter_that_forgot_does_not_help_another_to_an_earlier_epoch() {
+    for seed in 0..100 {
+        let (mut world, crashes) = voter_changes_sides(seed, by(Algorithm::Leases));
+        world.run_for(SECOND * 30);
+        let led = judge(&world, &crashes).len();
+        assert_eq!(led, 2, "seed {seed}");
+        world.wire.cut.clear();
+        world.run_for(SECOND * 10);
+        assert!(agreed(&world, &[0, 1, 2]).is_some());
+        assert!(judge(&world, &crashes).len() > led);
+    }
+}

@@ -1,0 +1,269 @@
+//! A program that asks for resources, uses them for a while and gives them back, again and again; and
+//! what its events say of who held what when.
+
+use super::World;
+use starl_core::event::Name;
+use starl_core::{
+    Duration, Event, Primitive, Program, Random, Robot, RobotId, Time, TimerKey, Value, timers,
+};
+use starl_primitives::mutex::{Algorithm, Options, Resources};
+use starl_primitives::{FailureDetector, Mutex, failure_detector};
+use std::any::Any;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The resources that there are.
+pub const RESOURCES: [&str; 4] = ["a", "b", "c", "d"];
+
+#[derive(Clone)]
+pub struct Locker {
+    pub mutex: Mutex,
+    detector: FailureDetector,
+    has_detector: bool,
+    /// Whether it asks by itself.
+    is_busy: bool,
+    /// When it gives back the next resource.
+    next_release: Option<Time>,
+    /// When it asks again.
+    next_request: Time,
+}
+
+/// All ways to agree on who has what.
+pub const ALGORITHMS: [Algorithm; 3] = [Algorithm::Permission, Algorithm::Quorum, Algorithm::Lease];
+
+impl Locker {
+    /// Robots that ask by themselves, at random, if they are busy.
+    pub fn boxed(algorithm: Algorithm, is_busy: bool) -> impl Fn() -> Box<dyn Program> {
+        Locker::made(algorithm, is_busy, true)
+    }
+
+    /// Robots that ask when they are told to, and have nothing but the mutex.
+    #[allow(dead_code, reason = "the benchmarks use it")]
+    pub fn bare(algorithm: Algorithm) -> impl Fn() -> Box<dyn Program> {
+        Locker::made(algorithm, false, false)
+    }
+
+    fn made(
+        algorithm: Algorithm,
+        is_busy: bool,
+        has_detector: bool,
+    ) -> impl Fn() -> Box<dyn Program> {
+        move || {
+            let options = Options {
+                algorithm,
+                ..Options::default()
+            };
+            Box::new(Locker {
+                mutex: Mutex::new("lock", None, options),
+                detector: FailureDetector::new("watch", failure_detector::Options::default()),
+                has_detector,
+                is_busy,
+                next_release: None,
+                next_request: Time::ZERO,
+            })
+        }
+    }
+}
+
+/// The set of these.
+pub fn set(resources: &[&str]) -> Resources {
+    resources.iter().map(|&resource| resource.into()).collect()
+}
+
+/// The resources with the bits of this number.
+fn numbered(bits: u32) -> Resources {
+    let chosen = RESOURCES.iter().enumerate();
+    let chosen = chosen.filter(|(index, _)| bits >> index & 1 == 1);
+    chosen.map(|(_, &resource)| resource.into()).collect()
+}
+
+timers! {
+    /// Sets are the bits of numbers.
+    pub enum Command {
+        Acquire(u32),
+        Release(u32),
+        AskOnly(u32),
+    }
+}
+
+fn bits(resources: &[&str]) -> u32 {
+    let bit = |resource: &&str| RESOURCES.iter().position(|name| name == resource);
+    resources.iter().filter_map(bit).map(|bit| 1 << bit).sum()
+}
+
+/// Tells a robot to ask for these.
+pub fn acquire(resources: &[&str]) -> Command {
+    Command::Acquire(bits(resources))
+}
+
+/// Tells a robot to give these back.
+pub fn release(resources: &[&str]) -> Command {
+    Command::Release(bits(resources))
+}
+
+/// Tells a robot whom to ask from its next request on.
+pub fn ask_only(robots: &[u32]) -> Command {
+    Command::AskOnly(robots.iter().map(|robot| 1 << robot).sum())
+}
+
+fn pause(random: &mut Random) -> Duration {
+    Duration::from_millis(u64::from(random.below(1500)))
+}
+
+impl Program for Locker {
+    fn activate(&mut self, robot: &mut Robot<'_>) {
+        if !self.is_busy {
+            return;
+        }
+        let now = robot.now();
+        if !self.mutex.held().is_empty() {
+            let due = *self
+                .next_release
+                .get_or_insert_with(|| now + pause(robot.random()));
+            if now >= due {
+                let count = self.mutex.held().len() as u32;
+                let first = robot.random().below(count) as usize;
+                let some = self.mutex.held().iter().skip(first).cloned().collect();
+                self.mutex.release(robot, &some);
+                self.next_release = None;
+                self.next_request = now + pause(robot.random());
+            }
+        } else if !self.mutex.is_waiting() && now >= self.next_request {
+            self.next_release = None;
+            let wanted = numbered(1 + robot.random().below(15));
+            self.mutex.acquire(robot, wanted).expect("it holds nothing");
+        }
+    }
+
+    fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
+        match key.read().expect("a command") {
+            Command::Acquire(bits) => {
+                let acquired = self.mutex.acquire(robot, numbered(bits));
+                acquired.expect("it holds nothing");
+            }
+            Command::Release(bits) => self.mutex.release(robot, &numbered(bits)),
+            Command::AskOnly(bits) => {
+                let robots = (0..32).filter(|robot| bits >> robot & 1 == 1);
+                let participants = robots.map(RobotId).collect();
+                self.mutex.set_participants(Some(participants));
+            }
+        }
+    }
+
+    fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
+        if self.has_detector {
+            visit(&mut self.detector);
+        }
+        visit(&mut self.mutex);
+    }
+
+    fn corrupt(&mut self, random: &mut Random) {
+        self.mutex.corrupt(random, &set(&RESOURCES));
+    }
+
+    fn inspect(&self) -> Option<&dyn Any> {
+        Some(self)
+    }
+}
+
+/// Robots asked by an entry besides oneself, on average: for quorums the robot's row and column in a grid.
+pub fn asked(algorithm: Algorithm, count: usize) -> f64 {
+    if algorithm != Algorithm::Quorum {
+        return (count - 1) as f64;
+    }
+    let root = (count as f64).sqrt().ceil() as usize;
+    let columns = if count < 4 { root } else { root.min(count / 2) };
+    let heights = (0..columns).map(|column| (count - column).div_ceil(columns));
+    let sizes = heights.map(|height| height * (height + columns - 2));
+    sizes.sum::<usize>() as f64 / count as f64
+}
+
+/// The mutex of a robot that is up.
+pub fn mutex(world: &World, robot: usize) -> &Mutex {
+    &world.inspect::<Locker>(robot).mutex
+}
+
+/// Judges a run by its events: at no time two robots hold the same resource, and the numbers of those who
+/// hold it grow if they have any. Crashes are given, since they leave no event. Gives how many requests each
+/// robot was granted.
+pub fn entries(world: &World, crashes: &[(Time, u32)]) -> BTreeMap<u32, usize> {
+    let mut holders: BTreeMap<String, u32> = BTreeMap::new();
+    let mut numbers: BTreeMap<String, i64> = BTreeMap::new();
+    let mut entries: BTreeMap<u32, BTreeSet<Time>> = BTreeMap::new();
+    let mut crashes = crashes.iter().copied().peekable();
+    for (at, RobotId(robot), event) in &world.records {
+        while let Some((_, crashed)) = crashes.next_if(|(time, _)| time < at) {
+            holders.retain(|_, holder| *holder != crashed);
+        }
+        let Event::Primitive {
+            primitive,
+            name,
+            fields,
+            ..
+        } = event
+        else {
+            continue;
+        };
+        if primitive != "mutex" {
+            continue;
+        }
+        let Some((Name::Borrowed("resource"), Value::Text(resource))) = fields.first() else {
+            panic!("{name} has no resource");
+        };
+        match &**name {
+            "enter" => {
+                let before = holders.insert(resource.to_string(), *robot);
+                assert_eq!(before, None, "{robot} enters {resource} at {at:?}");
+                if let Some((Name::Borrowed("fencing"), Value::Int(number))) = fields.get(1) {
+                    let before = numbers.insert(resource.to_string(), *number);
+                    assert!(
+                        before < Some(*number),
+                        "{robot} enters {resource} with {number} after {before:?}"
+                    );
+                }
+                entries.entry(*robot).or_default().insert(*at);
+            }
+            "release" | "expire" => {
+                let before = holders.remove(&**resource);
+                assert_eq!(
+                    before,
+                    Some(*robot),
+                    "{robot} releases {resource} at {at:?}"
+                );
+            }
+            _ => {}
+        }
+    }
+    let counted = entries
+        .into_iter()
+        .map(|(robot, times)| (robot, times.len()));
+    counted.collect()
+}
+
+/// Judges only the numbers of a run by its events: no resource is entered with the same number twice. Gives how
+/// often two robots held one resource at once.
+pub fn numbers(world: &World) -> usize {
+    let mut numbers: BTreeSet<(String, i64)> = BTreeSet::new();
+    let mut holders: BTreeMap<String, BTreeSet<u32>> = BTreeMap::new();
+    let mut at_once = 0;
+    for (at, RobotId(robot), event) in &world.records {
+        let Event::Primitive { name, fields, .. } = event else {
+            continue;
+        };
+        let Some((Name::Borrowed("resource"), Value::Text(resource))) = fields.first() else {
+            continue;
+        };
+        let holders = holders.entry(resource.to_string()).or_default();
+        if let (Some((_, Value::Int(number))), "enter") = (fields.get(1), &**name) {
+            let is_new = numbers.insert((resource.to_string(), *number));
+            assert!(
+                is_new,
+                "{robot} enters {resource} with {number} at {at:?}, as one before"
+            );
+            holders.insert(*robot);
+            at_once += usize::from(holders.len() > 1);
+        } else {
+            holders.remove(robot);
+        }
+    }
+    at_once
+}

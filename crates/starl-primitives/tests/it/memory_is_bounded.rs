@@ -1,0 +1,163 @@
+//! However much is sent, lost and repeated, and whatever else arrives, a robot keeps little.
+
+use starl_core::effect::Effects;
+use starl_core::motion::{Body, Obstacles, Workspace};
+use starl_core::{
+    Effect, Estimate, Input, Message, Payload, Port, Random, Robot, RobotId, Sensors, Time, View,
+};
+use starl_primitives::reliable::{Notice, Options, Reliable};
+
+const PORT: Port = Port::named("memory");
+const FLEET: [RobotId; 2] = [RobotId(0), RobotId(1)];
+
+/// Runs `act` on an end of the protocol at robot `id`; what it transmits is returned.
+fn with<T>(
+    id: u32,
+    random: &mut Random,
+    act: impl FnOnce(&mut Robot<'_>) -> T,
+) -> (T, Vec<Payload>) {
+    let obstacles: Obstacles = [].into();
+    let view = View {
+        id: RobotId(id),
+        now: Time::ZERO,
+        estimate: Estimate::default(),
+        body: Body {
+            radius: 0.1,
+            height: 0.1,
+            workspace: Workspace::Ground,
+        },
+        sensors: Sensors::default(),
+        fleet: &FLEET,
+        way_points: &[],
+        obstacles: &obstacles,
+    };
+    let mut effects = Effects::default();
+    let result = act(&mut Robot::new(&view, &mut effects, random));
+    let transmitted = effects.list.into_iter().filter_map(|effect| match effect {
+        Effect::Transmit { payload, .. } => Some(payload),
+        _ => None,
+    });
+    (result, transmitted.collect())
+}
+
+fn message(from: u32, payload: Payload) -> Input {
+    Input::Message(Message {
+        from: RobotId(from),
+        port: PORT,
+        payload,
+    })
+}
+
+fn size(end: &Reliable) -> usize {
+    format!("{end:?}").len()
+}
+
+#[test]
+fn gaps_and_messages_held_back_are_limited() {
+    for first_in_first_out in [false, true] {
+        let options = Options {
+            first_in_first_out,
+            most_gaps: 8,
+            ..Options::default()
+        };
+        let mut random = Random::keyed(1, &[]);
+        let mut sender = Reliable::new(
+            PORT,
+            Options {
+                most_outstanding: 5000,
+                ..options
+            },
+        );
+        let mut receiver = Reliable::new(PORT, options);
+        let mut after_100 = 0;
+        let mut taken = 0;
+        for number in 0..4000 {
+            let content = Payload::from_slice(&[7; 20]);
+            let (_, sent) = with(0, &mut random, |robot| {
+                sender.send(robot, RobotId(1), content)
+            });
+            // Every other datagram is lost for good.
+            if number % 2 == 1 {
+                let input = message(0, sent[0].clone());
+                let (notices, acknowledged) =
+                    with(1, &mut random, |robot| receiver.handle(robot, &input));
+                taken += notices.len();
+                assert_eq!(
+                    notices.len(),
+                    acknowledged.len(),
+                    "what is not taken is not acknowledged"
+                );
+            }
+            if number == 100 {
+                after_100 = size(&receiver);
+            }
+        }
+        assert!(
+            size(&receiver) <= after_100 + 50,
+            "{} and {after_100}",
+            size(&receiver)
+        );
+        assert_eq!(taken, if first_in_first_out { 0 } else { 8 });
+    }
+}
+
+#[test]
+fn settled_messages_leave_nothing_behind() {
+    let mut random = Random::keyed(1, &[]);
+    let mut sender = Reliable::new(PORT, Options::default());
+    let mut receiver = Reliable::new(PORT, Options::default());
+    let mut after_10 = (0, 0);
+    for number in 1..=3000 {
+        let content = Payload::from_slice(&[7; 20]);
+        let ((id, _), sent) = with(0, &mut random, |robot| {
+            sender.send_to_all(robot, [RobotId(1)], content)
+        });
+        let input = message(0, sent[0].clone());
+        let (_, acknowledgement) = with(1, &mut random, |robot| receiver.handle(robot, &input));
+        assert_eq!(acknowledgement.len(), 1);
+        assert!(acknowledgement[0].len() <= 9, "acknowledgements are small");
+        let input = message(1, acknowledgement[0].clone());
+        let (notices, _) = with(0, &mut random, |robot| sender.handle(robot, &input));
+        assert_eq!(notices[0], Notice::Acknowledged(id));
+        assert!(!sender.is_outstanding(id));
+        if number == 10 {
+            after_10 = (size(&sender), size(&receiver));
+        }
+    }
+    assert!(
+        size(&sender) <= after_10.0 + 10,
+        "a counter has grown by two digits"
+    );
+    assert!(size(&receiver) <= after_10.1 + 10);
+}
+
+#[test]
+fn garbage_does_no_harm() {
+    let mut random = Random::keyed(1, &[]);
+    let mut receiver = Reliable::new(PORT, Options::default());
+    let mut garbage = Random::keyed(2, &[]);
+    let mut sender = Reliable::new(PORT, Options::default());
+    let content = Payload::from_slice(b"content");
+    let (_, genuine) = with(0, &mut random, |robot| {
+        sender.send_to_all(robot, FLEET, content)
+    });
+    let mut arrived = 0;
+    for _ in 0..20_000 {
+        let mut bytes = genuine[0].clone();
+        for _ in 0..=garbage.below(3) {
+            let at = garbage.below(bytes.len() as u32) as usize;
+            bytes[at] = garbage.bits() as u8;
+        }
+        bytes.truncate(1 + garbage.below(20) as usize);
+        let from = garbage.below(4);
+        let input = message(from, bytes);
+        let (notices, _) = with(1, &mut random, |robot| receiver.handle(robot, &input));
+        assert!(
+            from == 0 || notices.is_empty(),
+            "only the other robot of the fleet is heard"
+        );
+        arrived += notices.len();
+    }
+    assert!(arrived > 0, "some of it looks like messages");
+    assert!(size(&receiver) < 5_000, "{}", size(&receiver));
+}

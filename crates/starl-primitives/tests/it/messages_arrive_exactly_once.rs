@@ -1,0 +1,109 @@
+//! Under loss, duplication and reordering every message reaches every receiver exactly once.
+
+use crate::harness::talker::{Talker, broadcast, geocast, unicast};
+use crate::harness::{Wire, World};
+use starl_core::Duration;
+use starl_primitives::reliable::Options;
+use std::collections::BTreeMap;
+
+const ROBOTS: u32 = 4;
+const MESSAGES: u32 = 15;
+
+/// Everyone broadcasts, geocasts and sends to the next robot, all at once.
+fn chatter(seed: u64, options: Options) -> World {
+    let mut world = World::new(
+        ROBOTS as usize,
+        seed,
+        Wire::bad(),
+        None,
+        Talker::boxed(options),
+    );
+    for message in 0..MESSAGES {
+        for robot in 0..ROBOTS {
+            let at = robot as usize;
+            world.command(at, broadcast(message));
+            world.command(at, geocast(1000 + message));
+            world.command(at, unicast(((robot + 1) % ROBOTS) as u8, 2000 + message));
+        }
+        world.run_for(Duration::from_millis(70));
+    }
+    world.run_for(options.failure_bound() + Duration::from_seconds(1));
+    world
+}
+
+fn expected() -> BTreeMap<(u32, u32, i64), u32> {
+    let mut expected = BTreeMap::new();
+    for from in 0..ROBOTS {
+        for to in (0..ROBOTS).filter(|&to| to != from) {
+            for message in 0..i64::from(MESSAGES) {
+                expected.insert((from, to, message), 1);
+                expected.insert((from, to, 1000 + message), 1);
+                if to == (from + 1) % ROBOTS {
+                    expected.insert((from, to, 2000 + message), 1);
+                }
+            }
+        }
+    }
+    expected
+}
+
+fn check(seed: u64, options: Options) {
+    let world = chatter(seed, options);
+    let mut counted = BTreeMap::new();
+    for received in world.received() {
+        *counted.entry(received).or_insert(0) += 1;
+    }
+    assert_eq!(counted, expected(), "seed {seed}");
+    assert_eq!(world.events("fail"), [], "seed {seed}");
+    let settled = (ROBOTS * MESSAGES * 3) as usize;
+    assert_eq!(world.events("acknowledged").len(), settled, "seed {seed}");
+    for robot in 0..ROBOTS as usize {
+        assert_eq!(world.timers(robot), 0, "seed {seed}: nothing is left to do");
+    }
+}
+
+#[test]
+fn in_any_order() {
+    for seed in 0..40 {
+        check(seed, Options::default());
+    }
+}
+
+#[test]
+fn in_order() {
+    for seed in 0..40 {
+        check(
+            seed,
+            Options {
+                first_in_first_out: true,
+                ..Options::default()
+            },
+        );
+    }
+}
+
+#[test]
+fn with_hardly_any_memory() {
+    // What a receiver has no room for is repeated, so more retries are needed.
+    for seed in 0..20 {
+        let first_in_first_out = seed % 2 == 0;
+        check(
+            seed,
+            Options {
+                most_gaps: 1,
+                retries: 60,
+                first_in_first_out,
+                ..Options::default()
+            },
+        );
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_run() {
+    let first = chatter(7, Options::default());
+    let second = chatter(7, Options::default());
+    let other = chatter(8, Options::default());
+    assert_eq!(first.records, second.records);
+    assert_ne!(first.records, other.records);
+}

@@ -1,0 +1,194 @@
+//! With leases a holder may die: others get what it held when its lease ends, with a greater number. Clocks may
+//! run wrong within the bound; beyond it two robots may hold the same, and their numbers tell them apart.
+
+use crate::harness::locker::{Locker, RESOURCES, acquire, entries, mutex, numbers, release, set};
+use crate::harness::{Wire, World};
+use starl_core::{Duration, Random};
+use starl_primitives::mutex::Algorithm;
+
+const SECOND: Duration = Duration::from_seconds(1);
+const PERIOD: Option<Duration> = Some(Duration::from_millis(100));
+
+fn world(count: usize, seed: u64, wire: Wire, is_busy: bool) -> World {
+    let boxed = Locker::boxed(Algorithm::Lease, is_busy);
+    World::new(count, seed, wire, PERIOD, boxed)
+}
+
+fn calm(count: usize) -> World {
+    let mut world = world(count, 1, Wire::perfect(), false);
+    world.run_for(SECOND * 5);
+    world
+}
+
+#[test]
+fn what_a_dead_robot_held_is_free_after_its_lease() {
+    let mut world = calm(4);
+    world.command(3, acquire(&["a", "b"]));
+    world.run_for(SECOND * 30);
+    let first = mutex(&world, 3).fencing();
+    assert!(first.is_some());
+    world.crash(3);
+    world.command(0, acquire(&["b", "c"]));
+    world.run_for(Duration::from_millis(1500));
+    assert!(!mutex(&world, 0).crit());
+    world.run_for(Duration::from_millis(1500));
+    assert!(mutex(&world, 0).holds(&set(&["b", "c"])));
+    assert!(mutex(&world, 0).fencing() > first);
+    assert!(!mutex(&world, 0).failed());
+}
+
+#[test]
+fn a_holder_that_is_cut_off_knows_when_its_lease_has_ended() {
+    let mut world = calm(4);
+    world.command(3, acquire(&["a"]));
+    world.run_for(SECOND);
+    world.command(0, acquire(&["a"]));
+    world.wire.cut = (0..3).flat_map(|robot| [(robot, 3), (3, robot)]).collect();
+    let mut last_held = None;
+    for step in 0..5000 {
+        world.run_for(Duration::from_millis(1));
+        let both = mutex(&world, 3).crit() && mutex(&world, 0).crit();
+        assert!(!both);
+        if mutex(&world, 3).crit() {
+            last_held = Some(step);
+        }
+    }
+    assert!(
+        last_held > Some(1000) && last_held < Some(2000),
+        "{last_held:?}"
+    );
+    assert!(mutex(&world, 0).crit());
+    assert!(mutex(&world, 3).fencing().is_none() && !mutex(&world, 3).holds(&set(&["a"])));
+}
+
+#[test]
+fn nobody_waits_for_a_lease_where_all_arbiters_hear_of_each_other() {
+    let mut world = world(3, 1, Wire::perfect(), false);
+    world.run_for(SECOND / 5);
+    world.command(0, acquire(&["a"]));
+    world.run_for(SECOND / 5);
+    let first = mutex(&world, 0).fencing();
+    assert!(first.is_some());
+    // Both others have forgotten what they granted.
+    for robot in [1, 2] {
+        world.crash(robot);
+        world.run_for(Duration::from_millis(10));
+        world.start(robot);
+    }
+    world.command(1, acquire(&["a"]));
+    world.command(2, acquire(&["b"]));
+    world.run_for(SECOND / 5);
+    assert!(mutex(&world, 0).crit() && !mutex(&world, 1).crit());
+    assert!(mutex(&world, 2).crit());
+    world.command(0, release(&["a"]));
+    world.run_for(SECOND / 5);
+    assert!(mutex(&world, 1).crit() && mutex(&world, 1).fencing() > first);
+}
+
+#[test]
+fn numbers_grow_though_those_who_forgot_them_have_clocks_that_differ() {
+    let mut world = world(3, 1, Wire::perfect(), false);
+    world.clocks_ahead.insert(1, 3_600_000_000_000);
+    world.run_for(SECOND / 5);
+    world.command(0, acquire(&["a"]));
+    world.run_for(SECOND / 5);
+    let first = mutex(&world, 0).fencing();
+    world.command(0, release(&["a"]));
+    world.run_for(SECOND / 5);
+    for robot in [0, 1, 2] {
+        world.crash(robot);
+    }
+    world.run_for(Duration::from_millis(10));
+    for robot in [0, 1, 2] {
+        world.start(robot);
+    }
+    world.run_for(SECOND / 5);
+    world.command(2, acquire(&["a"]));
+    world.run_for(SECOND / 5);
+    assert!(first.is_some() && mutex(&world, 2).fencing() > first);
+}
+
+#[test]
+fn a_minority_waits_and_says_so() {
+    let mut world = calm(5);
+    world.run_for(SECOND * 20);
+    for robot in [2, 3, 4] {
+        world.crash(robot);
+    }
+    world.run_for(SECOND * 5);
+    world.command(0, acquire(&["a"]));
+    world.run_for(SECOND * 5);
+    assert!(!mutex(&world, 0).crit() && mutex(&world, 0).failed());
+    world.start(2);
+    // It is silent for a lease, and so few remember that it waits for another.
+    world.run_for(SECOND * 8);
+    assert!(mutex(&world, 0).crit());
+}
+
+#[test]
+fn clocks_that_run_wrong_within_the_bound_do_not_matter() {
+    for seed in 0..30 {
+        let mut random = Random::keyed(seed, &[5]);
+        let mut world = world(5, seed, Wire::bad(), true);
+        for robot in 0..5 {
+            world
+                .clocks_drift
+                .insert(robot, random.between(-0.01, 0.01));
+            world.clocks_ahead.insert(robot, i64::from(random.bits()));
+        }
+        let mut crashes = Vec::new();
+        for _ in 0..20 {
+            world.run_for(Duration::from_millis(u64::from(random.below(6000))));
+            let robot = random.below(5);
+            world.crash(robot as usize);
+            crashes.push((world.now, robot));
+            world.run_for(Duration::from_millis(u64::from(random.below(4000))));
+            world.start(robot as usize);
+        }
+        world.run_for(SECOND * 60);
+        let entries = entries(&world, &crashes);
+        assert!(
+            entries.values().sum::<usize>() >= 10,
+            "seed {seed}: {entries:?}"
+        );
+    }
+}
+
+#[test]
+fn no_two_have_the_same_number_however_wrong_clocks_run() {
+    let mut at_once = 0;
+    for seed in 0..30 {
+        let mut random = Random::keyed(seed, &[6]);
+        let mut world = world(5, seed, Wire::bad(), true);
+        for robot in 0..5 {
+            world.clocks_drift.insert(robot, random.between(-0.9, 3.0));
+        }
+        for _ in 0..20 {
+            let (one, other) = (random.below(5), random.below(5));
+            world.wire.cut = [(one, other), (other, one)].into();
+            world.run_for(Duration::from_millis(u64::from(random.below(8000))));
+        }
+        at_once += numbers(&world);
+    }
+    // Otherwise this would show nothing.
+    assert!(at_once > 0);
+}
+
+#[test]
+fn a_renewed_lease_lasts_as_long_as_it_is_used() {
+    let mut world = calm(3);
+    world.command(1, acquire(&RESOURCES));
+    world.run_for(SECOND);
+    let number = mutex(&world, 1).fencing();
+    for _ in 0..100 {
+        world.run_for(SECOND);
+        assert!(mutex(&world, 1).holds(&set(&RESOURCES)));
+        assert_eq!(mutex(&world, 1).fencing(), number);
+    }
+    world.command(1, release(&["a"]));
+    world.run_for(SECOND * 10);
+    assert_eq!(mutex(&world, 1).held(), &set(&["b", "c", "d"]));
+    world.command(0, acquire(&["a"]));
+    world.run_for(SECOND);
+    assert!(mutex(&world, 0).crit());
+}

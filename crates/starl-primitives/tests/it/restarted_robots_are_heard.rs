@@ -1,0 +1,77 @@
+//! A robot that restarts counts from one again; its messages are not taken for duplicates of those it
+//! sent before the crash, and late copies of those are not taken for new ones.
+
+use crate::harness::talker::{Talker, broadcast};
+use crate::harness::{Wire, World};
+use starl_core::Duration;
+use starl_primitives::reliable::Options;
+use std::collections::BTreeSet;
+
+#[test]
+fn a_restarted_sender_is_heard() {
+    for in_order in [false, true] {
+        for seed in 0..40 {
+            let options = Options {
+                first_in_first_out: in_order,
+                ..Options::default()
+            };
+            let mut world = World::new(3, seed, Wire::bad(), None, Talker::boxed(options));
+            let mut value = 0;
+            for _life in 0..3 {
+                for _ in 0..5 {
+                    value += 1;
+                    world.command(0, broadcast(value));
+                    world.run_for(Duration::from_millis(30));
+                }
+                if value < 15 {
+                    // With the same random stream as before: only the clock tells the lives apart.
+                    world.crash(0);
+                    world.start(0);
+                }
+            }
+            world.run_for(Duration::from_seconds(60));
+            let received = world.received();
+            let distinct: BTreeSet<_> = received.iter().collect();
+            assert_eq!(
+                distinct.len(),
+                received.len(),
+                "seed {seed}: nothing comes twice"
+            );
+            for to in [1, 2] {
+                for value in 11..=15 {
+                    assert!(
+                        received.contains(&(0, to, value)),
+                        "seed {seed}: {value} to {to}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_restarted_receiver_takes_what_is_on_its_way_and_what_comes() {
+    for in_order in [false, true] {
+        let options = Options {
+            first_in_first_out: in_order,
+            ..Options::default()
+        };
+        let mut world = World::new(2, 3, Wire::perfect(), None, Talker::boxed(options));
+        world.command(0, broadcast(1));
+        world.run_for(Duration::from_seconds(1));
+        world.crash(1);
+        world.command(0, broadcast(2));
+        world.command(0, broadcast(3));
+        world.run_for(Duration::from_seconds(2));
+        world.start(1);
+        world.run_for(Duration::from_seconds(5));
+        world.command(0, broadcast(4));
+        world.run_for(Duration::from_seconds(5));
+        let mut received = world.received();
+        if !in_order {
+            received.sort_unstable();
+        }
+        assert_eq!(received, [(0, 1, 1), (0, 1, 2), (0, 1, 3), (0, 1, 4)]);
+        assert_eq!(world.events("fail"), []);
+    }
+}

@@ -1,0 +1,74 @@
+//! Parts of a fleet that were apart come to one memory when they are linked again.
+
+use crate::harness::sharer::{Sharer, all, read, write, write_own};
+use crate::harness::{Wire, World};
+use starl_core::Duration;
+use starl_primitives::shared_memory::Options;
+
+const ROBOTS: u32 = 8;
+
+/// The first half and the second do not hear each other.
+fn cut(world: &mut World) {
+    for one in 0..ROBOTS / 2 {
+        for other in ROBOTS / 2..ROBOTS {
+            world.wire.cut.insert((one, other));
+            world.wire.cut.insert((other, one));
+        }
+    }
+}
+
+fn partitioned(seed: u64, wire: Wire) -> World {
+    let make = Sharer::boxed(Options::default());
+    let mut world = World::new(ROBOTS as usize, seed, wire, None, make);
+    world.command(0, write(0, 1));
+    world.run_for(Duration::from_seconds(20));
+    cut(&mut world);
+    world.command(0, write(0, 2));
+    world.run_for(Duration::from_millis(10));
+    world.command(7, write(0, 3));
+    for robot in 0..ROBOTS {
+        world.command(robot as usize, write_own(0, 100 + robot));
+    }
+    world.run_for(Duration::from_seconds(60));
+    world
+}
+
+#[test]
+fn each_part_goes_on_by_itself() {
+    let world = partitioned(1, Wire::perfect());
+    for robot in 0..ROBOTS as usize {
+        let second = robot >= ROBOTS as usize / 2;
+        assert_eq!(read(&world, robot, 0), Some(if second { 3 } else { 2 }));
+        assert_eq!(all(&world, robot, 0).len(), ROBOTS as usize / 2);
+    }
+}
+
+#[test]
+fn the_parts_become_one() {
+    for seed in 0..20 {
+        for wire in [Wire::perfect(), Wire::bad()] {
+            let mut world = partitioned(seed, wire);
+            world.wire.cut.clear();
+            world.run_for(Duration::from_seconds(20));
+            let everyone: Vec<_> = (0..ROBOTS).map(|robot| (robot, 100 + robot)).collect();
+            for robot in 0..ROBOTS as usize {
+                assert_eq!(read(&world, robot, 0), Some(3), "seed {seed}");
+                assert_eq!(all(&world, robot, 0), everyone, "seed {seed}");
+            }
+        }
+    }
+}
+
+#[test]
+fn one_link_between_the_parts_is_enough() {
+    for seed in 0..20 {
+        let mut world = partitioned(seed, Wire::perfect());
+        world.wire.cut.remove(&(3, 4));
+        world.wire.cut.remove(&(4, 3));
+        world.run_for(Duration::from_seconds(20));
+        for robot in 0..ROBOTS as usize {
+            assert_eq!(read(&world, robot, 0), Some(3), "seed {seed}");
+            assert_eq!(all(&world, robot, 0).len(), ROBOTS as usize, "seed {seed}");
+        }
+    }
+}

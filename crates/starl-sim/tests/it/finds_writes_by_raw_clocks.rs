@@ -1,0 +1,39 @@
+//! A shared variable that goes by raw clocks is caught from random seeds, and shrunk to two robots whose
+//! clocks are apart.
+
+use crate::broken::writes::Writer;
+use crate::broken::{hunt, robots};
+use starl_sim::Profile;
+
+const ORDER: &str = "shared_memory.order";
+
+#[test]
+fn clocks_that_are_apart_lose_a_later_write() {
+    let quarry = hunt(&robots(5), Profile::Clocks, ORDER, &Writer::default());
+    let smallest = &quarry.smallest;
+    assert_eq!(smallest.fleet.len(), 2, "{}", quarry.text);
+    assert_eq!(smallest.faults.schedule, [], "{}", quarry.text);
+    let clock = smallest.fleet.groups[0].clock;
+    assert!(!clock.offset.is_zero(), "{}", quarry.text);
+    assert_eq!(clock.drift_ppm, 0.0, "{}", quarry.text);
+    assert!(smallest.duration.seconds() < 12.0, "{}", quarry.text);
+    assert!(quarry.found.duration.seconds() == 30.0);
+}
+
+#[test]
+fn of_all_that_is_wrong_in_chaos_only_the_clocks_are_left() {
+    let quarry = hunt(&robots(4), Profile::Chaos, ORDER, &Writer::default());
+    let smallest = &quarry.smallest;
+    let link = starl_sim::scenario::Link {
+        distribution: starl_sim::scenario::DelayDistribution::Constant,
+        ..Default::default()
+    };
+    assert_eq!(smallest.fleet.len(), 2, "{}", quarry.text);
+    assert_eq!(smallest.faults.schedule, [], "{}", quarry.text);
+    assert_eq!(smallest.network.link, link, "{}", quarry.text);
+    assert!(
+        !smallest.fleet.groups[0].clock.offset.is_zero(),
+        "{}",
+        quarry.text
+    );
+}

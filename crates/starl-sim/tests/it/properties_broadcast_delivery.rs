@@ -1,0 +1,213 @@
+//! Every broadcast reaches every robot that is up and connected within the bound.
+
+use crate::properties_support::{Story, assert_none, assert_only, at, seconds};
+use starl_core::event::DropReason;
+use starl_core::{Event, RobotId};
+
+/// Robot 0 broadcasts message 1 at 1 s to robots 1 and 2, which have 5 s to deliver it.
+fn broadcast_at_1s() -> Story {
+    let mut story = Story::of_ground_robots(3);
+    story.scenario.properties.broadcast_bound = seconds(5);
+    story.broadcasts(1000, 0, 1);
+    story
+}
+
+/// Robot 2 does not deliver it.
+fn robot_2_hears_nothing() -> Story {
+    let mut story = broadcast_at_1s();
+    story.delivers(1100, 1, "broadcast", (0, 1));
+    story
+}
+
+fn dropped(story: &mut Story, millis: u64, (from, to): (u32, u32), reason: DropReason) {
+    let event = Event::Dropped {
+        from: RobotId(from),
+        to: Some(RobotId(to)),
+        sequence: 0,
+        reason,
+    };
+    story.record(millis, Some(from), event);
+}
+
+#[test]
+fn a_message_that_does_not_arrive_is_reported_once_when_its_time_is_up() {
+    let verdict = robot_2_hears_nothing().verdict(60_000);
+    assert_only(&verdict, "broadcast.delivery", 6000, &[0, 2]);
+    assert_eq!(
+        verdict[0].text,
+        "message 1 that robot 0 broadcast at 1.000s did not reach robot 2 within 5s"
+    );
+}
+
+#[test]
+fn all_whom_it_does_not_reach_are_named_together() {
+    let verdict = broadcast_at_1s().verdict(60_000);
+    assert_only(&verdict, "broadcast.delivery", 6000, &[0, 1, 2]);
+    assert!(verdict[0].text.contains("did not reach robots 1 and 2"));
+}
+
+#[test]
+fn the_last_moment_is_in_time_and_the_next_is_not() {
+    let mut story = robot_2_hears_nothing();
+    story.delivers(6000, 2, "broadcast", (0, 1));
+    assert_none(&story.verdict(60_000));
+    let mut late = robot_2_hears_nothing();
+    late.delivers(6001, 2, "broadcast", (0, 1));
+    assert_only(&late.verdict(60_000), "broadcast.delivery", 6000, &[0, 2]);
+}
+
+#[test]
+fn a_bound_that_has_not_run_out_is_not_judged() {
+    assert_none(&robot_2_hears_nothing().verdict(6000));
+}
+
+#[test]
+fn messages_are_told_apart_by_sender_and_number() {
+    let mut story = robot_2_hears_nothing();
+    story.delivers(1100, 2, "broadcast", (0, 2));
+    story.delivers(1100, 2, "broadcast", (1, 1));
+    story.delivers(1100, 2, "geocast", (0, 1));
+    assert_only(&story.verdict(60_000), "broadcast.delivery", 6000, &[0, 2]);
+}
+
+#[test]
+fn several_messages_are_each_judged() {
+    let mut story = robot_2_hears_nothing();
+    for number in 2..50 {
+        let sent = 1000 + 50 * u64::from(number);
+        story.broadcasts(sent, 0, number);
+        story.delivers(sent + 30, 1, "broadcast", (0, number));
+        if number != 20 {
+            story.delivers(sent + 60, 2, "broadcast", (0, number));
+        }
+    }
+    let verdict = story.verdict(60_000);
+    let at: Vec<_> = verdict.iter().map(|violation| violation.at.0).collect();
+    assert_eq!(at, [6_000_000_000, 7_000_000_000]);
+}
+
+#[test]
+fn a_sender_that_gives_up_admits_it() {
+    let mut story = robot_2_hears_nothing();
+    story.fails(3000, 0, 1, &[2]);
+    let verdict = story.verdict(60_000);
+    assert_only(&verdict, "broadcast.delivery", 3000, &[0, 2]);
+    assert!(
+        verdict[0]
+            .text
+            .ends_with("before its sender gave up after 2.000 s")
+    );
+}
+
+#[test]
+fn a_sender_that_only_missed_the_acknowledgements_has_done_its_duty() {
+    let mut story = robot_2_hears_nothing();
+    story.delivers(1200, 2, "broadcast", (0, 1));
+    story.fails(3000, 0, 1, &[1, 2]);
+    assert_none(&story.verdict(60_000));
+}
+
+#[test]
+fn giving_up_one_robot_does_not_let_off_the_others() {
+    let mut story = broadcast_at_1s();
+    story.fault(500, Some(2), "crash");
+    story.fails(3000, 0, 1, &[2]);
+    assert_only(&story.verdict(60_000), "broadcast.delivery", 6000, &[0, 1]);
+}
+
+#[test]
+fn a_receiver_that_was_down_is_excused() {
+    // Down throughout; from before until after; during.
+    for (crash, restart) in [(500, None), (500, Some(1500)), (2000, Some(2100))] {
+        let mut story = robot_2_hears_nothing();
+        story.fault(crash, Some(2), "crash");
+        if let Some(restart) = restart {
+            story.fault(restart, Some(2), "restart");
+        }
+        assert_none(&story.verdict(60_000));
+    }
+}
+
+#[test]
+fn a_receiver_that_was_down_before_or_after_is_not_excused() {
+    for (crash, restart) in [(500, 900), (6025, 7000)] {
+        let mut story = robot_2_hears_nothing();
+        story.fault(crash, Some(2), "crash");
+        story.fault(restart, Some(2), "restart");
+        assert_only(&story.verdict(60_000), "broadcast.delivery", 6000, &[0, 2]);
+    }
+}
+
+#[test]
+fn a_sender_that_crashes_leaves_everyone_excused() {
+    let mut story = broadcast_at_1s();
+    story.fault(1500, Some(0), "crash");
+    assert_none(&story.verdict(60_000));
+}
+
+#[test]
+fn a_program_that_fails_is_as_good_as_down_and_one_that_finishes_is_not() {
+    let mut story = robot_2_hears_nothing();
+    story.record(2000, Some(2), Event::Failed("lost".into()));
+    assert_none(&story.verdict(60_000));
+    let mut finished = robot_2_hears_nothing();
+    finished.record(2000, Some(2), Event::Finished);
+    assert_only(
+        &finished.verdict(60_000),
+        "broadcast.delivery",
+        6000,
+        &[0, 2],
+    );
+}
+
+#[test]
+fn faults_that_do_not_stop_a_robot_from_talking_excuse_nothing() {
+    for fault in ["stuck motor", "frozen sensor"] {
+        let mut story = robot_2_hears_nothing();
+        story.fault(2000, Some(2), fault);
+        assert_only(&story.verdict(60_000), "broadcast.delivery", 6000, &[0, 2]);
+    }
+}
+
+#[test]
+fn whom_a_partition_kept_the_message_from_is_excused() {
+    let mut story = robot_2_hears_nothing();
+    story.fault(900, None, "partition");
+    dropped(&mut story, 1000, (0, 2), DropReason::Partition);
+    story.fault(2000, None, "heal");
+    assert_none(&story.verdict(60_000));
+}
+
+#[test]
+fn a_partition_between_others_or_at_another_time_excuses_nobody() {
+    for (millis, link) in [
+        (1500, (0, 1)),
+        (1500, (2, 0)),
+        (999, (0, 2)),
+        (6125, (0, 2)),
+    ] {
+        let mut story = robot_2_hears_nothing();
+        story.stays(0, 7000, 0, at(0.0, 0.0));
+        story.fault(900, None, "partition");
+        dropped(&mut story, millis, link, DropReason::Partition);
+        story.fault(7000, None, "heal");
+        assert_only(&story.verdict(60_000), "broadcast.delivery", 6000, &[0, 2]);
+    }
+}
+
+#[test]
+fn loss_and_range_excuse_nobody() {
+    for reason in [DropReason::Loss, DropReason::Range, DropReason::Bandwidth] {
+        let mut story = robot_2_hears_nothing();
+        dropped(&mut story, 1000, (0, 2), reason);
+        assert_only(&story.verdict(60_000), "broadcast.delivery", 6000, &[0, 2]);
+    }
+}
+
+#[test]
+fn a_cut_that_is_old_when_another_partition_sets_in_is_still_known_while_it_counts() {
+    let mut story = robot_2_hears_nothing();
+    dropped(&mut story, 1000, (0, 2), DropReason::Partition);
+    story.fault(5900, None, "partition");
+    assert_none(&story.verdict(60_000));
+}

@@ -1,0 +1,245 @@
+//! What robots are handed is judged by the order that the instance promises.
+
+use crate::properties_support::{Story, assert_none, assert_only, seconds};
+use starl_core::RobotId;
+use starl_sim::properties::Violation;
+
+/// Three robots, whose broadcasts have 5 s.
+fn story() -> Story {
+    let mut story = Story::of_ground_robots(3);
+    story.scenario.properties.broadcast_bound = seconds(5);
+    story
+}
+
+fn sends(story: &mut Story, millis: u64, robot: u32, number: u32, order: &'static str) {
+    let fields = [
+        ("number", number.into()),
+        ("incarnation", 7u32.into()),
+        ("retry_span", 4.0.into()),
+        ("order", order.into()),
+    ];
+    story.report(millis, robot, ("broadcast", "broadcast"), fields);
+}
+
+fn handed(story: &mut Story, millis: u64, robot: u32, message: (u32, u32)) {
+    story.delivers(millis, robot, "broadcast", message);
+}
+
+fn passes(story: &mut Story, millis: u64, robot: u32, (from, number): (u32, u32)) {
+    let fields = [
+        ("from", RobotId(from).into()),
+        ("number", number.into()),
+        ("incarnation", 7u32.into()),
+    ];
+    story.report(millis, robot, ("broadcast", "pass_over"), fields);
+}
+
+#[test]
+fn what_was_not_sent_is_not_handed_out() {
+    let mut story = story();
+    sends(&mut story, 1000, 0, 1, "fifo");
+    for robot in 1..3 {
+        handed(&mut story, 1100, robot, (0, 1));
+    }
+    assert_none(&story.verdict(9000));
+    handed(&mut story, 1200, 1, (0, 2));
+    assert_only(&story.verdict(9000), "broadcast.integrity", 1200, &[1, 0]);
+}
+
+#[test]
+fn nothing_is_handed_out_twice_unless_the_robot_has_started_again() {
+    let mut twice = story();
+    sends(&mut twice, 1000, 0, 1, "causal");
+    for robot in 1..3 {
+        handed(&mut twice, 1100, robot, (0, 1));
+    }
+    let mut again = twice.clone();
+    handed(&mut twice, 2000, 1, (0, 1));
+    assert_only(&twice.verdict(9000), "broadcast.integrity", 2000, &[1, 0]);
+    again.fault(1500, Some(1), "crash");
+    again.fault(1600, Some(1), "restart");
+    handed(&mut again, 2000, 1, (0, 1));
+    assert_none(&again.verdict(9000));
+}
+
+#[test]
+fn a_senders_messages_are_handed_out_as_they_were_sent() {
+    let mut story = story();
+    sends(&mut story, 1000, 0, 1, "fifo");
+    sends(&mut story, 1010, 0, 2, "fifo");
+    for robot in 1..3 {
+        handed(&mut story, 1100, robot, (0, u32::from(robot == 1) + 1));
+        handed(&mut story, 1200, robot, (0, u32::from(robot == 2) + 1));
+    }
+    assert_only(&story.verdict(9000), "broadcast.fifo", 1200, &[1, 0]);
+}
+
+/// Robot 0 sends, robot 1 answers, robot 2 is handed the answer.
+fn answer() -> Story {
+    let mut story = story();
+    sends(&mut story, 1000, 0, 1, "causal");
+    handed(&mut story, 1100, 1, (0, 1));
+    sends(&mut story, 1200, 1, 1, "causal");
+    handed(&mut story, 1300, 0, (1, 1));
+    story
+}
+
+#[test]
+fn an_answer_comes_after_what_it_answers() {
+    let mut before = answer();
+    handed(&mut before, 1300, 2, (1, 1));
+    handed(&mut before, 1400, 2, (0, 1));
+    assert_only(
+        &before.verdict(9000),
+        "broadcast.causal_order",
+        1300,
+        &[2, 1],
+    );
+    let mut after = answer();
+    handed(&mut after, 1300, 2, (0, 1));
+    handed(&mut after, 1400, 2, (1, 1));
+    assert_none(&after.verdict(30_000));
+}
+
+#[test]
+fn what_was_passed_over_is_not_handed_out_any_more() {
+    let mut passed = answer();
+    passes(&mut passed, 1300, 2, (0, 1));
+    handed(&mut passed, 1301, 2, (1, 1));
+    assert_none(&passed.verdict(9000));
+    handed(&mut passed, 1400, 2, (0, 1));
+    assert_only(
+        &passed.verdict(9000),
+        "broadcast.causal_order",
+        1400,
+        &[2, 0],
+    );
+}
+
+#[test]
+fn messages_that_know_nothing_of_each_other_come_in_any_causal_order() {
+    let mut story = story();
+    sends(&mut story, 1000, 0, 1, "causal");
+    sends(&mut story, 1000, 1, 1, "causal");
+    handed(&mut story, 1100, 2, (0, 1));
+    handed(&mut story, 1200, 2, (1, 1));
+    handed(&mut story, 1100, 0, (1, 1));
+    handed(&mut story, 1100, 1, (0, 1));
+    assert_none(&story.verdict(9000));
+}
+
+/// Robots 0 and 1 each send a message, which all are handed in the order of `places`.
+fn ordered(places: [[(u32, u32); 2]; 3]) -> Story {
+    let mut story = story();
+    for robot in 0..3 {
+        let fields = [("group", 1u32.into())];
+        story.report(500, robot, ("broadcast", "join"), fields);
+    }
+    sends(&mut story, 1000, 0, 1, "total");
+    sends(&mut story, 1000, 1, 1, "total");
+    for (robot, sequence) in places.into_iter().enumerate() {
+        for (place, message) in sequence.into_iter().enumerate() {
+            let millis = 1100 + 100 * place as u64 + robot as u64;
+            handed(&mut story, millis, robot as u32, message);
+        }
+    }
+    story
+}
+
+#[test]
+fn all_are_handed_the_same_in_one_order() {
+    let (a, b) = ((0, 1), (1, 1));
+    assert_none(&ordered([[a, b], [a, b], [a, b]]).verdict(9000));
+    let violations = ordered([[a, b], [b, a], [a, b]]).verdict(9000);
+    assert!(!violations.is_empty());
+    for violation in violations {
+        assert_eq!(violation.property, "broadcast.total_order");
+        assert!(violation.robots.contains(&RobotId(1)), "{violation:?}");
+    }
+}
+
+#[test]
+fn nothing_is_left_out_between_two_messages_unless_it_is_said() {
+    let mut story = ordered([[(0, 1), (1, 1)]; 3]);
+    sends(&mut story, 2000, 2, 1, "total");
+    for robot in [0, 1, 2] {
+        handed(&mut story, 2100, robot, (2, 1));
+    }
+    assert_none(&story.verdict(9000));
+    for is_said in [false, true] {
+        let mut story = ordered([[(0, 1), (1, 1)]; 3]);
+        sends(&mut story, 2000, 2, 1, "total");
+        sends(&mut story, 2000, 2, 2, "total");
+        for robot in [0, 1] {
+            handed(&mut story, 2100, robot, (2, 1));
+        }
+        for robot in [0, 1, 2] {
+            handed(&mut story, 2200, robot, (2, 2));
+        }
+        if is_said {
+            story.report(2150, 2, ("broadcast", "gap"), []);
+            assert_none(&story.verdict(9000));
+        } else {
+            let violations = story.verdict(9000);
+            let total = |violation: &&Violation| violation.property == "broadcast.total_order";
+            assert_eq!(violations.iter().filter(total).count(), 1);
+        }
+    }
+}
+
+/// Robot 0 sends a message that robot 2 is not handed.
+fn left_out() -> Story {
+    let mut story = ordered([[(0, 1), (1, 1)]; 3]);
+    sends(&mut story, 2000, 0, 2, "total");
+    handed(&mut story, 2100, 0, (0, 2));
+    handed(&mut story, 2100, 1, (0, 2));
+    story
+}
+
+#[test]
+fn all_of_a_majority_are_handed_what_one_of_it_sends() {
+    assert_only(
+        &left_out().verdict(9000),
+        "broadcast.agreement",
+        7000,
+        &[0, 2],
+    );
+    let mut late = left_out();
+    handed(&mut late, 7000, 2, (0, 2));
+    assert_none(&late.verdict(90_000));
+}
+
+#[test]
+fn who_is_down_or_apart_or_came_later_is_not_asked_for_it() {
+    let mut down = left_out();
+    down.fault(2050, Some(2), "crash");
+    assert_none(&down.verdict(90_000));
+    let mut apart = left_out();
+    apart.fault(2050, None, "partition");
+    apart.sends(2060, 0, 1, 1);
+    assert_none(&apart.verdict(90_000));
+    let mut later = left_out();
+    later.report(2050, 2, ("broadcast", "join"), [("group", 1u32.into())]);
+    assert_none(&later.verdict(90_000));
+}
+
+#[test]
+fn after_a_fault_there_is_more_time() {
+    let mut story = left_out();
+    story.fault(2050, Some(1), "stuck motor");
+    assert_only(
+        &story.verdict(90_000),
+        "broadcast.agreement",
+        37_050,
+        &[0, 2],
+    );
+}
+
+#[test]
+fn a_corruption_excuses_for_a_while() {
+    let mut story = answer();
+    story.fault(1250, Some(2), "corrupt state");
+    handed(&mut story, 1300, 2, (1, 1));
+    handed(&mut story, 1400, 2, (0, 1));
+    assert_none(&story.verdict(9000));
+}

@@ -1,0 +1,118 @@
+//! What is free is granted within the bound: to a request that nobody else's overlaps with, and to one of those
+//! that overlap.
+
+use crate::properties_support::{Story, assert_none, assert_only, seconds};
+
+const NON_INTERFERENCE: &str = "mutex.non_interference";
+const PROGRESS: &str = "mutex.progress";
+
+/// Three robots, with a bound of 5 s.
+fn story() -> Story {
+    let mut story = Story::of_ground_robots(3);
+    story.scenario.properties.mutex_bound = seconds(5);
+    story
+}
+
+#[test]
+fn a_request_that_nobody_overlaps_with_is_granted_in_time() {
+    let mut late = story();
+    late.locks(1000, 0, "acquire", "a")
+        .locks(1000, 0, "acquire", "b");
+    late.locks(2000, 1, "acquire", "c")
+        .locks(2100, 1, "enter", "c");
+    let verdict = late.verdict(20_000);
+    assert_only(&verdict, NON_INTERFERENCE, 6000, &[0]);
+    assert_eq!(
+        verdict[0].text,
+        "robot 0 did not get what was asked for within 5s, though nobody else holds or wants any of it"
+    );
+    late.locks(6000, 0, "enter", "a")
+        .locks(6000, 0, "enter", "b");
+    assert_none(&late.verdict(20_000));
+}
+
+#[test]
+fn what_is_held_may_be_waited_for() {
+    let mut story = story();
+    story.locks(1000, 1, "enter", "b");
+    story
+        .locks(1000, 0, "acquire", "a")
+        .locks(1000, 0, "acquire", "b");
+    assert_none(&story.verdict(20_000));
+    story.locks(20_000, 1, "release", "b");
+    assert_none(&story.verdict(25_000));
+    assert_only(&story.verdict(26_000), NON_INTERFERENCE, 25_000, &[0]);
+}
+
+#[test]
+fn those_who_wait_for_each_other_are_reported_together() {
+    let mut story = story();
+    story
+        .locks(1000, 0, "acquire", "a")
+        .locks(1000, 0, "acquire", "b");
+    story
+        .locks(2000, 1, "acquire", "b")
+        .locks(2000, 1, "acquire", "c");
+    story.locks(2500, 2, "acquire", "c");
+    let verdict = story.verdict(20_000);
+    assert_only(&verdict, PROGRESS, 6000, &[0]);
+    // Whoever holds something at the end of the row is waited for.
+    let mut story = story_with_a_holder();
+    assert_none(&story.verdict(20_000));
+    story.locks(3000, 2, "release", "d");
+    assert_only(&story.verdict(20_000), PROGRESS, 8000, &[0, 1]);
+}
+
+fn story_with_a_holder() -> Story {
+    let mut story = story();
+    story.locks(500, 2, "enter", "d");
+    story
+        .locks(1000, 0, "acquire", "a")
+        .locks(1000, 0, "acquire", "b");
+    story
+        .locks(2000, 1, "acquire", "b")
+        .locks(2000, 1, "acquire", "d");
+    story
+}
+
+#[test]
+fn a_request_that_is_withdrawn_is_over() {
+    let mut story = story();
+    story
+        .locks(1000, 0, "acquire", "a")
+        .locks(5000, 0, "withdraw", "a");
+    assert_none(&story.verdict(20_000));
+}
+
+#[test]
+fn robots_that_are_down_or_apart_excuse() {
+    let mut story = story();
+    story
+        .locks(1000, 0, "acquire", "a")
+        .fault(2000, Some(2), "crash");
+    assert_none(&story.verdict(20_000));
+    story.fault(20_000, Some(2), "restart");
+    assert_none(&story.verdict(25_000));
+    assert_only(&story.verdict(26_000), NON_INTERFERENCE, 25_000, &[0]);
+
+    let mut apart = self::story();
+    apart
+        .locks(1000, 0, "acquire", "a")
+        .fault(2000, None, "partition");
+    assert_none(&apart.verdict(20_000));
+    apart.fault(20_000, None, "heal");
+    assert_none(&apart.verdict(25_000));
+    assert_only(&apart.verdict(26_000), NON_INTERFERENCE, 25_000, &[0]);
+}
+
+#[test]
+fn nobody_is_overtaken_for_ever() {
+    let mut story = story();
+    story.locks(0, 0, "acquire", "a");
+    for turn in 1..=101 {
+        story
+            .locks(turn * 100, 1, "enter", "a")
+            .locks(turn * 100 + 50, 1, "release", "a");
+    }
+    assert_only(&story.verdict(12_000), PROGRESS, 10_100, &[0, 1]);
+}

@@ -1,0 +1,151 @@
+//! Operations on a register take effect one after the other, each between its begin and its end.
+
+use crate::properties_support::{Story, assert_none, assert_only};
+use starl_core::Value;
+
+/// An operation of a robot: when it begins and ends, and what it writes or reads, 0 for nothing.
+fn operation(
+    story: &mut Story,
+    robot: u32,
+    kind: &'static str,
+    register: &'static str,
+    (begin, end): (u64, Option<u64>),
+    value: i64,
+) {
+    let number = ("operation", Value::Int(begin as i64));
+    let name = ("register", Value::Text(register.into()));
+    let fields = [number.clone(), name.clone()];
+    match kind {
+        "write" => {
+            let value = ("value", Value::Int(value));
+            let fields = [number.clone(), name.clone(), value];
+            story.report(begin, robot, ("register", kind), fields);
+        }
+        _ => drop(story.report(begin, robot, ("register", kind), fields.clone())),
+    }
+    let Some(end) = end else { return };
+    if value == 0 {
+        story.report(end, robot, ("register", "done"), fields);
+    } else {
+        let fields = [number, name, ("value", Value::Int(value))];
+        story.report(end, robot, ("register", "done"), fields);
+    }
+}
+
+fn story(operations: &[(u32, &'static str, u64, u64, i64)]) -> Story {
+    let mut story = Story::of_ground_robots(3);
+    for &(robot, kind, begin, end, value) in operations {
+        let end = (end > 0).then_some(end);
+        operation(&mut story, robot, kind, "x", (begin, end), value);
+    }
+    story
+}
+
+#[test]
+fn one_after_the_other_each_reads_what_was_written_last() {
+    let good = story(&[
+        (0, "read", 100, 200, 0),
+        (0, "write", 300, 400, 5),
+        (1, "read", 500, 600, 5),
+        (1, "write", 700, 800, 6),
+        (2, "read", 900, 1000, 6),
+    ]);
+    assert_none(&good.verdict(2000));
+}
+
+#[test]
+fn what_is_over_cannot_be_read_any_more() {
+    let bad = story(&[
+        (0, "write", 300, 400, 5),
+        (1, "write", 700, 800, 6),
+        (2, "read", 900, 1000, 5),
+    ]);
+    assert_only(&bad.verdict(2000), "register.linearizability", 1000, &[2]);
+    let bad = story(&[(0, "write", 300, 400, 5), (2, "read", 900, 1000, 0)]);
+    assert_only(&bad.verdict(2000), "register.linearizability", 1000, &[2]);
+}
+
+#[test]
+fn what_was_never_written_cannot_be_read() {
+    let bad = story(&[(0, "write", 300, 400, 5), (2, "read", 350, 1000, 7)]);
+    assert_only(&bad.verdict(2000), "register.linearizability", 1000, &[2]);
+}
+
+#[test]
+fn operations_at_the_same_time_may_take_effect_in_any_order() {
+    for first in [5, 6] {
+        let good = story(&[
+            (0, "write", 300, 600, 5),
+            (1, "write", 310, 610, 6),
+            (2, "read", 700, 800, first),
+            (2, "read", 900, 1000, first),
+        ]);
+        assert_none(&good.verdict(2000));
+    }
+}
+
+#[test]
+fn whoever_reads_later_does_not_read_the_value_before() {
+    // The write is still under way: either value may be read, but not the new one and then the old.
+    let write = (0, "write", 300, 5000, 5);
+    let good = story(&[write, (1, "read", 400, 500, 0), (2, "read", 600, 700, 5)]);
+    assert_none(&good.verdict(6000));
+    let bad = story(&[write, (1, "read", 400, 500, 5), (2, "read", 600, 700, 0)]);
+    assert_only(&bad.verdict(6000), "register.linearizability", 700, &[2]);
+}
+
+#[test]
+fn what_a_robot_wrote_when_it_crashed_may_take_effect_later_once() {
+    let crash = |mut story: Story| {
+        story.fault(500, Some(0), "crash");
+        story
+    };
+    let write = (0, "write", 300, 0, 5);
+    let good = story(&[write, (1, "read", 600, 700, 0), (2, "read", 4000, 4100, 5)]);
+    assert_none(&crash(good).verdict(6000));
+    let bad = story(&[
+        write,
+        (1, "read", 600, 700, 5),
+        (1, "write", 800, 900, 6),
+        (2, "read", 4000, 4100, 5),
+    ]);
+    assert_only(
+        &crash(bad).verdict(6000),
+        "register.linearizability",
+        4100,
+        &[2],
+    );
+}
+
+#[test]
+fn registers_are_judged_each_for_itself() {
+    let mut story = story(&[(0, "write", 300, 400, 5)]);
+    operation(&mut story, 1, "read", "y", (500, Some(600)), 0);
+    operation(&mut story, 1, "read", "y", (700, Some(800)), 5);
+    assert_only(&story.verdict(2000), "register.linearizability", 800, &[1]);
+}
+
+#[test]
+fn what_a_majority_forgets_is_excused_and_a_corruption_too() {
+    let bad = || story(&[(0, "write", 300, 400, 5), (1, "read", 4000, 4100, 0)]);
+    let mut lost = bad();
+    for robot in 0..3 {
+        lost.report(100, robot, ("register", "up"), [("life", Value::Int(1))]);
+    }
+    let mut one = lost.clone();
+    one.fault(500, Some(0), "crash");
+    assert_only(&one.verdict(5000), "register.linearizability", 4100, &[1]);
+    lost.fault(500, Some(0), "crash")
+        .fault(600, Some(1), "crash");
+    assert_none(&lost.verdict(5000));
+    let mut corrupted = bad();
+    corrupted.fault(500, Some(2), "corrupt state");
+    assert_none(&corrupted.verdict(5000));
+}
+
+#[test]
+fn it_can_be_switched_off() {
+    let mut story = story(&[(0, "write", 300, 400, 5), (1, "read", 4000, 4100, 0)]);
+    story.scenario.properties.register = false;
+    assert_none(&story.verdict(5000));
+}

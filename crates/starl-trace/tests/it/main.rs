@@ -1,0 +1,8 @@
+//! The tests of `starl-trace`, in one binary so that they link once.
+
+mod common;
+mod comparison;
+mod damage;
+mod documentation;
+mod other_library;
+mod round_trip;
