@@ -13,8 +13,9 @@ use super::sense::Readings;
 use super::shared::{Shared, Window};
 use starl_core::event::Hit;
 use starl_core::sensor::Contact;
-use starl_core::{Command, Event, Point, RobotId, math};
+use starl_core::{Command, Event, Point, Random, RobotId, Time, math};
 use starl_host::Workspace;
+use starl_host::journal::Journal;
 use starl_motion::{Impact, Neighbour, State};
 
 /// How many robots a shard holds.
@@ -30,6 +31,8 @@ pub struct Shard {
     pub outbox: Vec<Outgoing>,
     pub posted: Vec<Posted>,
     pub log: Log,
+    /// Takes down what is done to the robots' software; none while nobody wants to know.
+    pub journal: Option<Box<Journal>>,
     scratch: Scratch,
 }
 
@@ -66,6 +69,7 @@ impl Shard {
                 account: &mut mind.account,
                 outbox: &mut self.outbox,
                 log: &mut self.log,
+                journal: &mut self.journal,
                 workspace: &mut scratch.workspace,
             };
             let mut turn = Turn {
@@ -91,6 +95,24 @@ impl Shard {
             next[index] = predicted.pose.position;
             self.predicted[index] = predicted;
         }
+    }
+
+    /// Overwrites the state of a robot's program at random.
+    pub fn corrupt(&mut self, shared: &Shared, robot: RobotId, at: Time, random: &mut Random) {
+        let index = (robot.0 - self.first) as usize;
+        let mind = &mut self.minds[index];
+        let mut desk = Desk {
+            robot,
+            shared,
+            kind: &shared.kinds[mind.group as usize],
+            state: &self.states[index],
+            account: &mut mind.account,
+            outbox: &mut self.outbox,
+            log: &mut self.log,
+            journal: &mut self.journal,
+            workspace: &mut self.scratch.workspace,
+        };
+        mind.node.corrupt(at, random, &mut desk);
     }
 
     /// Finds what each robot's predicted motion meets first.

@@ -16,6 +16,7 @@ use starl_core::{
     random,
 };
 use starl_host::hardware::Drive;
+use starl_host::journal::{Batch, Journal};
 use starl_host::{Clock, Hardware, Node};
 use starl_motion::{Neighbour, State};
 use std::sync::Arc;
@@ -45,6 +46,7 @@ pub struct Simulation {
     world_digest: Digest,
     world_records: Vec<Record>,
     records: Vec<Record>,
+    journal: Batch,
     parallel: bool,
 }
 
@@ -110,6 +112,7 @@ impl Simulation {
             world_digest: Digest::default(),
             world_records: Vec::new(),
             records: Vec::new(),
+            journal: Batch::default(),
             parallel: false,
         };
         simulation.raise_obstacles();
@@ -120,6 +123,15 @@ impl Simulation {
     pub fn set_recording(&mut self, recording: bool) {
         for shard in &mut self.shards {
             shard.log.recording = recording;
+        }
+    }
+
+    /// Whether [`Simulation::journal`] is kept; off at first. To be called before the first step, since a
+    /// journal from later on cannot be replayed.
+    pub fn set_journal(&mut self, keep: bool) {
+        for shard in &mut self.shards {
+            let journal = || Box::new(Journal::new(RobotId(shard.first), shard.minds.len()));
+            shard.journal = keep.then(journal);
         }
     }
 
@@ -257,6 +269,11 @@ impl Simulation {
             self.records.append(&mut shard.log.records);
         }
         self.records.sort_by_key(|record| (record.at, record.robot));
+        self.journal.clear();
+        for journal in self.shards.iter_mut().filter_map(|s| s.journal.as_mut()) {
+            journal.append_to(&mut self.journal);
+        }
+        self.journal.sort();
     }
 
     fn bring_faults(&mut self, window: Window) {
@@ -316,11 +333,13 @@ impl Simulation {
                 }
                 FaultKind::CorruptState(_) => {
                     let key = [u64::from(robot.0), at.0];
-                    mind.node
-                        .corrupt(&mut stream(seed, Stream::Corruption, &key));
+                    let mut random = stream(seed, Stream::Corruption, &key);
+                    // It happens before all that the robot does in this step.
+                    shard.corrupt(&self.shared, robot, self.now, &mut random);
                 }
                 _ => {}
             }
+            let mind = &shard.minds[robot.index() % SIZE];
             self.impaired += usize::from(mind.is_impaired());
         }
     }
@@ -388,6 +407,12 @@ impl Simulation {
     /// what concerns the world as a whole.
     pub fn records(&self) -> &[Record] {
         &self.records
+    }
+
+    /// What was done to the robots' software in the last step, ordered by time and robot, then as it was
+    /// done; empty unless [`Simulation::set_journal`] was called. It is no part of the digest.
+    pub fn journal(&self) -> &Batch {
+        &self.journal
     }
 
     /// The hash of all that has happened so far.
