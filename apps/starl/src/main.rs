@@ -6,6 +6,7 @@
 
 mod args;
 mod bench;
+mod changed_program;
 mod check;
 mod console;
 mod diagram;
@@ -24,6 +25,7 @@ mod plot;
 mod progress;
 mod recording;
 mod replay;
+mod replay_robot;
 mod report;
 mod run;
 mod sources;
@@ -31,6 +33,7 @@ mod summary;
 mod target;
 mod test;
 mod threads;
+mod trace_output;
 
 use args::{Arguments, Command};
 use clap::Parser;
@@ -45,7 +48,10 @@ fn main() -> ExitCode {
     let result = match &arguments.command {
         Command::Explore(arguments) => return exit(explore::run(arguments)),
         Command::Run(arguments) => run::run(arguments),
-        Command::Replay(arguments) => replay::replay(arguments),
+        Command::Replay(arguments) => match &arguments.robot {
+            Some(name) => replay_robot::replay(arguments, name),
+            None => replay::replay(arguments),
+        },
         Command::Test(arguments) => test::test(arguments),
         Command::Diagram(arguments) => diagram::diagram(arguments),
         Command::Check(arguments) => check::run(arguments),

@@ -22,10 +22,11 @@ pub fn run(arguments: &RunArguments) -> Result<bool, Failure> {
     } = target::read(arguments)?;
     let scenario = application.scenario();
     let stop = stop_on_interrupt();
-    let mut outputs = Outputs::open(arguments, application.resolved(), &files, picture)?;
     let threads = threads::count(arguments.threads, scenario.fleet.len());
     let mut run = start(&application)?;
     run.set_parallel(threads > 1);
+    run.set_journal(arguments.inputs);
+    let mut outputs = Outputs::open(arguments, application.resolved(), &files, picture)?;
     let shown = !arguments.quiet && !arguments.json;
     let progress = Progress::new(shown, scenario.duration);
     let begun = Instant::now();
@@ -80,6 +81,7 @@ fn drive(
         for record in run.step() {
             outputs.observe(record)?;
         }
+        outputs.advance(run.simulation())?;
         progress.advance(run.simulation().now());
     }
     Ok(())

@@ -204,7 +204,7 @@ impl<W: Write> Writer<W> {
 
     /// The messages that were not given to the output yet, as records of the container. The output is a
     /// trace that can be read up to here if they are put at its end; the next bytes that the writer gives it
-    /// go in their place, and are more.
+    /// go in their place, and are more. The output is flushed whenever all that it was given is complete.
     pub fn unfinished(&self) -> &[u8] {
         &self.output.unfinished
     }

@@ -65,9 +65,9 @@ pub struct Packer {
 }
 
 impl Packer {
-    /// The next message: the time of its first entry, the content, and how many entries it holds. `None`
-    /// if the batch is empty. The batch must be [sorted](Batch::sort).
-    pub fn pack(&mut self, batch: &Batch) -> Option<(Time, Vec<u8>, usize)> {
+    /// The next message: the time of its first entry, and its content. `None` if the batch is empty. The
+    /// batch must be [sorted](Batch::sort).
+    pub fn pack(&mut self, batch: &Batch) -> Option<(Time, Vec<u8>)> {
         let start = batch.entries.first()?.at;
         let mut content = Vec::new();
         for (hash, list) in &batch.lists {
@@ -84,6 +84,6 @@ impl Packer {
             };
             content.extend(encode(&frame));
         }
-        Some((start, content, batch.entries.len()))
+        Some((start, content))
     }
 }
