@@ -1,6 +1,6 @@
 //! Entries of several robots put together to one message of a trace.
 
-use super::encode;
+use super::bytes::encode_to;
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
@@ -48,12 +48,17 @@ impl Batch {
 #[derive(Serialize, Deserialize)]
 pub enum Frame<'a> {
     /// A list, before the first entry that names it.
-    List { hash: u64, list: &'a [u8] },
+    List {
+        hash: u64,
+        #[serde(serialize_with = "super::bytes::as_bytes")]
+        list: &'a [u8],
+    },
     /// An entry of a robot's journal.
     Entry {
         robot: RobotId,
         /// How long after the message's time it was made, nanoseconds.
         after: u64,
+        #[serde(serialize_with = "super::bytes::as_bytes")]
         entry: &'a [u8],
     },
 }
@@ -73,7 +78,7 @@ impl Packer {
         for (hash, list) in &batch.lists {
             if self.written.insert(*hash) {
                 let hash = *hash;
-                content.extend(encode(&Frame::List { hash, list }));
+                content = encode_to(&Frame::List { hash, list }, content);
             }
         }
         for Noted { at, robot, entry } in &batch.entries {
@@ -82,7 +87,7 @@ impl Packer {
                 after: at.0 - start.0,
                 entry,
             };
-            content.extend(encode(&frame));
+            content = encode_to(&frame, content);
         }
         Some((start, content))
     }

@@ -11,6 +11,7 @@ pub struct Delta {
     count: u32,
     /// A bit for each word, the lowest bit of a byte first, that says whether the word differs; then the
     /// words that do, the lowest byte first.
+    #[serde(serialize_with = "super::bytes::as_bytes")]
     bytes: Vec<u8>,
 }
 

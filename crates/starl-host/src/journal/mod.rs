@@ -9,6 +9,7 @@
 //! The encoding is postcard's. `docs/reference/trace.md` describes it.
 
 mod batch;
+mod bytes;
 mod change;
 mod delta;
 mod knowledge;
@@ -19,6 +20,8 @@ mod writer;
 pub use batch::{Batch, Noted, Packer};
 pub use reader::{Damaged, Reader};
 pub use writer::Journal;
+
+pub(crate) use bytes::encode;
 
 use alloc::borrow::Cow;
 use change::Change;
@@ -67,10 +70,4 @@ enum Entry<'a> {
         change: Change<'a>,
         effects: Cow<'a, [Effect]>,
     },
-}
-
-/// Encodes a value.
-pub(crate) fn encode(value: &impl Serialize) -> alloc::vec::Vec<u8> {
-    // postcard's only error here is a sequence of unknown length, which nothing of ours is.
-    postcard::to_allocvec(value).expect("all lengths are known")
 }

@@ -1,7 +1,7 @@
 //! Takes down what nodes show.
 
 use super::batch::{Batch, Noted};
-use super::change::{Change, Surroundings, same_body, same_places};
+use super::change::{Change, Surroundings, same_body, same_fleet, same_places};
 use super::knowledge::Knowledge;
 use super::lists::{List, Lists};
 use super::{Entry, Observed, encode};
@@ -61,11 +61,7 @@ impl Journal {
             } => {
                 let mut change = Change::between(&writer.known, at, view);
                 change.surroundings = writer.surroundings(view, &mut self.lists);
-                let applied = change.apply(&mut writer.known, at);
-                debug_assert!(
-                    applied.is_ok(),
-                    "a change that was just made is well formed"
-                );
+                change.note(&mut writer.known, at, view);
                 Entry::Input {
                     input: Cow::Borrowed(input),
                     change,
@@ -92,7 +88,7 @@ impl Writer {
             body: (!same_body(&known.body, &view.body)).then_some(view.body),
             ..Surroundings::default()
         };
-        if *known.fleet != *view.fleet {
+        if !same_fleet(&known.fleet, view.fleet) {
             changed.fleet = Some(lists.share(List::Fleet(view.fleet.into()), known));
         }
         if !same_places(&known.way_points, view.way_points) {
