@@ -7,7 +7,7 @@ use crate::examples::WithExamples;
 use crate::language::{Findings, Programs};
 use crate::parameters::Complaint;
 use crate::programs::Registry;
-use starl_core::Program;
+use starl_core::{Program, RobotId};
 use starl_lang::diagnostic::Colour;
 use starl_sim::engine::StartError;
 use starl_sim::read::{self, Loader, Problem, Problems, Request, Resolved};
@@ -136,6 +136,16 @@ impl Application {
     /// As for [`Application::run`].
     pub fn simulation(&self) -> Result<Simulation, StartError> {
         Simulation::new(self.scenario().clone(), &|group| self.program(group))
+    }
+
+    /// The fresh program of a robot, with its parameters.
+    ///
+    /// # Errors
+    /// If there is no such robot; else none that [`read()`] has not found before.
+    pub fn program_of(&self, robot: RobotId) -> Result<Box<dyn Program>, String> {
+        let group = self.scenario().fleet.group_of(robot);
+        let (group, _) = group.ok_or_else(|| format!("there is no robot {robot}"))?;
+        self.program(group)
     }
 
     pub(crate) fn program(&self, group: &Group) -> Result<Box<dyn Program>, String> {

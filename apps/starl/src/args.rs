@@ -83,6 +83,9 @@ pub struct RunArguments {
     /// Write everything that happens to this MCAP file
     #[arg(long, value_name = "PATH")]
     pub trace: Option<PathBuf>,
+    /// Put into the trace what was done to each robot's software, for `starl replay --robot`
+    #[arg(long, requires = "trace")]
+    pub inputs: bool,
     /// Draw the robots' paths to this .svg or .png file
     #[arg(long, value_name = "PATH")]
     pub plot: Option<PathBuf>,
@@ -127,6 +130,7 @@ impl ChangeArguments {
             faults: self.faults.clone(),
             threads: None,
             trace: None,
+            inputs: false,
             plot: None,
             json: false,
             quiet,
@@ -203,6 +207,13 @@ pub struct ReplayArguments {
     /// Threads to step robots on [default: as for `starl run`]
     #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
     pub threads: Option<u32>,
+    /// Run only this robot's software again, without the simulator, on what `starl run --inputs` put
+    /// into the trace
+    #[arg(long, value_name = "NAME", conflicts_with = "threads")]
+    pub robot: Option<String>,
+    /// Run this program in the place of the recorded one, and show where it begins to behave differently
+    #[arg(long, value_name = "FILE", requires = "robot")]
+    pub program: Option<PathBuf>,
 }
 
 /// Arguments of `starl verify`.

@@ -24,6 +24,7 @@
 
 mod args;
 mod bench;
+mod changed_program;
 mod check;
 mod console;
 mod diagram;
@@ -42,6 +43,7 @@ mod plot;
 mod progress;
 mod recording;
 mod replay;
+mod replay_robot;
 mod report;
 mod run;
 mod sources;
@@ -49,6 +51,7 @@ mod summary;
 mod target;
 mod test;
 mod threads;
+mod trace_output;
 mod verify;
 
 pub use starl_catalog::Parameters;
@@ -102,7 +105,10 @@ impl CommandLine {
         let result = match &arguments.command {
             Command::Explore(arguments) => return exit(explore::run(arguments, registry)),
             Command::Run(arguments) => run::run(arguments, registry),
-            Command::Replay(arguments) => replay::replay(arguments, registry),
+            Command::Replay(arguments) => match &arguments.robot {
+                Some(name) => replay_robot::replay(arguments, name, registry),
+                None => replay::replay(arguments, registry),
+            },
             Command::Verify(arguments) => verify::verify(arguments, registry),
             Command::Test(arguments) => test::test(arguments, registry),
             Command::Diagram(arguments) => diagram::diagram(arguments, registry),

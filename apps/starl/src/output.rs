@@ -1,6 +1,6 @@
-//! Files that are written while a run goes on.
+//! Files that are written at the end of a run, or while it goes on.
 //!
-//! Invariant: under the name that was asked for there is a whole file or what was there before, never
+//! Invariant, but for traces: under the name that was asked for there is a whole file or what was there before, never
 //! half a file: what is written goes to a temporary file beside it, which takes the name at the end.
 //! That the place can be written to is found out before the run starts.
 
@@ -23,28 +23,12 @@ pub struct Output {
 impl Output {
     /// Opens a file that is to be called `path`.
     pub fn create(path: &Path) -> Result<(Output, File), Failure> {
-        let cannot = |error: &io::Error| {
-            Failure::file(
-                path,
-                format!("cannot be written: {}; choose another path", reason(error)),
-            )
-        };
         let target = identity(path);
-        let special = match fs::metadata(path) {
-            Ok(found) if found.is_dir() => {
-                return Err(Failure::file(path, "is a folder; name a file in it"));
-            }
-            Ok(found) if found.permissions().readonly() => {
-                return Err(cannot(&io::ErrorKind::PermissionDenied.into()));
-            }
-            Ok(found) => !found.is_file(),
-            Err(_) => false,
-        };
-        if special {
+        if is_special(path)? {
             let file = File::options()
                 .write(true)
                 .open(path)
-                .map_err(|error| cannot(&error))?;
+                .map_err(|error| cannot(path, &error))?;
             return Ok((
                 Output {
                     path: path.to_path_buf(),
@@ -60,7 +44,7 @@ impl Output {
         let mut name = name.to_os_string();
         name.push(format!(".partial-{}", std::process::id()));
         let temporary = target.with_file_name(name);
-        let file = File::create(&temporary).map_err(|error| cannot(&error))?;
+        let file = File::create(&temporary).map_err(|error| cannot(path, &error))?;
         Ok((
             Output {
                 path: path.to_path_buf(),
@@ -104,6 +88,37 @@ impl Drop for Output {
             let _ = fs::remove_file(temporary);
         }
     }
+}
+
+/// Opens a file under its own name; what it held is gone. It is a regular file unless the name is that of a
+/// pipe, a device or the like.
+pub fn create_now(path: &Path) -> Result<File, Failure> {
+    let is_special = is_special(path)?;
+    let mut options = File::options();
+    options
+        .write(true)
+        .create(!is_special)
+        .truncate(!is_special);
+    options.open(path).map_err(|error| cannot(path, &error))
+}
+
+/// Whether a path that is to be written to is that of a pipe, a device or the like.
+fn is_special(path: &Path) -> Result<bool, Failure> {
+    match fs::metadata(path) {
+        Ok(found) if found.is_dir() => Err(Failure::file(path, "is a folder; name a file in it")),
+        Ok(found) if found.permissions().readonly() => {
+            Err(cannot(path, &io::ErrorKind::PermissionDenied.into()))
+        }
+        Ok(found) => Ok(!found.is_file()),
+        Err(_) => Ok(false),
+    }
+}
+
+fn cannot(path: &Path, error: &io::Error) -> Failure {
+    Failure::file(
+        path,
+        format!("cannot be written: {}; choose another path", reason(error)),
+    )
 }
 
 /// The file that a path means, however it is written: two paths that mean the same file give the same.

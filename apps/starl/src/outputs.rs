@@ -4,13 +4,14 @@ use crate::args::RunArguments;
 use crate::failure::Failure;
 use crate::output::{Output, identity};
 use crate::paths::Paths;
+use crate::plot;
 use crate::report::Report;
-use crate::{plot, recording};
+use crate::trace_output::TraceOutput;
 use starl_core::Record;
 use starl_properties::Setting;
-use starl_sim::Run;
 use starl_sim::read::Resolved;
-use starl_trace::{Outcome, ViewOptions, WriteError, Writer};
+use starl_sim::{Run, Simulation};
+use starl_trace::Outcome;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
@@ -53,11 +54,6 @@ pub struct Outputs {
     plot: Option<PlotOutput>,
 }
 
-struct TraceOutput {
-    output: Output,
-    writer: Writer<File>,
-}
-
 struct PlotOutput {
     output: Output,
     file: File,
@@ -75,13 +71,6 @@ impl Outputs {
         picture: Option<Picture>,
     ) -> Result<Outputs, Failure> {
         refuse_to_overwrite(arguments, read)?;
-        let trace = |path: &PathBuf| -> Result<TraceOutput, Failure> {
-            let (output, file) = Output::create(path)?;
-            let header = recording::header(resolved, setting);
-            let writer = Writer::new(file, &header, &ViewOptions::default())
-                .map_err(|error| output.failure(&error))?;
-            Ok(TraceOutput { output, writer })
-        };
         let plot = |(path, picture): (&PathBuf, Picture)| -> Result<PlotOutput, Failure> {
             let (output, file) = Output::create(path)?;
             Ok(PlotOutput {
@@ -91,18 +80,21 @@ impl Outputs {
                 paths: Paths::new(&resolved.scenario),
             })
         };
+        let plot = arguments.plot.as_ref().zip(picture).map(plot).transpose()?;
+        // Last, since it takes the place of what was there at once.
+        let trace = arguments.trace.as_deref();
+        let trace =
+            trace.map(|path| TraceOutput::create(path, resolved, setting, arguments.inputs));
         Ok(Outputs {
-            trace: arguments.trace.as_ref().map(trace).transpose()?,
-            plot: arguments.plot.as_ref().zip(picture).map(plot).transpose()?,
+            trace: trace.transpose()?,
+            plot,
         })
     }
 
     /// Takes in what happened next.
     pub fn observe(&mut self, record: &Record) -> Result<(), Failure> {
-        if let Some(TraceOutput { output, writer }) = &mut self.trace {
-            writer
-                .write(record)
-                .map_err(|error| output.failure(&error))?;
+        if let Some(trace) = &mut self.trace {
+            trace.write(record)?;
         }
         if let Some(plot) = &mut self.plot {
             plot.paths.observe(record);
@@ -110,19 +102,24 @@ impl Outputs {
         Ok(())
     }
 
-    /// Completes the files and gives them their names.
+    /// Takes in where the run is after a step, once all that happened in it was observed.
+    pub fn advance(&mut self, simulation: &Simulation) -> Result<(), Failure> {
+        match &mut self.trace {
+            Some(trace) => trace.advance(simulation),
+            None => Ok(()),
+        }
+    }
+
+    /// Completes the files.
     pub fn finish(self, run: &Run, report: &Report) -> Result<(), Failure> {
-        if let Some(TraceOutput { output, writer }) = self.trace {
+        if let Some(trace) = self.trace {
             let simulation = run.simulation();
             let outcome = Outcome {
                 outcome: report.outcome.word().to_string(),
                 digest: simulation.digest().value(),
                 end: simulation.now(),
             };
-            writer
-                .finish(&outcome)
-                .map_err(|error| output.failure(&error))?;
-            output.commit()?;
+            trace.finish(&outcome)?;
         }
         if let Some(PlotOutput {
             output,
@@ -164,10 +161,4 @@ fn refuse_to_overwrite(arguments: &RunArguments, read: &[PathBuf]) -> Result<(),
         }
     }
     Ok(())
-}
-
-impl Output {
-    fn failure(&self, error: &WriteError) -> Failure {
-        Failure::file(self.path(), error)
-    }
 }

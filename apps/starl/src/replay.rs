@@ -11,7 +11,7 @@ use crate::report::Ending;
 use crate::{recording, run, threads};
 use starl_catalog::Application;
 use starl_catalog::programs::Registry;
-use starl_core::Record;
+use starl_core::{Record, Time};
 use starl_sim::Run;
 use starl_trace::{Comparison, Difference, Header, Reader, Summary, TraceError};
 use std::fs::File;
@@ -21,20 +21,28 @@ use std::path::Path;
 /// Compares a trace with a run again; whether they are the same.
 pub fn replay(arguments: &ReplayArguments, registry: &Registry) -> Result<bool, Failure> {
     let path = arguments.trace.as_path();
-    let (header, summary) = read_through(path)?;
+    let Contents {
+        header,
+        summary,
+        records,
+        cut,
+    } = read_through(path)?;
     let application = inputs(path, &header, registry)?;
     let threads = threads::count(arguments.threads, application.scenario().fleet.len());
     let mut run = run::start(&application)?;
     run.set_parallel(threads > 1);
-    let found = threads::with(threads, || compare(path, &mut run, &summary))??;
-    let verdict = found.map_or_else(
-        || ending(&run, &summary),
-        |found| Err(tell(&found, &header)),
-    );
+    let end = summary.as_ref().map(|summary| summary.outcome.end);
+    let found = threads::with(threads, || compare(path, &mut run, end, records))??;
+    let verdict = match (found, &summary) {
+        (Some(found), _) => Err(tell(&found, &header)),
+        (None, Some(summary)) => ending(&run, summary),
+        (None, None) => Ok(as_far_as_it_goes(&format!("{} records", grouped(records)))),
+    };
     let (same, text) = match verdict {
         Ok(text) => (true, text),
         Err(text) => (false, text + &other_version(&header)),
     };
+    let text = text + &missing_end(cut.as_ref());
     console::print(&format!("{}: {text}\n", path.display()))?;
     Ok(same)
 }
@@ -52,16 +60,43 @@ pub fn unreadable(path: &Path, error: &TraceError) -> Failure {
     Failure::file(path, error)
 }
 
-/// Reads a trace from end to end.
-fn read_through(path: &Path) -> Result<(Header, Summary), Failure> {
+/// What a trace holds.
+struct Contents {
+    header: Header,
+    /// `None` if the end is missing.
+    summary: Option<Summary>,
+    records: u64,
+    /// Why the end is missing.
+    cut: Option<TraceError>,
+}
+
+/// Reads a trace from end to end, or as far as it goes.
+fn read_through(path: &Path) -> Result<Contents, Failure> {
     let mut reader = open(path)?;
+    let mut cut = None;
     for record in &mut reader {
-        record.map_err(|error| unreadable(path, &error))?;
+        match record {
+            Ok(_) => {}
+            Err(error) if error.is_missing_end() => cut = Some(error),
+            Err(error) => return Err(unreadable(path, &error)),
+        }
     }
-    match reader.summary() {
-        Some(summary) => Ok((reader.header().clone(), summary.clone())),
-        None => Err(unreadable(path, &TraceError::NoEnd(reader.progress()))),
-    }
+    Ok(Contents {
+        header: reader.header().clone(),
+        summary: reader.summary().filter(|_| cut.is_none()).cloned(),
+        records: reader.progress().records,
+        cut,
+    })
+}
+
+/// What agreed of a trace whose end is missing.
+pub fn as_far_as_it_goes(agreed: &str) -> String {
+    format!("identical as far as the trace goes: {agreed}")
+}
+
+/// A line on the end of a trace, where it is missing.
+pub fn missing_end(cut: Option<&TraceError>) -> String {
+    cut.map_or_else(String::new, |error| format!("\n  {error}"))
 }
 
 /// What the recorded run was started with.
@@ -77,11 +112,24 @@ pub fn inputs(path: &Path, header: &Header, registry: &Registry) -> Result<Appli
         .map_err(|refusal| because(refusal.to_string()))
 }
 
-/// Runs again up to the recorded end.
-fn compare(path: &Path, run: &mut Run, summary: &Summary) -> Result<Option<Difference>, Failure> {
-    let mut comparison = Comparison::new(open(path)?);
-    while !run.is_over() && run.simulation().now() < summary.outcome.end {
+/// Runs again up to the recorded end, or to the last record of a trace whose end is missing.
+fn compare(
+    path: &Path,
+    run: &mut Run,
+    end: Option<Time>,
+    records: u64,
+) -> Result<Option<Difference>, Failure> {
+    let recorded = open(path)?.take(usize::try_from(records).unwrap_or(usize::MAX));
+    let mut comparison = Comparison::new(recorded);
+    let is_past = |now, agreed| match end {
+        Some(end) => now >= end,
+        None => agreed == records,
+    };
+    while !run.is_over() && !is_past(run.simulation().now(), comparison.agreed()) {
         for record in run.step() {
+            if end.is_none() && comparison.agreed() == records {
+                break;
+            }
             comparison
                 .push(record)
                 .map_err(|error| unreadable(path, &error))?;
@@ -173,7 +221,7 @@ fn show(record: Option<&Record>, header: &Header) -> String {
 }
 
 /// A hint where another version made the trace.
-fn other_version(header: &Header) -> String {
+pub fn other_version(header: &Header) -> String {
     let ours = env!("CARGO_PKG_VERSION");
     match header.starl_version == ours {
         true => String::new(),

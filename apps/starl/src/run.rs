@@ -25,9 +25,10 @@ pub fn run(arguments: &RunArguments, registry: &Registry) -> Result<bool, Failur
     let stop = stop_on_interrupt();
     let mut run = start(&application)?;
     let setting = run.setting();
-    let mut outputs = Outputs::open(arguments, application.resolved(), &setting, &files, picture)?;
     let threads = threads::count(arguments.threads, scenario.fleet.len());
     run.set_parallel(threads > 1);
+    run.set_journal(arguments.inputs);
+    let mut outputs = Outputs::open(arguments, application.resolved(), &setting, &files, picture)?;
     let shown = !arguments.quiet && !arguments.json;
     let progress = Progress::new(shown, scenario.duration);
     let begun = Instant::now();
@@ -82,6 +83,7 @@ fn drive(
         for record in run.step() {
             outputs.observe(record)?;
         }
+        outputs.advance(run.simulation())?;
         progress.advance(run.simulation().now());
     }
     Ok(())

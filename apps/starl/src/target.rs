@@ -94,7 +94,7 @@ pub fn refused(refusal: Refusal) -> Failure {
 }
 
 /// The same, where `name` is what a file is called.
-fn tell(refusal: &Refusal, name: impl Fn(&Findings) -> String) -> Failure {
+pub fn tell(refusal: &Refusal, name: impl Fn(&Findings) -> String) -> Failure {
     let mut sums = Vec::new();
     for findings in refusal.broken_files() {
         let name = name(findings);

@@ -60,6 +60,11 @@ impl Agent {
         self.program.write_state(text) && write!(text, "{:x}", self.random.preview()).is_ok()
     }
 
+    /// The random stream, as far as it was drawn from.
+    pub fn random(&self) -> &Random {
+        &self.random
+    }
+
     /// Shows the program, e.g. to a test.
     pub fn program(&self) -> &dyn Program {
         &*self.program

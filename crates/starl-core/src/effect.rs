@@ -18,7 +18,7 @@ pub enum Destination {
 }
 
 /// One effect.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Effect {
     /// Hand a datagram to the network, which may lose, delay, duplicate or reorder it.
     Transmit {

@@ -3,12 +3,13 @@
 use crate::math;
 use rand_core::{Rng, SeedableRng};
 use rand_pcg::Pcg32;
+use serde::{Deserialize, Serialize};
 
 /// A stream of random numbers; equal seeds and keys give equal streams on every target.
 ///
 /// PCG XSH RR 64/32 (O'Neill 2014, "PCG: A Family of Simple Fast Space-Efficient Statistically Good
-/// Algorithms for Random Number Generation").
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// Algorithms for Random Number Generation"). A stream that was stored goes on where it was.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Random(Pcg32);
 
 impl Random {

@@ -2,9 +2,10 @@
 
 use crate::event::Name;
 use crate::{Point, RobotId};
+use serde::{Deserialize, Serialize};
 
 /// Where something touches the robot's body.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
     /// Direction of the touch from the robot's heading, radians in (-pi, pi], left positive.
     pub bearing: f64,
@@ -26,7 +27,7 @@ impl Contact {
 const BUMPER_OVERLAP: f64 = 0.2;
 
 /// One ray of a proximity sensor.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ray {
     /// Direction from the robot's heading, radians, left positive.
     pub bearing: f64,
@@ -37,7 +38,7 @@ pub struct Ray {
 }
 
 /// Something a detector sees in range and line of sight.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Detection {
     /// What it is.
     pub what: Detected,
@@ -46,7 +47,7 @@ pub struct Detection {
 }
 
 /// The kinds of things a detector tells apart.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Detected {
     /// A thing to be found, by its index among the world's things.
     Thing(u32),

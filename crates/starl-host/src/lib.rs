@@ -11,12 +11,16 @@ extern crate alloc;
 
 pub mod clock;
 pub mod hardware;
+pub mod journal;
 pub mod node;
 pub mod outlet;
+pub mod replayer;
 pub mod timers;
 
 pub use clock::Clock;
 pub use hardware::{Hardware, Snapshot};
+pub use journal::Observed;
 pub use node::{Condition, Happening, Node};
 pub use outlet::{Datagram, Outlet, PlanJob, Workspace};
+pub use replayer::{Departure, Difference, Replayer};
 pub use timers::Timers;

@@ -1,6 +1,6 @@
 //! The node itself: what happens to a robot, and in which order its software hears of it.
 
-use crate::{Clock, Datagram, Outlet, Snapshot, Timers};
+use crate::{Clock, Datagram, Observed, Outlet, Snapshot, Timers};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::mem;
@@ -24,6 +24,8 @@ pub struct Node {
     agent: Agent,
     clock: Clock,
     condition: Condition,
+    /// Whether the host was shown that the software is fresh.
+    is_observed: bool,
     /// Since when the robot is up, or when it is to start.
     up_since: Time,
     next_activation: Time,
@@ -94,6 +96,7 @@ impl Node {
             agent,
             clock,
             condition: Condition::default(),
+            is_observed: false,
             up_since: at,
             next_activation: at,
             timers: Timers::default(),
@@ -188,14 +191,28 @@ impl Node {
     pub fn restart(&mut self, at: Time, agent: Agent) {
         self.crash();
         self.agent = agent;
+        self.is_observed = false;
         self.condition.down = false;
         self.up_since = at;
         self.next_activation = at;
     }
 
     /// Overwrites the program's state at random: see [`Program::corrupt`].
-    pub fn corrupt(&mut self, random: &mut Random) {
+    pub fn corrupt(&mut self, at: Time, random: &mut Random, outlet: &mut impl Outlet) {
+        // The state of a robot that is down is lost already.
+        if !self.condition.down {
+            self.show_fresh(at, outlet);
+            outlet.observe(at, Observed::Corrupted { random });
+        }
         self.agent.corrupt(random);
+    }
+
+    /// Shows the host fresh software before anything is done to it.
+    fn show_fresh(&mut self, at: Time, outlet: &mut impl Outlet) {
+        if !mem::replace(&mut self.is_observed, true) {
+            let random = self.agent.random();
+            outlet.observe(at, Observed::Started { random });
+        }
     }
 
     /// Gives the robot a new estimate of where it is; its time is that of the robot's own clock. The
@@ -221,6 +238,7 @@ impl Node {
             Happening::Start => {
                 if !self.condition.started && !self.condition.down {
                     self.condition.started = true;
+                    self.show_fresh(at, outlet);
                     self.feed(at, &Input::Start, snapshot, outlet);
                 }
             }
@@ -307,7 +325,12 @@ impl Node {
         };
         let mut effects = mem::take(&mut outlet.workspace().effects);
         self.agent.handle(input, &view, &mut effects);
-        outlet.observe(at, input, &view, &effects.list);
+        let observed = Observed::Input {
+            input,
+            view: &view,
+            effects: &effects.list,
+        };
+        outlet.observe(at, observed);
         let mut list = mem::take(&mut effects.list);
         outlet.workspace().effects = effects;
         for effect in list.drain(..) {

@@ -1,10 +1,10 @@
 //! The host's side of a node: where datagrams, records and requests go.
 
-use crate::Hardware;
+use crate::{Hardware, Observed};
 use alloc::vec::Vec;
 use starl_core::effect::Effects;
 use starl_core::motion::{Path, PlanRequest};
-use starl_core::{Destination, Effect, Estimate, Event, Input, Message, MotionRequest, Time, View};
+use starl_core::{Destination, Estimate, Event, Message, MotionRequest, Time};
 use starl_motion::{Neighbour, planning};
 
 /// A datagram that a robot hands to the network.
@@ -100,8 +100,9 @@ pub trait Outlet {
         let _ = at;
     }
 
-    /// Is shown each input of the robot's software, what the robot knew, and what it asked for.
-    fn observe(&mut self, at: Time, input: &Input, view: &View<'_>, effects: &[Effect]) {
-        let _ = (at, input, view, effects);
+    /// Is shown all that is done to the robot's software, in order. A host that keeps a
+    /// [`crate::journal::Journal`] hands it on.
+    fn observe(&mut self, at: Time, observed: Observed<'_>) {
+        let _ = (at, observed);
     }
 }

@@ -81,6 +81,11 @@ impl Run {
         self.simulation.set_parallel(parallel);
     }
 
+    /// Whether to keep [`Simulation::journal`]: see [`Simulation::set_journal`].
+    pub fn set_journal(&mut self, keep: bool) {
+        self.simulation.set_journal(keep);
+    }
+
     /// Advances by one physics step and returns what happened, violations included.
     pub fn step(&mut self) -> &[Record] {
         let before = self.simulation.now();

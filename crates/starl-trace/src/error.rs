@@ -84,6 +84,13 @@ pub enum TraceError {
     },
 }
 
+impl TraceError {
+    /// Whether all that there is of the trace can be read, and only its end is missing.
+    pub fn is_missing_end(&self) -> bool {
+        matches!(self, TraceError::Truncated(_) | TraceError::NoEnd(_))
+    }
+}
+
 impl fmt::Display for TraceError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

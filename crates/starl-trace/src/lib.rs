@@ -29,7 +29,7 @@ mod writer;
 pub use compare::{Comparison, Difference, first_difference};
 pub use error::{Progress, TraceError, WriteError};
 pub use header::{FORMAT_VERSION, Header, RobotEntry};
-pub use reader::{Reader, Trace, read};
+pub use reader::{Inputs, Item, Reader, Trace, read};
 pub use summary::{Outcome, Summary};
 pub use topic::Topic;
 pub use views::ViewOptions;

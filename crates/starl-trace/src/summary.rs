@@ -26,6 +26,8 @@ pub struct Summary {
     pub records: u64,
     /// How many there are on each topic that has any, by the topic's name without `/starl/`.
     pub counts: BTreeMap<String, u64>,
+    /// How many messages there are with inputs of robots; they are no records.
+    pub inputs: u64,
 }
 
 /// Writes the summary's message.
@@ -44,7 +46,11 @@ pub(crate) fn encode(json: &mut Json, summary: &Summary) {
         json.item().mark(b'{').key("topic").string(topic);
         json.key("records").integer(*count).mark(b'}');
     }
-    json.mark(b']').mark(b'}');
+    json.mark(b']');
+    if summary.inputs > 0 {
+        json.key("inputs").integer(summary.inputs);
+    }
+    json.mark(b'}');
 }
 
 /// Reads the summary's message.
@@ -61,6 +67,8 @@ pub(crate) fn decode(text: &[u8]) -> Result<Summary, String> {
         end_ns: Time,
         records: u64,
         counts: Vec<Count>,
+        #[serde(default)]
+        inputs: u64,
     }
     let message: Message = decode::parse(text)?;
     let digest = u64::from_str_radix(&message.digest, 16)
@@ -77,24 +85,29 @@ pub(crate) fn decode(text: &[u8]) -> Result<Summary, String> {
             .into_iter()
             .map(|Count { topic, records }| (topic, records))
             .collect(),
+        inputs: message.inputs,
     })
 }
 
 /// Counts records by topic.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Tally([u64; Topic::ALL.len()]);
+pub(crate) struct Tally {
+    records: [u64; Topic::ALL.len()],
+    /// Messages with inputs of robots.
+    pub inputs: u64,
+}
 
 impl Tally {
     pub fn add(&mut self, topic: Topic) {
-        self.0[topic as usize] += 1;
+        self.records[topic as usize] += 1;
     }
 
     pub fn total(&self) -> u64 {
-        self.0.iter().sum()
+        self.records.iter().sum()
     }
 
     pub fn counts(&self) -> BTreeMap<String, u64> {
-        (Topic::ALL.into_iter().zip(self.0))
+        (Topic::ALL.into_iter().zip(self.records))
             .filter(|&(_, count)| count > 0)
             .map(|(topic, count)| {
                 (

@@ -122,6 +122,13 @@ impl Topic {
     }
 }
 
+/// The topic of the inputs of robots, and how they are encoded.
+pub(crate) const INPUTS: &str = "/starl/inputs";
+pub(crate) const INPUTS_SCHEMA: &str = "starl.Inputs";
+pub(crate) const INPUTS_ENCODING: &str = "postcard";
+/// The key, in the metadata of that channel, of the version of the encoding.
+pub(crate) const VERSION: &str = "version";
+
 /// The metadata record with which a trace begins.
 pub(crate) const METADATA: &str = "starl";
 /// The attachment with the scenario.

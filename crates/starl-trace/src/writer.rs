@@ -7,7 +7,7 @@ use crate::{
     FORMAT_VERSION, Header, Outcome, Summary, Topic, WriteError, encode, header, schema, summary,
     topic,
 };
-use mcap::records::MessageHeader;
+use mcap::records::{MessageHeader, op};
 use mcap::write::{Metadata, NoSeek, WriteOptions};
 use starl_core::{Event, Record, RobotId, Time};
 use std::collections::BTreeMap;
@@ -21,8 +21,13 @@ pub struct Writer<W: Write> {
     output: Output<W>,
     views: Views,
     tally: Tally,
+    /// The channel of [`Inputs`], once there is one.
+    inputs: Option<u16>,
     last: Time,
 }
+
+/// A chunk is closed before the next message once its messages take this many bytes.
+const CHUNK: usize = 1 << 20;
 
 /// Puts messages into the file. Messages carry their place in the whole file as sequence number, so
 /// that sorting by time and number gives back the order in which things happened.
@@ -30,12 +35,25 @@ pub(crate) struct Output<W: Write> {
     mcap: mcap::Writer<NoSeek<W>>,
     /// The message in the making.
     pub json: Json,
+    /// The messages that are not yet in a closed chunk, as records of the container.
+    unfinished: Vec<u8>,
     sequence: u32,
 }
 
 impl<W: Write> Output<W> {
     /// Writes the message that stands in `json`.
     pub fn send(&mut self, channel: u16, at: Time) -> Result<(), WriteError> {
+        let json = core::mem::take(&mut self.json);
+        let sent = self.send_bytes(channel, at, json.bytes());
+        self.json = json;
+        sent
+    }
+
+    /// Writes a message with this content.
+    pub fn send_bytes(&mut self, channel: u16, at: Time, data: &[u8]) -> Result<(), WriteError> {
+        if self.unfinished.len() > CHUNK {
+            self.close_chunk()?;
+        }
         let header = MessageHeader {
             channel_id: channel,
             sequence: self.sequence,
@@ -43,9 +61,29 @@ impl<W: Write> Output<W> {
             publish_time: at.0,
         };
         self.sequence = self.sequence.wrapping_add(1);
-        Ok(self
-            .mcap
-            .write_to_known_channel(&header, self.json.bytes())?)
+        self.mcap.write_to_known_channel(&header, data)?;
+        self.keep(&header, data);
+        Ok(())
+    }
+
+    /// Keeps a message that is not in a closed chunk yet, laid out as MCAP has it.
+    fn keep(&mut self, header: &MessageHeader, data: &[u8]) {
+        const HEADER: u64 = 22;
+        let kept = &mut self.unfinished;
+        kept.push(op::MESSAGE);
+        kept.extend((HEADER + data.len() as u64).to_le_bytes());
+        kept.extend(header.channel_id.to_le_bytes());
+        kept.extend(header.sequence.to_le_bytes());
+        kept.extend(header.log_time.to_le_bytes());
+        kept.extend(header.publish_time.to_le_bytes());
+        kept.extend(data);
+    }
+
+    /// Writes the chunk in the making.
+    fn close_chunk(&mut self) -> Result<(), WriteError> {
+        self.mcap.flush()?;
+        self.unfinished.clear();
+        Ok(())
     }
 
     /// Writes the view that stands in `json`; none if a number in it cannot be shown.
@@ -82,12 +120,15 @@ impl<W: Write> Writer<W> {
         let mcap = WriteOptions::new()
             .compression(None)
             .disable_seeking(true)
+            // Chunks are closed here, so that it is known what the open one holds.
+            .chunk_size(None)
             .profile("starl")
             .library(format!("starl {}", header.starl_version))
             .create(NoSeek::new(output))?;
         let mut output = Output {
             mcap,
             json: Json::default(),
+            unfinished: Vec::new(),
             sequence: 0,
         };
         write_header(&mut output, header)?;
@@ -97,10 +138,13 @@ impl<W: Write> Writer<W> {
             debug_assert_eq!(usize::from(channel), index + 1);
         }
         let views = Views::new(&mut output, header, options)?;
+        // From now on the file can be read, however early its writer stops.
+        output.close_chunk()?;
         Ok(Writer {
             output,
             views,
             tally: Tally::default(),
+            inputs: None,
             last: Time::ZERO,
         })
     }
@@ -134,6 +178,37 @@ impl<W: Write> Writer<W> {
         self.views.event(&mut self.output, at, robot, event)
     }
 
+    /// Makes room for the inputs of robots in this version of their encoding. To be called before the
+    /// first record, so that a reader knows from the start that there are some.
+    pub fn expect_inputs(&mut self, version: u32) -> Result<(), WriteError> {
+        let metadata = [(topic::VERSION.to_string(), version.to_string())].into();
+        let output = &mut self.output.mcap;
+        let schema = output.add_schema(topic::INPUTS_SCHEMA, "", b"")?;
+        let channel =
+            output.add_channel(schema, topic::INPUTS, topic::INPUTS_ENCODING, &metadata)?;
+        self.inputs = Some(channel);
+        self.output.close_chunk()
+    }
+
+    /// Writes inputs of robots from `at` on, encoded. Nothing happens unless
+    /// [`Writer::expect_inputs`] was called.
+    pub fn inputs(&mut self, at: Time, data: &[u8]) -> Result<(), WriteError> {
+        let Some(channel) = self.inputs else {
+            return Ok(());
+        };
+        self.output.send_bytes(channel, at, data)?;
+        self.tally.inputs += 1;
+        self.last = self.last.max(at);
+        Ok(())
+    }
+
+    /// The messages that were not given to the output yet, as records of the container. The output is a
+    /// trace that can be read up to here if they are put at its end; the next bytes that the writer gives it
+    /// go in their place, and are more. The output is flushed whenever all that it was given is complete.
+    pub fn unfinished(&self) -> &[u8] {
+        &self.output.unfinished
+    }
+
     /// How many records were written.
     pub fn records(&self) -> u64 {
         self.tally.total()
@@ -147,6 +222,7 @@ impl<W: Write> Writer<W> {
             outcome: outcome.clone(),
             records: self.tally.total(),
             counts: self.tally.counts(),
+            inputs: self.tally.inputs,
         };
         self.output.json.clear();
         summary::encode(&mut self.output.json, &end);

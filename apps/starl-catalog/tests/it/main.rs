@@ -9,6 +9,7 @@ mod intersection_is_safe_and_live;
 mod intersection_stream;
 mod intersection_support;
 mod intersection_throughput;
+mod journals_replay;
 mod line_is_even;
 mod mutex_gives_turns;
 mod program_parameters;

@@ -105,7 +105,15 @@ fn of_trace(path: &Path, extent: &Extent, registry: &Registry) -> Result<Diagram
     let application = inputs(path, reader.header(), registry)?;
     let mut story = Story::of(application.scenario());
     for record in &mut reader {
-        story.observe(&record.map_err(|error| unreadable(path, &error))?);
+        match record {
+            Ok(record) => story.observe(&record),
+            Err(error) if error.is_missing_end() => {
+                let path = path.display();
+                console::complain(&format!("{path}: drawn as far as it goes: {error}\n"));
+                break;
+            }
+            Err(error) => return Err(unreadable(path, &error)),
+        }
         if story.is_past(extent) {
             break;
         }

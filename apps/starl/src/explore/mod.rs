@@ -140,6 +140,7 @@ fn as_run(target: &str, arguments: &ExploreArguments) -> RunArguments {
         faults: None,
         threads: None,
         trace: None,
+        inputs: false,
         plot: None,
         json: arguments.json,
         quiet: arguments.quiet,

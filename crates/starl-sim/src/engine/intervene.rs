@@ -220,11 +220,13 @@ impl Simulation {
                 }
                 FaultKind::CorruptState(_) => {
                     let key = [u64::from(robot.0), at.0];
-                    mind.node
-                        .corrupt(&mut stream(seed, Stream::Corruption, &key));
+                    let mut random = stream(seed, Stream::Corruption, &key);
+                    // It happens before all that the robot does in this step.
+                    shard.corrupt(&self.shared, robot, self.now, &mut random);
                 }
                 _ => {}
             }
+            let mind = &shard.minds[robot.index() % SIZE];
             self.impaired += usize::from(mind.is_impaired());
         }
     }

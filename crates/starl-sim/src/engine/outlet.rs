@@ -6,7 +6,8 @@ use super::shared::{Kind, Shared};
 use super::things::Grip;
 use starl_core::event::{DropReason, PrimitiveEvent, ReachAvoidEvent};
 use starl_core::{Duration, Event, RobotId, Time};
-use starl_host::{Datagram, Outlet, PlanJob, Workspace};
+use starl_host::journal::Journal;
+use starl_host::{Datagram, Observed, Outlet, PlanJob, Workspace};
 use starl_motion::{Neighbour, State};
 
 /// Bytes that travel with a payload: addresses, port, sequence number and checksum, as in UDP over
@@ -23,6 +24,7 @@ pub struct Desk<'a> {
     pub outbox: &'a mut Vec<Outgoing>,
     pub grips: &'a mut Vec<Grip>,
     pub log: &'a mut Log,
+    pub journal: &'a mut Option<Box<Journal>>,
     pub workspace: &'a mut Workspace,
 }
 
@@ -94,6 +96,12 @@ impl Outlet for Desk<'_> {
                     near.push(shown[entry.robot as usize]);
                 }
             });
+    }
+
+    fn observe(&mut self, at: Time, observed: Observed<'_>) {
+        if let Some(journal) = self.journal {
+            journal.observe(self.robot, at, observed);
+        }
     }
 }
 

@@ -14,8 +14,9 @@ use super::shared::{Shared, Window};
 use super::things::Grip;
 use starl_core::event::Hit;
 use starl_core::sensor::Contact;
-use starl_core::{Command, Event, Point, RobotId, math};
+use starl_core::{Command, Event, Point, Random, RobotId, Time, math};
 use starl_host::Workspace;
+use starl_host::journal::Journal;
 use starl_motion::{Impact, Neighbour, State};
 
 /// How many robots a shard holds.
@@ -33,6 +34,8 @@ pub struct Shard {
     pub grips: Vec<Grip>,
     pub posted: Vec<Posted>,
     pub log: Log,
+    /// Takes down what is done to the robots' software; none while nobody wants to know.
+    pub journal: Option<Box<Journal>>,
     scratch: Scratch,
 }
 
@@ -75,6 +78,7 @@ impl Shard {
                 outbox: &mut self.outbox,
                 grips: &mut self.grips,
                 log: &mut self.log,
+                journal: &mut self.journal,
                 workspace: &mut scratch.workspace,
             };
             let mut turn = Turn {
@@ -100,6 +104,25 @@ impl Shard {
             next[index] = predicted.pose.position;
             self.predicted[index] = predicted;
         }
+    }
+
+    /// Overwrites the state of a robot's program at random.
+    pub fn corrupt(&mut self, shared: &Shared, robot: RobotId, at: Time, random: &mut Random) {
+        let index = (robot.0 - self.first) as usize;
+        let mind = &mut self.minds[index];
+        let mut desk = Desk {
+            robot,
+            shared,
+            kind: &shared.kinds[mind.group as usize],
+            state: &self.states[index],
+            account: &mut mind.account,
+            outbox: &mut self.outbox,
+            grips: &mut self.grips,
+            log: &mut self.log,
+            journal: &mut self.journal,
+            workspace: &mut self.scratch.workspace,
+        };
+        mind.node.corrupt(at, random, &mut desk);
     }
 
     /// Finds what each robot's predicted motion meets first.

@@ -16,6 +16,7 @@ use starl_core::{
     Digest, Duration, Estimate, Point, Program, Record, RobotId, Time, WayPoint, math,
 };
 use starl_host::Node;
+use starl_host::journal::{Batch, Journal};
 use starl_motion::{Neighbour, State};
 use std::sync::Arc;
 
@@ -47,6 +48,7 @@ pub struct Simulation {
     pub(super) world_digest: Digest,
     pub(super) world_records: Vec<Record>,
     records: Vec<Record>,
+    journal: Batch,
     parallel: bool,
 }
 
@@ -120,6 +122,7 @@ impl Simulation {
             world_digest: Digest::default(),
             world_records: Vec::new(),
             records: Vec::new(),
+            journal: Batch::default(),
             parallel: false,
         };
         simulation.raise_obstacles();
@@ -130,6 +133,15 @@ impl Simulation {
     pub fn set_recording(&mut self, recording: bool) {
         for shard in &mut self.shards {
             shard.log.recording = recording;
+        }
+    }
+
+    /// Whether [`Simulation::journal`] is kept; off at first. To be called before the first step, since a
+    /// journal from later on cannot be replayed.
+    pub fn set_journal(&mut self, keep: bool) {
+        for shard in &mut self.shards {
+            let journal = || Box::new(Journal::new(RobotId(shard.first), shard.minds.len()));
+            shard.journal = keep.then(journal);
         }
     }
 
@@ -274,12 +286,23 @@ impl Simulation {
             self.records.append(&mut shard.log.records);
         }
         self.records.sort_by_key(|record| (record.at, record.robot));
+        self.journal.clear();
+        for journal in self.shards.iter_mut().filter_map(|s| s.journal.as_mut()) {
+            journal.append_to(&mut self.journal);
+        }
+        self.journal.sort();
     }
 
     /// What happened in the last step, ordered by time and robot; empty unless recording, but for
     /// what concerns the world as a whole.
     pub fn records(&self) -> &[Record] {
         &self.records
+    }
+
+    /// What was done to the robots' software in the last step, ordered by time and robot, then as it was
+    /// done; empty unless [`Simulation::set_journal`] was called. It is no part of the digest.
+    pub fn journal(&self) -> &Batch {
+        &self.journal
     }
 
     /// The hash of all that has happened so far.

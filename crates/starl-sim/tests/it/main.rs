@@ -13,6 +13,8 @@ mod engine_support;
 mod finds_a_mutex_without_tie_break;
 mod finds_an_election_without_epochs;
 mod finds_writes_by_raw_clocks;
+mod journal_replays;
+mod journal_support;
 mod lone_robots_pass_pillars;
 mod monitor_sees_programs;
 mod profiles_draw_faults;

@@ -21,6 +21,8 @@ pub struct Reader<R> {
     header: Header,
     /// The topic of each of our channels; other channels are views.
     channels: BTreeMap<u16, Topic>,
+    /// The channel of [`Inputs`], and the version of their encoding.
+    inputs: Option<(u16, u32)>,
     tally: Tally,
     summary: Option<Summary>,
     finished: bool,
@@ -35,6 +37,7 @@ impl<R: Read> Reader<R> {
             container,
             header,
             channels: BTreeMap::new(),
+            inputs: None,
             tally: Tally::default(),
             summary: None,
             finished: false,
@@ -56,7 +59,23 @@ impl<R: Read> Reader<R> {
         self.container.progress
     }
 
-    fn read_record(&mut self) -> Result<Option<Record>, TraceError> {
+    /// The version of the encoding of [`Inputs`]; `None` if the trace holds none. It is known once the first
+    /// record or input was read.
+    pub fn inputs_version(&self) -> Option<u32> {
+        self.inputs.map(|(_, version)| version)
+    }
+
+    /// The next record or message of inputs; `None` after the last of a whole trace or after an error.
+    pub fn next_item(&mut self) -> Option<Result<Item, TraceError>> {
+        if self.finished {
+            return None;
+        }
+        let next = self.read_item().transpose();
+        self.finished = !matches!(next, Some(Ok(_)));
+        next
+    }
+
+    fn read_item(&mut self) -> Result<Option<Item>, TraceError> {
         loop {
             let Some(RawRecord { opcode, body }) = self.container.next()? else {
                 return match self.summary {
@@ -66,38 +85,44 @@ impl<R: Read> Reader<R> {
             };
             match opcode {
                 op::CHANNEL => {
-                    let known = channel(body, &mut self.channels);
+                    let known = channel(body, &mut self.channels, &mut self.inputs);
                     known.map_err(|what| self.container.damaged(what))?;
                 }
                 op::MESSAGE => {
                     let Some((id, at, data)) = message(body) else {
                         return Err(self.container.damaged("a message is cut short"));
                     };
-                    let Some(&topic) = self.channels.get(&id) else {
-                        continue;
-                    };
-                    let read = if self.summary.is_some() {
-                        Err("there are messages after the end record".to_string())
-                    } else if topic == Topic::Summary {
-                        summary::decode(data).and_then(|end| {
+                    let topic = self.channels.get(&id).copied();
+                    let is_input = self.inputs.is_some_and(|(channel, _)| channel == id);
+                    let read = match topic {
+                        None if !is_input => continue,
+                        _ if self.summary.is_some() => {
+                            Err("there are messages after the end record".to_string())
+                        }
+                        None => {
+                            self.tally.inputs += 1;
+                            let data = data.to_vec();
+                            return Ok(Some(Item::Inputs(Inputs { at, data })));
+                        }
+                        Some(Topic::Summary) => summary::decode(data).and_then(|end| {
                             self.summary = Some(end);
                             self.check_counts()
-                        })
-                    } else {
-                        decode::event(topic, data).map(|(robot, event)| {
+                        }),
+                        Some(topic) => decode::event(topic, data).map(|(robot, event)| {
                             self.tally.add(topic);
                             Some(Record { at, robot, event })
-                        })
+                        }),
                     };
                     match read {
                         Ok(None) => {}
                         Ok(Some(record)) => {
                             self.container.progress.records += 1;
                             self.container.progress.last = Some(at);
-                            return Ok(Some(record));
+                            return Ok(Some(Item::Record(record)));
                         }
                         Err(what) => {
-                            let (progress, topic) = (self.container.progress, topic.name().into());
+                            let name = topic.map_or(topic::INPUTS, Topic::name);
+                            let (progress, topic) = (self.container.progress, name.into());
                             return Err(TraceError::Message {
                                 progress,
                                 topic,
@@ -120,21 +145,45 @@ impl<R: Read> Reader<R> {
                 "the end record counts {} records, but {read} were read",
                 end.records
             )),
+            Some(end) if end.inputs != self.tally.inputs => Err(format!(
+                "the end record counts {} messages of inputs, but {} were read",
+                end.inputs, self.tally.inputs
+            )),
             _ => Ok(None),
         }
     }
 }
 
+/// Something that a trace holds.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Item {
+    /// Something that happened.
+    Record(Record),
+    /// What was done to the software of robots.
+    Inputs(Inputs),
+}
+
+/// A message with inputs of robots, encoded as a journal of `starl-host`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Inputs {
+    /// The time of the first of them.
+    pub at: Time,
+    /// The content.
+    pub data: Vec<u8>,
+}
+
+/// Gives the records alone.
 impl<R: Read> Iterator for Reader<R> {
     type Item = Result<Record, TraceError>;
 
     fn next(&mut self) -> Option<Result<Record, TraceError>> {
-        if self.finished {
-            return None;
+        loop {
+            match self.next_item()? {
+                Ok(Item::Record(record)) => return Some(Ok(record)),
+                Ok(Item::Inputs(_)) => {}
+                Err(error) => return Some(Err(error)),
+            }
         }
-        let next = self.read_record().transpose();
-        self.finished = !matches!(next, Some(Ok(_)));
-        next
     }
 }
 
@@ -165,8 +214,13 @@ pub fn read(bytes: &[u8]) -> Result<Trace, TraceError> {
     })
 }
 
-/// Notes which topic a channel carries, if it is one of ours.
-fn channel(body: &[u8], channels: &mut BTreeMap<u16, Topic>) -> Result<(), String> {
+/// Notes which topic a channel carries, if it is one of ours. Topics that are not known are left out: if one
+/// of them carries records, the counts of the end record tell.
+fn channel(
+    body: &[u8],
+    channels: &mut BTreeMap<u16, Topic>,
+    inputs: &mut Option<(u16, u32)>,
+) -> Result<(), String> {
     let mut fields = Fields(body);
     let parts = (|| {
         let (id, _schema) = (fields.u16()?, fields.u16()?);
@@ -175,10 +229,20 @@ fn channel(body: &[u8], channels: &mut BTreeMap<u16, Topic>) -> Result<(), Strin
     let Some((id, name, encoding)) = parts else {
         return Err("a channel record is cut short".into());
     };
-    if !name.starts_with(topic::PREFIX) {
-        return Ok(());
+    if name == topic::INPUTS {
+        let pairs = fields.pairs().unwrap_or_default();
+        let version = pairs.iter().find(|(key, _)| *key == topic::VERSION);
+        let version = version.and_then(|(_, version)| version.parse().ok());
+        let version = version.ok_or_else(|| format!("the topic `{name}` has no version"))?;
+        // Channels are repeated at the end of the file.
+        return match inputs.replace((id, version)) {
+            Some(before) if before != (id, version) => Err(format!("`{name}` has two channels")),
+            _ => Ok(()),
+        };
     }
-    let topic = Topic::named(name).ok_or_else(|| format!("the topic `{name}` is not known"))?;
+    let Some(topic) = Topic::named(name) else {
+        return Ok(());
+    };
     if encoding != "json" {
         return Err(format!(
             "the topic `{name}` is not in JSON but `{encoding}`"

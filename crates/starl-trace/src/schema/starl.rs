@@ -174,7 +174,7 @@ fn own_members(topic: Topic) -> Vec<Member<'static>> {
             ),
             always(
                 "records",
-                count("how many messages there are on topics under /starl/, this one left out"),
+                count("how many messages with records there are, this one left out"),
             ),
             always(
                 "counts",
@@ -185,6 +185,10 @@ fn own_members(topic: Topic) -> Vec<Member<'static>> {
                         always("records", count("how many messages it has")),
                     ],
                 )),
+            ),
+            maybe(
+                "inputs",
+                count("how many messages there are on /starl/inputs; absent if none"),
             ),
         ],
     }

@@ -96,7 +96,7 @@ fn checksums_taken_away_leave_errors_or_other_traces_but_no_panic() {
     // A checksum of zero means that none was made: what follows meets the decoders unchecked.
     let file = common::file(&ViewOptions::none());
     let mut random = Random::keyed(8, &[2]);
-    let checksums: Vec<usize> = checksums(&file);
+    let checksums: Vec<usize> = common::checksums(&file);
     assert!(checksums.len() >= 6, "{checksums:?}");
     let mut failures = 0;
     for _ in 0..5_000 {
@@ -176,22 +176,4 @@ fn a_claimed_length_costs_no_memory() {
     file.truncate(9);
     file.extend((1u64 << 30).to_le_bytes());
     assert!(matches!(read(&file).unwrap_err(), TraceError::Truncated(_)));
-}
-
-/// Where the checksums of attachments, chunks, the data section and the summary stand.
-fn checksums(file: &[u8]) -> Vec<usize> {
-    let mut found = Vec::new();
-    let mut at = 8;
-    while at + 9 < file.len() {
-        let length = u64::from_le_bytes(file[at + 1..at + 9].try_into().unwrap()) as usize;
-        let (body, end) = (at + 9, at + 9 + length);
-        match file[at] {
-            0x06 => found.push(body + 24),
-            0x09 | 0x02 => found.push(end - 4),
-            0x0f => found.push(body),
-            _ => {}
-        }
-        at = end;
-    }
-    found
 }

@@ -4,5 +4,7 @@ mod common;
 mod comparison;
 mod damage;
 mod documentation;
+mod inputs;
 mod other_library;
 mod round_trip;
+mod unfinished;

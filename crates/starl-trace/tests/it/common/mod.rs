@@ -271,3 +271,21 @@ pub fn file(options: &ViewOptions) -> Vec<u8> {
     }
     writer.finish(&outcome()).unwrap()
 }
+
+/// Where the checksums of attachments, chunks, the data section and the summary stand.
+pub fn checksums(file: &[u8]) -> Vec<usize> {
+    let mut found = Vec::new();
+    let mut at = 8;
+    while at + 9 < file.len() {
+        let length = u64::from_le_bytes(file[at + 1..at + 9].try_into().unwrap()) as usize;
+        let (body, end) = (at + 9, at + 9 + length);
+        match file[at] {
+            0x06 => found.push(body + 24),
+            0x09 | 0x02 => found.push(end - 4),
+            0x0f => found.push(body),
+            _ => {}
+        }
+        at = end;
+    }
+    found
+}

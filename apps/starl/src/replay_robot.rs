@@ -1,0 +1,193 @@
+//! `starl replay --robot`: runs one robot's software again on its recorded inputs, with no simulator, and
+//! compares what it asks for bit by bit.
+
+use crate::args::ReplayArguments;
+use crate::changed_program;
+use crate::console::{self, counted, grouped};
+use crate::failure::Failure;
+use crate::replay::{as_far_as_it_goes, inputs, missing_end, open, other_version, unreadable};
+use starl_catalog::programs::Registry;
+use starl_core::{Effect, Program, RobotId};
+use starl_host::{Departure, Difference, Replayer, journal};
+use starl_trace::{Header, Inputs, Item, TraceError};
+use std::path::Path;
+
+/// Replays the robot called `name`; whether it does the same.
+pub fn replay(
+    arguments: &ReplayArguments,
+    name: &str,
+    registry: &Registry,
+) -> Result<bool, Failure> {
+    let path = arguments.trace.as_path();
+    let header = open(path)?.header().clone();
+    let robot = robot(path, &header, name)?;
+    let mut replayer = Replayer::new(program(arguments, &header, robot, registry)?);
+    let Outcome { departure, cut } = feed(path, robot, &header, &mut replayer)?;
+    let agreed = format!(
+        "{}, {}",
+        counted(replayer.entries() as usize, "input"),
+        match replayer.lives() {
+            1 => "1 life".to_string(),
+            lives => format!("{} lives", grouped(u64::from(lives))),
+        }
+    );
+    let (same, text) = match (departure, &cut) {
+        (None, None) => (true, format!("identical: {agreed}")),
+        (None, Some(_)) => (true, as_far_as_it_goes(&agreed)),
+        (Some(Departure::Different(found)), _) => {
+            let hint = match arguments.program {
+                Some(_) => String::new(),
+                None => other_version(&header),
+            };
+            (false, tell(&found) + &hint)
+        }
+        (Some(Departure::NotStarted), _) => {
+            let what = format!("the inputs of {name} begin in the middle of its run");
+            return Err(Failure::file(path, what));
+        }
+    };
+    let with = match &arguments.program {
+        Some(program) => format!(" with {}", program.display()),
+        None => String::new(),
+    };
+    let end = missing_end(cut.as_ref());
+    console::print(&format!(
+        "{}: robot {name}{with}: {text}{end}\n",
+        path.display()
+    ))?;
+    Ok(same)
+}
+
+/// The robot called so.
+fn robot(path: &Path, header: &Header, name: &str) -> Result<RobotId, Failure> {
+    if let Some(found) = header.robots.iter().find(|robot| robot.name == name) {
+        return Ok(found.id);
+    }
+    /// More names than these help nobody.
+    const MOST: usize = 20;
+    let names: Vec<&str> = header.robots.iter().map(|robot| &*robot.name).collect();
+    let more = match names.len() > MOST {
+        true => format!(" and {} more", grouped((names.len() - MOST) as u64)),
+        false => String::new(),
+    };
+    let names = names[..names.len().min(MOST)].join(", ");
+    Err(Failure(format!(
+        "--robot {name}: no robot in {} is called this; the robots are {names}{more}",
+        path.display()
+    )))
+}
+
+/// What the robot ran, or is to run.
+fn program(
+    arguments: &ReplayArguments,
+    header: &Header,
+    robot: RobotId,
+    registry: &Registry,
+) -> Result<Box<dyn Program>, Failure> {
+    let path = arguments.trace.as_path();
+    let application = inputs(path, header, registry)?;
+    let application = match &arguments.program {
+        Some(program) => {
+            changed_program::read(path, header, &application, robot, program, registry)?
+        }
+        None => application,
+    };
+    (application.program_of(robot)).map_err(|error| Failure::file(path, error))
+}
+
+/// How far a replay came.
+struct Outcome {
+    departure: Option<Departure>,
+    /// Why the trace ends before the run.
+    cut: Option<TraceError>,
+}
+
+/// Feeds the recorded inputs up to the first difference, or to the end.
+fn feed(
+    path: &Path,
+    robot: RobotId,
+    header: &Header,
+    replayer: &mut Replayer,
+) -> Result<Outcome, Failure> {
+    let mut reader = open(path)?;
+    let mut recorded = journal::Reader::new(robot);
+    let (mut departure, mut cut, mut is_checked) = (None, None, false);
+    while let Some(item) = reader.next_item() {
+        let Inputs { at, data } = match item {
+            Ok(Item::Inputs(inputs)) => inputs,
+            Ok(Item::Record(_)) => continue,
+            Err(error) if error.is_missing_end() => {
+                cut = Some(error);
+                break;
+            }
+            Err(error) => return Err(unreadable(path, &error)),
+        };
+        if !std::mem::replace(&mut is_checked, true) {
+            check_version(path, header, reader.inputs_version())?;
+        }
+        let mut take = |at, observed: starl_host::Observed<'_>| {
+            if departure.is_none() {
+                departure = replayer.observe(at, observed).err();
+            }
+        };
+        recorded
+            .read(at, &data, &mut take)
+            .map_err(|error| Failure::file(path, format!("inputs at {at}: {error}")))?;
+        if departure.is_some() {
+            break;
+        }
+    }
+    if reader.inputs_version().is_none() {
+        return Err(Failure::file(
+            path,
+            "holds no inputs of robots; record it with `starl run --trace FILE --inputs`",
+        ));
+    }
+    Ok(Outcome { departure, cut })
+}
+
+fn check_version(path: &Path, header: &Header, version: Option<u32>) -> Result<(), Failure> {
+    let ours = journal::VERSION;
+    match version {
+        Some(version) if version != ours => Err(Failure::file(
+            path,
+            format!(
+                "its inputs have version {version}, and this command reads version {ours}: use StarL {}",
+                header.starl_version
+            ),
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Says where the software departs from the recording.
+fn tell(found: &Difference) -> String {
+    let place = found.effect();
+    let show = |effects: &[Effect]| match effects.get(place) {
+        Some(effect) => format!(
+            "{}, number {} of {}",
+            shown(effect),
+            place + 1,
+            effects.len()
+        ),
+        None => format!("nothing after {}", counted(place, "effect")),
+    };
+    format!(
+        "different: first at {:.9} s, after {} equal inputs\n  input:     {}\n  recorded:  {}\n  run again: {}",
+        found.at.seconds(),
+        grouped(found.agreed),
+        shown(&found.input),
+        show(&found.recorded),
+        show(&found.replayed)
+    )
+}
+
+/// As much of a value as can be read at a glance.
+fn shown(value: &impl std::fmt::Debug) -> String {
+    const LONGEST: usize = 400;
+    let text = format!("{value:?}");
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text,
+    }
+}

@@ -1,0 +1,73 @@
+//! A robot's journal: all that a host did to the robot's software, what the robot knew each time, and
+//! what its software asked for.
+//!
+//! A [`Journal`] takes down what nodes show to [`crate::Outlet::observe`], a [`Reader`] gives it back, and a
+//! [`crate::Replayer`] repeats it with no host at all. Of what a robot knows, an entry holds only what has
+//! changed since the robot's entry before; lists that many robots share (the fleet, way-points, obstacles)
+//! are kept once, under the hash of their content. Everything comes back to the last bit.
+//!
+//! The encoding is postcard's. `docs/reference/trace.md` describes it.
+
+mod batch;
+mod bytes;
+mod change;
+mod delta;
+mod knowledge;
+mod lists;
+mod reader;
+mod writer;
+
+pub use batch::{Batch, Noted, Packer};
+pub use reader::{Damaged, Reader};
+pub use writer::Journal;
+
+pub(crate) use bytes::encode;
+
+use alloc::borrow::Cow;
+use change::Change;
+use serde::{Deserialize, Serialize};
+use starl_core::{Effect, Input, Random, View};
+
+/// The version of the encoding. It counts every change of what a journal's bytes mean, changes of the
+/// types of `starl-core` that it holds among them.
+pub const VERSION: u32 = 1;
+
+/// Something that is done to a robot's software.
+#[derive(Clone, Copy, Debug)]
+pub enum Observed<'a> {
+    /// The robot has fresh software, which has not taken an input yet.
+    Started {
+        /// The stream that the software draws from.
+        random: &'a Random,
+    },
+    /// The program's state is overwritten at random: [`starl_core::Program::corrupt`].
+    Corrupted {
+        /// The stream that decides by what.
+        random: &'a Random,
+    },
+    /// The software takes an input.
+    Input {
+        /// The input.
+        input: &'a Input,
+        /// What the robot knew.
+        view: &'a View<'a>,
+        /// What the software asked for.
+        effects: &'a [Effect],
+    },
+}
+
+/// [`Observed`] as it is encoded.
+#[derive(Serialize, Deserialize)]
+enum Entry<'a> {
+    Started {
+        random: Cow<'a, Random>,
+    },
+    Corrupted {
+        random: Cow<'a, Random>,
+    },
+    Input {
+        input: Cow<'a, Input>,
+        change: Change<'a>,
+        effects: Cow<'a, [Effect]>,
+    },
+}

@@ -1,0 +1,247 @@
+//! Journals of one robot whose knowledge a test changes at will.
+
+use starl_core::event::{Level, Name};
+use starl_core::motion::{Body, Obstacles, Workspace};
+use starl_core::sensor::{Contact, Detected, Detection, Ray};
+use starl_core::{
+    ConvexPolygon, Effect, Estimate, Event, Input, Obstacle, Point, Pose, Random, RobotId, Sensors,
+    Time, Twist, View, WayPoint,
+};
+use starl_host::Observed;
+use starl_host::journal::{Batch, Damaged, Journal, Packer, Reader};
+
+pub const ROBOT: RobotId = RobotId(7);
+
+/// What a robot knows, all of it owned.
+#[derive(Clone, Debug)]
+pub struct World {
+    pub now: Time,
+    pub estimate: Estimate,
+    pub body: Body,
+    pub bumper: Option<Contact>,
+    pub proximity: Vec<Ray>,
+    pub detections: Vec<Detection>,
+    pub holding: Option<u32>,
+    pub thing_names: Vec<Name>,
+    pub fleet: Vec<RobotId>,
+    pub way_points: Vec<WayPoint>,
+    pub obstacles: Obstacles,
+}
+
+impl Default for World {
+    fn default() -> World {
+        World {
+            now: Time(1_000),
+            estimate: Estimate {
+                pose: Pose::level(Point::planar(1.0, 2.0), 0.5),
+                twist: Twist::default(),
+                at: Time(900),
+            },
+            body: Body {
+                radius: 0.2,
+                height: 0.3,
+                workspace: Workspace::Air { lowest: 1.5 },
+            },
+            bumper: None,
+            proximity: Vec::new(),
+            detections: Vec::new(),
+            holding: None,
+            thing_names: Vec::new(),
+            fleet: vec![RobotId(0), ROBOT],
+            way_points: vec![WayPoint {
+                name: "A".into(),
+                position: Point::ZERO,
+                group: 3,
+            }],
+            obstacles: [Obstacle::circle(Point::planar(4.0, 5.0), 0.5), wall()].into(),
+        }
+    }
+}
+
+pub fn wall() -> Obstacle {
+    let corners = [Point::planar(0.1, 0.2), Point::planar(3.3, 0.7)];
+    Obstacle::polygon(ConvexPolygon::new(&corners).expect("it is a wall"))
+}
+
+impl World {
+    pub fn view(&self) -> View<'_> {
+        View {
+            id: ROBOT,
+            now: self.now,
+            estimate: self.estimate,
+            body: self.body,
+            sensors: Sensors {
+                bumper: self.bumper,
+                proximity: &self.proximity,
+                detections: &self.detections,
+                holding: self.holding,
+                thing_names: &self.thing_names,
+            },
+            fleet: &self.fleet,
+            way_points: &self.way_points,
+            obstacles: &self.obstacles,
+        }
+    }
+
+    /// Changes one thing, numbers that are equal but not the same among them.
+    pub fn change(&mut self, random: &mut Random) {
+        let number = match random.below(8) {
+            0 => -0.0,
+            1 => 0.0,
+            2 => f64::NAN,
+            3 => f64::INFINITY,
+            _ => random.between(-5.0, 5.0),
+        };
+        let point = Point {
+            x: number,
+            y: 0.0,
+            z: -number,
+        };
+        self.now = Time(self.now.0 + u64::from(random.below(3)) * 50_000_001);
+        match random.below(18) {
+            0 => self.estimate.pose.position = point,
+            1 => self.estimate.pose.yaw = number,
+            2 => self.estimate.pose.roll = number,
+            3 => self.estimate.twist.linear = point,
+            4 => self.estimate.twist.pitch = number,
+            5 => self.estimate.at = Time(self.now.0 - u64::from(random.below(2))),
+            6 => self.body.height = number,
+            7 => self.body.workspace = Workspace::Ground,
+            8 => {
+                self.bumper = random.chance(0.5).then_some(Contact { bearing: number });
+            }
+            9 => self.proximity.clear(),
+            10 => {
+                let rays = 1 + random.below(9);
+                self.proximity = (0..rays)
+                    .map(|ray| Ray {
+                        bearing: f64::from(ray),
+                        distance: if random.chance(0.5) { 1.0 } else { number },
+                        nearness: 0.0,
+                    })
+                    .collect();
+            }
+            11 => self.detections.clear(),
+            12 => {
+                let what = match random.chance(0.5) {
+                    true => Detected::Thing(random.below(3)),
+                    false => Detected::Robot(RobotId(random.below(3))),
+                };
+                let position = point;
+                self.detections.push(Detection { what, position });
+            }
+            13 => self.fleet.push(RobotId(100 + random.below(100))),
+            15 => self.holding = random.chance(0.5).then_some(random.below(3)),
+            16 => self
+                .thing_names
+                .push(format!("thing{}", random.below(9)).into()),
+            14 => self.way_points[0].position = point,
+            _ => {
+                let extra = Obstacle::cuboid(Point::ZERO, Point::planar(1.0, 1.0));
+                self.obstacles = match random.below(3) {
+                    0 => [].into(),
+                    1 => self.obstacles.iter().cloned().collect(),
+                    _ => self.obstacles.iter().cloned().chain([extra]).collect(),
+                };
+            }
+        }
+    }
+}
+
+/// A program's report, as an effect.
+pub fn said(text: impl Into<String>) -> Effect {
+    Effect::Record(Event::Log {
+        level: Level::Info,
+        text: text.into().into(),
+    })
+}
+
+/// Something that is done to a robot's software, owned.
+#[derive(Clone, Debug)]
+pub enum Deed {
+    Started(Random),
+    Corrupted(Random),
+    Input(Box<World>, Input, Vec<Effect>),
+}
+
+impl Deed {
+    pub fn show(&self, at: Time, see: &mut dyn FnMut(Time, Observed<'_>)) {
+        match self {
+            Deed::Started(random) => see(at, Observed::Started { random }),
+            Deed::Corrupted(random) => see(at, Observed::Corrupted { random }),
+            Deed::Input(world, input, effects) => {
+                let view = &world.view();
+                let observed = Observed::Input {
+                    input,
+                    view,
+                    effects,
+                };
+                see(at, observed);
+            }
+        }
+    }
+}
+
+/// Everything in an observation as text, to the last bit but for what a not-a-number carries.
+pub fn text(at: Time, observed: Observed<'_>) -> String {
+    format!("{at:?} {observed:?}")
+}
+
+/// The messages in which a trace holds these deeds, `size` to a message.
+pub fn messages(deeds: &[(Time, Deed)], size: usize) -> Vec<(Time, Vec<u8>)> {
+    let mut journal = Journal::new(ROBOT, 1);
+    let mut packer = Packer::default();
+    let mut batch = Batch::default();
+    let pack = |deeds: &[(Time, Deed)]| {
+        for (at, deed) in deeds {
+            deed.show(*at, &mut |at, observed| {
+                journal.observe(ROBOT, at, observed)
+            });
+        }
+        batch.clear();
+        journal.append_to(&mut batch);
+        batch.sort();
+        packer.pack(&batch).expect("there are some")
+    };
+    deeds.chunks(size).map(pack).collect()
+}
+
+/// What a reader of these messages is shown.
+pub fn read(messages: &[(Time, Vec<u8>)]) -> Result<Vec<String>, Damaged> {
+    let mut reader = Reader::new(ROBOT);
+    let mut seen = Vec::new();
+    for (at, message) in messages {
+        reader.read(*at, message, &mut |at, observed| {
+            seen.push(text(at, observed))
+        })?;
+    }
+    Ok(seen)
+}
+
+/// A run of a robot whose knowledge changes at random.
+pub fn random_deeds(seed: u64, count: usize) -> Vec<(Time, Deed)> {
+    let mut random = Random::keyed(seed, &[]);
+    let mut world = World::default();
+    let mut deeds = vec![(Time(10), Deed::Started(random.clone()))];
+    while deeds.len() < count {
+        let at = Time(deeds.len() as u64 * 1_000);
+        let deed = match random.below(20) {
+            0 => Deed::Started(random.clone()),
+            1 => Deed::Corrupted(random.clone()),
+            _ => {
+                for _ in 0..random.below(4) {
+                    world.change(&mut random);
+                }
+                let input = match random.below(3) {
+                    0 => Input::Activate,
+                    1 => Input::Estimate,
+                    _ => Input::Suspected(RobotId(random.below(9))),
+                };
+                let effects = (0..random.below(3)).map(|number| said(format!("line {number}")));
+                Deed::Input(Box::new(world.clone()), input, effects.collect())
+            }
+        };
+        deeds.push((at, deed));
+    }
+    deeds
+}
