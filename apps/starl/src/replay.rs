@@ -11,7 +11,7 @@ use crate::report::Ending;
 use crate::{recording, run, threads};
 use starl_catalog::Application;
 use starl_catalog::programs::Registry;
-use starl_core::Record;
+use starl_core::{Event, Intervention, Record, Time};
 use starl_sim::Run;
 use starl_trace::{Comparison, Difference, Header, Reader, Summary, TraceError};
 use std::fs::File;
@@ -21,11 +21,12 @@ use std::path::Path;
 /// Compares a trace with a run again; whether they are the same.
 pub fn replay(arguments: &ReplayArguments, registry: &Registry) -> Result<bool, Failure> {
     let path = arguments.trace.as_path();
-    let (header, summary) = read_through(path)?;
+    let (header, summary, steered) = read_through(path)?;
     let application = inputs(path, &header, registry)?;
     let threads = threads::count(arguments.threads, application.scenario().fleet.len());
     let mut run = run::start(&application)?;
     run.set_parallel(threads > 1);
+    run.repeat(steered);
     let found = threads::with(threads, || compare(path, &mut run, &summary))??;
     let verdict = found.map_or_else(
         || ending(&run, &summary),
@@ -52,14 +53,21 @@ pub fn unreadable(path: &Path, error: &TraceError) -> Failure {
     Failure::file(path, error)
 }
 
+/// What steered a run, and when.
+type Steered = Vec<(Time, Intervention)>;
+
 /// Reads a trace from end to end.
-fn read_through(path: &Path) -> Result<(Header, Summary), Failure> {
+fn read_through(path: &Path) -> Result<(Header, Summary, Steered), Failure> {
     let mut reader = open(path)?;
+    let mut steered = Steered::new();
     for record in &mut reader {
-        record.map_err(|error| unreadable(path, &error))?;
+        let record = record.map_err(|error| unreadable(path, &error))?;
+        if let Event::Intervention(what) = record.event {
+            steered.push((record.at, *what));
+        }
     }
     match reader.summary() {
-        Some(summary) => Ok((reader.header().clone(), summary.clone())),
+        Some(summary) => Ok((reader.header().clone(), summary.clone(), steered)),
         None => Err(unreadable(path, &TraceError::NoEnd(reader.progress()))),
     }
 }

@@ -311,7 +311,10 @@ fn what_cannot_be_is_refused_with_a_reason_and_changes_nothing() {
     let nobody = Intervention::Fault(FaultKind::Crash(vec![RobotId(7)]));
     let name = || "C".to_string();
     for (what, expected) in [
-        (loss, "a number in it is not finite, or out of its range"),
+        (
+            loss,
+            "a number in it is not finite or out of its range, a name is blank, or it names no robot, or one twice",
+        ),
         (nobody, "there is no robot 7; the fleet has 2"),
         (
             Intervention::RemoveThing { name: name() },
