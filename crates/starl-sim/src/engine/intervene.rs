@@ -359,10 +359,8 @@ impl Simulation {
             self.bring_fault(at, &FaultKind::Crash(vec![robot]));
             let position = self.shared.bodies[robot.index()].position;
             let mind = self.mind_mut(robot);
-            let was_impaired = mind.is_impaired();
             mind.is_gone = true;
             let held = mind.senses.holding.take();
-            self.impaired -= usize::from(was_impaired);
             if let Some(thing) = held {
                 self.shared.things.put_down(thing, position);
             }

@@ -375,8 +375,9 @@ fn steer(simulation: &mut Simulation) -> Vec<Record> {
     }
     records.extend(run(simulation, 1.0));
     let now = simulation.now();
-    for what in orders() {
-        simulation.apply(now, what).expect("it is fine");
+    for (count, what) in (0..).zip(orders()) {
+        let at = now + Duration::from_millis(10 * count);
+        simulation.apply(at, what).expect("it is fine");
     }
     records.extend(run(simulation, 2.0));
     records
