@@ -3,12 +3,16 @@
 use crate::plot::{PlotData, RobotPath};
 use crate::report::{Ending, Report};
 use starl_core::event::Mark;
-use starl_core::{Event, Point, Record};
+use starl_core::{Event, Intervention, Point, Record};
 use starl_sim::{Outcome, Scenario};
 use std::collections::BTreeMap;
 
 /// The robots' paths so far.
-pub struct Paths(PlotData);
+pub struct Paths {
+    data: PlotData,
+    /// Robots that are to join, at their starts.
+    joining: Vec<RobotPath>,
+}
 
 impl Paths {
     /// The world, with every robot at its start.
@@ -30,7 +34,7 @@ impl Paths {
             }
         }
         let world = &scenario.world;
-        Paths(PlotData {
+        let data = PlotData {
             title: scenario.title.clone(),
             subtitle: String::new(),
             arena: world.bounds.map(|bounds| (bounds.low, bounds.high)),
@@ -42,23 +46,63 @@ impl Paths {
             way_points: world.way_points.clone(),
             robots,
             collisions: Vec::new(),
-        })
+        };
+        let joining = Vec::new();
+        Paths { data, joining }
     }
 
     /// Takes in what happened next.
     pub fn observe(&mut self, record: &Record) {
-        let Some(robot) = record.robot else { return };
-        let Some(RobotPath { path, marks, .. }) = self.0.robots.get_mut(robot.index()) else {
+        let Some(robot) = record.robot else {
+            if let Event::Intervention(what) = &record.event {
+                self.steered(what);
+            }
+            return;
+        };
+        let Some(RobotPath { path, marks, .. }) = self.data.robots.get_mut(robot.index()) else {
+            if let Event::Moved(pose) = &record.event {
+                self.joined(pose.position);
+            }
             return;
         };
         let last = path.last().copied().unwrap_or(Point::ZERO);
         match &record.event {
             Event::Moved(pose) if pose.position != last => path.push(pose.position),
-            Event::Collided { .. } => self.0.collisions.push(last),
+            Event::Collided { .. } => self.data.collisions.push(last),
             Event::Draw(Mark { label, shape }) => {
                 marks.insert(label.to_string(), shape.clone());
             }
             _ => {}
+        }
+    }
+
+    /// The picture shows all places where obstacles and way-points were.
+    fn steered(&mut self, what: &Intervention) {
+        match what {
+            Intervention::AddObstacle { obstacle, .. }
+            | Intervention::MoveObstacle { obstacle, .. } => {
+                self.data.obstacles.push(obstacle.clone());
+            }
+            Intervention::SetWayPoint(way_point) => self.data.way_points.push(way_point.clone()),
+            Intervention::Join { like, name, pose } => {
+                let like = self.data.robots.get(like.index());
+                self.joining.extend(like.map(|like| RobotPath {
+                    name: name.clone(),
+                    model: like.model.clone(),
+                    path: vec![pose.position],
+                    marks: BTreeMap::new(),
+                    ..*like
+                }));
+            }
+            _ => {}
+        }
+    }
+
+    /// A robot appears where one was to join.
+    fn joined(&mut self, place: Point) {
+        let mut joining = self.joining.iter();
+        if let Some(found) = joining.position(|robot| robot.path.first() == Some(&place)) {
+            self.data.robots.push(self.joining.swap_remove(found));
         }
     }
 
@@ -71,10 +115,10 @@ impl Paths {
             Ending::Over(Outcome::Failed) => "failed",
             Ending::Interrupted => "interrupted",
         };
-        self.0.subtitle = format!(
+        self.data.subtitle = format!(
             "seed {}, {outcome} after {:.1} s",
             report.seed, report.sim_seconds
         );
-        self.0
+        self.data
     }
 }

@@ -11,7 +11,7 @@ use crate::report::Ending;
 use crate::{recording, run, threads};
 use starl_catalog::Application;
 use starl_catalog::programs::Registry;
-use starl_core::{Record, Time};
+use starl_core::{Event, Intervention, Record, Time};
 use starl_sim::Run;
 use starl_trace::{Comparison, Difference, Header, Reader, Summary, TraceError};
 use std::fs::File;
@@ -25,12 +25,14 @@ pub fn replay(arguments: &ReplayArguments, registry: &Registry) -> Result<bool, 
         header,
         summary,
         records,
+        steered,
         cut,
     } = read_through(path)?;
     let application = inputs(path, &header, registry)?;
     let threads = threads::count(arguments.threads, application.scenario().fleet.len());
     let mut run = run::start(&application)?;
     run.set_parallel(threads > 1);
+    run.repeat(steered);
     let end = summary.as_ref().map(|summary| summary.outcome.end);
     let found = threads::with(threads, || compare(path, &mut run, end, records))??;
     let verdict = match (found, &summary) {
@@ -66,6 +68,8 @@ struct Contents {
     /// `None` if the end is missing.
     summary: Option<Summary>,
     records: u64,
+    /// What steered the run, and when.
+    steered: Vec<(Time, Intervention)>,
     /// Why the end is missing.
     cut: Option<TraceError>,
 }
@@ -73,10 +77,15 @@ struct Contents {
 /// Reads a trace from end to end, or as far as it goes.
 fn read_through(path: &Path) -> Result<Contents, Failure> {
     let mut reader = open(path)?;
+    let mut steered = Vec::new();
     let mut cut = None;
     for record in &mut reader {
         match record {
-            Ok(_) => {}
+            Ok(record) => {
+                if let Event::Intervention(what) = record.event {
+                    steered.push((record.at, *what));
+                }
+            }
             Err(error) if error.is_missing_end() => cut = Some(error),
             Err(error) => return Err(unreadable(path, &error)),
         }
@@ -85,6 +94,7 @@ fn read_through(path: &Path) -> Result<Contents, Failure> {
         header: reader.header().clone(),
         summary: reader.summary().filter(|_| cut.is_none()).cloned(),
         records: reader.progress().records,
+        steered,
         cut,
     })
 }

@@ -31,6 +31,10 @@ pub enum Excuse {
     Clocks,
     /// A robot that had crashed in the air fell.
     Fall,
+    /// A robot was pushed.
+    Push,
+    /// An obstacle appeared or moved to where a robot was.
+    Obstacle,
 }
 
 impl Excuse {
@@ -47,6 +51,8 @@ impl Excuse {
             Excuse::NoMajority => "too few robots were there",
             Excuse::Clocks => "clocks ran too wrong",
             Excuse::Fall => "a robot that had crashed fell",
+            Excuse::Push => "a robot was pushed",
+            Excuse::Obstacle => "an obstacle appeared on a robot",
         }
     }
 }

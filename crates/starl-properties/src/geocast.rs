@@ -183,9 +183,11 @@ impl Geocast {
     fn was_inside(&self, robot: RobotId, message: &Message, due: Time) -> bool {
         let inside =
             |sample: &Sample| depth(&message.area, sample.position) > self.tolerance.around(sample);
-        let mut samples = self.tracks[robot.index()]
-            .between(message.sent, due)
-            .peekable();
+        // Of a robot that has joined later nothing is known.
+        let Some(track) = self.tracks.get(robot.index()) else {
+            return false;
+        };
+        let mut samples = track.between(message.sent, due).peekable();
         samples.peek().is_some() && samples.all(inside)
     }
 }

@@ -7,7 +7,7 @@
 
 use crate::Excuse;
 use starl_core::event::{DropReason, Event, Fault};
-use starl_core::{Duration, Record, RobotId, Time};
+use starl_core::{Duration, Intervention, Record, RobotId, Time};
 use std::collections::BTreeMap;
 
 /// What a promise asks of a robot; each asks for what the ones before it do.
@@ -28,6 +28,8 @@ pub(super) enum Change<'a> {
     Fault(&'a Fault),
     /// Its program cannot go on.
     Failed,
+    /// Its body is moved from outside.
+    Pushed,
 }
 
 impl Change<'_> {
@@ -40,6 +42,7 @@ impl Change<'_> {
     pub fn excuse(self) -> Option<Excuse> {
         match self {
             Change::Failed => Some(Excuse::Failed),
+            Change::Pushed => Some(Excuse::Push),
             Change::Fault(Fault::Crash) => Some(Excuse::Down),
             Change::Fault(Fault::FrozenSensor) => Some(Excuse::Sensors),
             Change::Fault(Fault::StuckMotor) => Some(Excuse::Motors),
@@ -104,6 +107,11 @@ impl Health {
                     self.change(robot, record.at, Change::Failed);
                 }
             }
+            Event::Intervention(what) => {
+                if let Intervention::Push { robot, .. } = **what {
+                    self.change(robot, record.at, Change::Pushed);
+                }
+            }
             &Event::Dropped {
                 from,
                 to: Some(to),
@@ -160,6 +168,8 @@ impl Health {
         let mut for_a_moment = false;
         match change {
             Change::Failed => condition.failed = true,
+            // It has to move back by itself, or is where it is not to be.
+            Change::Pushed => for_a_moment = needs >= Needs::Moving,
             // A robot that crashes has no other trouble.
             Change::Fault(Fault::Crash) => {
                 *condition = Condition {

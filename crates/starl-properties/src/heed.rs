@@ -31,6 +31,8 @@ impl Kinds {
     pub const FAILED: Kinds = Kinds(1 << 7);
     /// Any other.
     pub const OTHER: Kinds = Kinds(1 << 8);
+    /// [`Event::Intervention`].
+    pub const INTERVENTION: Kinds = Kinds(1 << 9);
 
     /// What most checkers go by: what primitives report, and what befalls robots.
     pub const REPORTS: Kinds = Kinds(Kinds::PRIMITIVE.0 | Kinds::FAULT.0 | Kinds::FAILED.0);
@@ -46,6 +48,7 @@ impl Kinds {
             Event::Primitive { .. } => Kinds::PRIMITIVE,
             Event::Fault(_) => Kinds::FAULT,
             Event::Failed(_) => Kinds::FAILED,
+            Event::Intervention(_) => Kinds::INTERVENTION,
             _ => Kinds::OTHER,
         }
     }

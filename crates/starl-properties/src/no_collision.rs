@@ -10,9 +10,9 @@ use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
 use starl_core::event::{Event, Fault, Hit};
 use starl_core::geometry::{Bounds, ObstacleIndex};
 use starl_core::motion::Body;
-use starl_core::{Duration, Obstacle, Point, Record, RobotId, Time};
+use starl_core::{Duration, Intervention, Obstacle, Point, Record, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
 const NO_COLLISION: &str = "no_collision";
@@ -42,8 +42,10 @@ pub(super) struct NoCollision {
     obstacles: Arc<ObstacleIndex>,
     /// When each obstacle vanishes.
     expires: Arc<[Time]>,
-    /// How many of them stand in the world; the walls around it follow.
-    listed: usize,
+    /// Which of them are the walls around the world: behind those of the start come those that have appeared.
+    edges: Range<usize>,
+    /// Robots that are to join, if their places are free.
+    joining: Vec<(Body, Point)>,
     /// Each robot's last pose.
     positions: Vec<Option<Point>>,
     round: Round,
@@ -98,7 +100,8 @@ impl NoCollision {
         NoCollision {
             bodies: setting.bodies.clone(),
             obstacles: Arc::new(ObstacleIndex::new(&obstacles)),
-            listed: expires.len() - setting.walls.min(expires.len()),
+            edges: expires.len() - setting.walls.min(expires.len())..expires.len(),
+            joining: Vec::new(),
             expires: expires.into(),
             positions: vec![None; robots],
             round: Round {
@@ -197,8 +200,89 @@ impl NoCollision {
         is_new
     }
 
+    /// The world or the fleet changes.
+    fn steered(&mut self, at: Time, what: &Intervention) {
+        let stands = |index: u32| {
+            let expires = self.expires.get(index as usize);
+            let is_edge = self.edges.contains(&(index as usize));
+            expires.is_some_and(|&expires| expires > at) && !is_edge
+        };
+        let mut obstacles = self.obstacles.obstacles().to_vec();
+        let mut expires = self.expires.to_vec();
+        let index = match what {
+            Intervention::AddObstacle { obstacle, .. } => {
+                obstacles.push(obstacle.clone());
+                expires.push(Time::NEVER);
+                obstacles.len() as u32 - 1
+            }
+            Intervention::MoveObstacle { index, obstacle } if stands(*index) => {
+                obstacles[*index as usize] = obstacle.clone();
+                *index
+            }
+            Intervention::RemoveObstacle { index } if stands(*index) => {
+                expires[*index as usize] = at;
+                self.expires = expires.into();
+                return;
+            }
+            Intervention::Join { like, pose, .. } => {
+                let body = self.bodies.get(like.index());
+                let position = pose.position;
+                self.joining.extend(body.map(|&body| (body, position)));
+                return;
+            }
+            Intervention::Leave(robots) => {
+                return robots.iter().for_each(|&robot| self.left(robot));
+            }
+            _ => return,
+        };
+        self.obstacles = Arc::new(ObstacleIndex::new(&obstacles));
+        self.expires = expires.into();
+        // A robot can do nothing about an obstacle that comes to it.
+        let obstacle = &obstacles[index as usize];
+        for place in 0..self.bodies.len() {
+            let (Some(position), body) = (self.positions[place], self.bodies[place]) else {
+                continue;
+            };
+            let gap = obstacle.body_gap(position, body.radius, body.height);
+            if gap < APART && self.touch(RobotId(place as u32), index, position) && gap < -OVERLAP {
+                self.excused.note(NO_COLLISION, Excuse::Obstacle);
+            }
+        }
+    }
+
+    /// A robot has joined if it appears where one was to join.
+    fn joined(&mut self, robot: RobotId, position: Point) {
+        let mut joining = self.joining.iter();
+        let found = joining.position(|(_, place)| *place == position);
+        if let Some(found) = found
+            && robot.index() == self.bodies.len()
+        {
+            self.bodies.push(self.joining.swap_remove(found).0);
+            self.positions.push(None);
+            self.round.poses.push(None);
+            self.walls.push(Vec::new());
+        }
+    }
+
+    /// A robot is gone, and its body with it.
+    fn left(&mut self, robot: RobotId) {
+        let Some(position) = self.positions.get_mut(robot.index()) else {
+            return;
+        };
+        *position = None;
+        if self.round.poses[robot.index()].take().is_some() {
+            self.round.count -= 1;
+        }
+        self.walls[robot.index()].clear();
+        self.falls.remove(&robot);
+        self.pairs.retain(|&(a, b)| a != robot && b != robot);
+    }
+
     fn moved(&mut self, at: Time, robot: RobotId, position: Point, found: &mut Vec<Violation>) {
         let index = robot.index();
+        if index >= self.bodies.len() {
+            self.joined(robot, position);
+        }
         if index >= self.bodies.len() || !position.is_finite() {
             return;
         }
@@ -217,9 +301,9 @@ impl NoCollision {
 
     /// What an obstacle is called.
     fn name(&self, index: u32) -> String {
-        match (index as usize) < self.listed {
-            true => format!("obstacle {index}"),
-            false => EDGE.into(),
+        match self.edges.contains(&(index as usize)) {
+            true => EDGE.into(),
+            false => format!("obstacle {index}"),
         }
     }
 
@@ -315,7 +399,7 @@ impl Checker for NoCollision {
     }
 
     fn heeds(&self) -> Kinds {
-        Kinds::MOVED | Kinds::COLLIDED | Kinds::FAULT
+        Kinds::MOVED | Kinds::COLLIDED | Kinds::FAULT | Kinds::INTERVENTION
     }
 
     fn needs(&self, _: &str) -> Kinds {
@@ -337,6 +421,10 @@ impl Checker for NoCollision {
                 self.collided(record.at, robot, with, violations);
             }
             (Event::Fault(fault), Some(robot)) => self.changed(record.at, robot, fault),
+            (Event::Intervention(what), None) => {
+                self.catch_up(record.at, violations);
+                self.steered(record.at, what);
+            }
             _ => {}
         }
     }

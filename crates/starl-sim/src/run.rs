@@ -4,7 +4,7 @@
 use crate::engine::{Programs, Simulation, StartError};
 use crate::scenario::{Bounds, Goal, Group, Scenario};
 use starl_core::event::{Event, Name};
-use starl_core::{Record, RobotId, Time};
+use starl_core::{Intervention, Record, RobotId, Time};
 use starl_properties::{Excuse, Monitor, Setting, Verdict, Violation, Watch};
 
 /// A scenario under way and under watch.
@@ -84,6 +84,19 @@ impl Run {
     /// Whether to keep [`Simulation::journal`]: see [`Simulation::set_journal`].
     pub fn set_journal(&mut self, keep: bool) {
         self.simulation.set_journal(keep);
+    }
+
+    /// Steers the run: see [`Simulation::apply`].
+    ///
+    /// # Errors
+    /// What is wrong with the intervention.
+    pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), String> {
+        self.simulation.apply(at, what)
+    }
+
+    /// Steers the run as another one was steered: see [`Simulation::repeat`].
+    pub fn repeat(&mut self, recorded: impl IntoIterator<Item = (Time, Intervention)>) {
+        self.simulation.repeat(recorded);
     }
 
     /// Advances by one physics step and returns what happened, violations included.

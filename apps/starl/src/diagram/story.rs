@@ -4,7 +4,7 @@
 
 use super::Extent;
 use starl_core::event::{DropReason, Event, Fault, ValueRef, borrowed};
-use starl_core::{Port, Record, RobotId, Time};
+use starl_core::{Intervention, Point, Port, Record, RobotId, Time};
 use starl_sim::Scenario;
 use starl_sim::engine::timeline;
 use starl_sim::scenario::FaultKind;
@@ -33,6 +33,8 @@ pub struct Story {
     under_way: BTreeMap<(RobotId, u32), (Time, Port)>,
     /// The parts of the partitions that are to come.
     coming: VecDeque<Vec<Vec<RobotId>>>,
+    /// Robots that are to join, and where.
+    joining: Vec<(String, Point)>,
 }
 
 /// A message to one robot.
@@ -149,7 +151,26 @@ impl Story {
                 property: property.to_string(),
                 text: text.to_string(),
             }),
+            (Event::Intervention(what), None) => self.steered(what),
+            (Event::Moved(pose), Some(robot)) if robot.index() == self.robots.len() => {
+                let joined = |(_, place): &(String, Point)| *place == pose.position;
+                if let Some(found) = self.joining.iter().position(joined) {
+                    self.robots.push(self.joining.swap_remove(found).0);
+                }
+            }
             (event, Some(robot)) => self.mark_event(event, robot, at),
+            _ => {}
+        }
+    }
+
+    fn steered(&mut self, what: &Intervention) {
+        match what {
+            Intervention::Fault(FaultKind::Partition(parts)) => {
+                self.coming.push_front(parts.clone());
+            }
+            Intervention::Join { name, pose, .. } => {
+                self.joining.push((name.clone(), pose.position));
+            }
             _ => {}
         }
     }

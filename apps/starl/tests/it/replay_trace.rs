@@ -1,8 +1,11 @@
 //! `starl replay` proves that a trace is what its inputs bring about, or shows where it is not.
 
 use crate::support::*;
-use starl_core::Event;
-use starl_trace::{Reader, ViewOptions, Writer};
+use starl_catalog::programs::Registry;
+use starl_core::{Duration, Event, Intervention, Point, Pose, RobotId, Time};
+use starl_sim::read::{Inputs, Request, Source};
+use starl_trace::{Outcome, Reader, ViewOptions, Writer};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -39,7 +42,9 @@ fn so_is_that_of_an_example_with_another_fleet_and_faults() {
     file(
         &folder,
         "faults.toml",
-        "[[fault]]\nat = \"2s\"\nkind = \"crash\"\nrobots = [\"iRobot1\"]\n",
+        "[[fault]]\nat = \"2s\"\nkind = \"crash\"\nrobots = [\"iRobot1\"]\n\
+         [[event]]\nat = \"1s\"\nkind = \"network\"\nloss = \"30%\"\n\
+         [[event]]\nrate = \"1/s\"\nkind = \"push\"\nrobot = \"iRobot0\"\nby = [0.01, 0]\n",
     );
     let arguments = [
         "run",
@@ -184,4 +189,65 @@ fn a_flipped_bit_anywhere_is_told_without_panic() {
         // A bit of a view or of the index beyond the end record may change unnoticed.
         assert!([0, 1, 2].contains(&status(&output)), "byte {place}: {text}");
     }
+}
+
+/// Runs `small.toml` with interventions of the test's own, and writes the trace of it.
+fn steer(folder: &Path, text: &str) {
+    let ordinary = fs::File::open(folder.join("a.mcap")).expect("it was written");
+    let header = Reader::new(ordinary).expect("it is whole").header().clone();
+    let inputs = Inputs {
+        request: Request::new(Source::new("small.toml", text)),
+        files: BTreeMap::new(),
+    };
+    let application = starl_catalog::read(&inputs.request, &inputs, &Registry::default());
+    let mut run = application.expect("it is right").run().expect("it starts");
+    let file = fs::File::create(folder.join("steered.mcap")).expect("it can be written");
+    let mut writer =
+        Writer::new(file, &header, &ViewOptions::default()).expect("it can be written");
+    let at = |millis: u64| Time::ZERO + Duration::from_millis(millis);
+    let push = || Intervention::Push {
+        robot: RobotId(0),
+        by: Point::planar(-0.2, 0.0),
+    };
+    // The scenario has the same push at the same time.
+    run.apply(at(2000), push()).expect("it is fine");
+    let name = "cup".to_string();
+    let nothing = Intervention::RemoveThing { name };
+    run.apply(at(2500), nothing).expect("it may be there then");
+    let join = Intervention::Join {
+        like: RobotId(0),
+        name: "late".into(),
+        pose: Pose::level(Point::planar(-2.0, 0.0), 0.0),
+    };
+    run.apply(at(1000), join).expect("it is fine");
+    while run.simulation().now() < at(5000) {
+        for record in run.step() {
+            writer.write(record).expect("it can be written");
+        }
+        if run.simulation().now() == at(3000) {
+            let late = Intervention::Leave(vec![RobotId(2)]);
+            run.apply(at(3000), late).expect("it has joined");
+            run.apply(at(3000), push()).expect("it is fine");
+        }
+    }
+    let outcome = Outcome {
+        outcome: "interrupted".into(),
+        digest: run.simulation().digest().value(),
+        end: run.simulation().now(),
+    };
+    writer.finish(&outcome).expect("it can be written");
+}
+
+#[test]
+fn a_run_that_was_steered_is_steered_again() {
+    let text = format!(
+        "{SMALL}\n[[event]]\nat = \"2s\"\nkind = \"push\"\nrobot = \"holonomic0\"\nby = [-0.2, 0]\n"
+    );
+    let folder = folder("replay_steered");
+    file(&folder, "small.toml", &text);
+    let arguments = ["run", "small.toml", "--quiet", "--trace", "a.mcap"];
+    starl(&folder, &arguments);
+    steer(&folder, &text);
+    let output = starl(&folder, &["replay", "steered.mcap"]);
+    assert_eq!(status(&output), 0, "{}{}", stdout(&output), stderr(&output));
 }

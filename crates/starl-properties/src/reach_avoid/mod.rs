@@ -200,7 +200,7 @@ impl Checker for ReachAvoid {
     fn heeds(&self) -> Kinds {
         // What is overdue is found at the next record of any kind.
         match self.deadlines.is_empty() {
-            true => Kinds::REPORTS | Kinds::MOVED,
+            true => Kinds::REPORTS | Kinds::MOVED | Kinds::INTERVENTION,
             false => Kinds::ALL,
         }
     }
@@ -235,7 +235,9 @@ impl Checker for ReachAvoid {
                     self.reported(&report, violations);
                 }
             }
-            (Event::Fault(_) | Event::Failed(_), _) => self.health.observe(record),
+            (Event::Fault(_) | Event::Failed(_) | Event::Intervention(_), _) => {
+                self.health.observe(record);
+            }
             _ => {}
         }
     }

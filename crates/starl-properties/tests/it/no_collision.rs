@@ -2,7 +2,7 @@
 
 use crate::support::{self, FLYER, GROUND, Story, assert_none, assert_only, at};
 use starl_core::event::Hit;
-use starl_core::{Obstacle, Point, Random, RobotId};
+use starl_core::{Event, Intervention, Obstacle, Point, Pose, Random, RobotId};
 
 const WITH_ROBOT_1: Hit = Hit::Robot(RobotId(1));
 
@@ -278,4 +278,80 @@ fn in_a_crowd_exactly_the_pairs_that_overlap_are_reported() {
         assert!(expected.len() > 10, "round {round} has something to find");
         assert_eq!(found, expected, "round {round}");
     }
+}
+
+fn steered(story: &mut Story, millis: u64, what: Intervention) {
+    story.record(millis, None, Event::Intervention(Box::new(what)));
+}
+
+/// A pillar that appears, at x.
+fn appearing(x: f64) -> Intervention {
+    Intervention::AddObstacle {
+        obstacle: Obstacle::circle(at(x, 0.0), 0.5),
+        hidden: false,
+    }
+}
+
+#[test]
+fn an_obstacle_that_appears_is_reached_into_from_then_on() {
+    let mut story = Story::of_ground_robots(1);
+    pillar(&mut story, 9.0, u64::MAX / 1_000_000);
+    story.setting.walls = 1;
+    story.walks(0, 900, 0, at(1.0, 0.0), at(0.1, 0.0));
+    steered(&mut story, 350, appearing(2.2));
+    let verdict = story.verdict(1000);
+    assert_only(&verdict, "no_collision", 600, &[0]);
+    assert!(
+        verdict[0].text.ends_with("into obstacle 1"),
+        "{}",
+        verdict[0].text
+    );
+}
+
+#[test]
+fn an_obstacle_that_appears_on_a_robot_is_not_the_robots_fault() {
+    let mut story = Story::of_ground_robots(1);
+    story.stays(0, 900, 0, at(1.0, 0.0));
+    steered(&mut story, 350, appearing(1.2));
+    assert_none(&story.verdict(1000));
+}
+
+#[test]
+fn an_obstacle_that_moves_or_vanishes_is_not_where_it_was() {
+    let mut story = Story::of_ground_robots(1);
+    pillar(&mut story, 2.0, u64::MAX / 1_000_000);
+    story.walks(0, 1900, 0, at(0.5, 0.0), at(0.1, 0.0));
+    let obstacle = Obstacle::circle(at(1.0, 3.0), 0.5);
+    let away = Intervention::MoveObstacle { index: 0, obstacle };
+    let mut vanishes = story.clone();
+    steered(
+        &mut vanishes,
+        350,
+        Intervention::RemoveObstacle { index: 0 },
+    );
+    steered(&mut story, 350, away);
+    assert_none(&story.verdict(2000));
+    assert_none(&vanishes.verdict(2000));
+}
+
+#[test]
+fn a_robot_that_joins_is_watched_and_one_that_leaves_is_not() {
+    let mut story = Story::of_ground_robots(2);
+    let join = |x: f64| Intervention::Join {
+        like: RobotId(0),
+        name: "late".into(),
+        pose: Pose::level(at(x, 0.0), 0.0),
+    };
+    story.stays(0, 1900, 0, at(0.0, 0.0));
+    story.stays(0, 900, 1, at(2.0, 0.0));
+    // Where robot 1 stands there is no room.
+    steered(&mut story, 500, join(2.0));
+    steered(&mut story, 500, join(1.0));
+    story.walks(500, 1900, 2, at(1.0, 0.0), at(-0.05, 0.0));
+    steered(&mut story, 950, Intervention::Leave(vec![RobotId(1)]));
+    // At 0.4 m they touch, which rounding does not count.
+    let mut leaves = story.clone();
+    assert_only(&story.verdict(2000), "no_collision", 1800, &[0, 2]);
+    steered(&mut leaves, 1750, Intervention::Leave(vec![RobotId(0)]));
+    assert_none(&leaves.verdict(2000));
 }

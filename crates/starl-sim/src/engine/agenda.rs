@@ -71,6 +71,12 @@ impl Agenda {
         &self.applied
     }
 
+    /// What is to come and is recorded as an intervention.
+    pub fn told(&self) -> impl Iterator<Item = (Time, Intervention)> {
+        let told = self.list[self.done..].iter().filter(|due| due.told);
+        told.map(|due| (due.at, due.what.clone()))
+    }
+
     /// Takes the next one that is due before `end`.
     pub fn next(&mut self, end: Time) -> Option<Due> {
         let due = self.list.get(self.done).filter(|due| due.at < end)?;

@@ -13,6 +13,7 @@ use starl_core::{
 };
 use std::sync::Arc;
 
+/// Why an intervention is refused that no scenario file could hold.
 const INVALID: &str = "a number in it is not finite or out of its range, a name is blank, or it names no robot, or \
                        one twice";
 
@@ -39,6 +40,18 @@ impl Simulation {
         }
         self.agenda.apply(at, what);
         Ok(())
+    }
+
+    /// Has happen again what steered another run of the same scenario, by its records in their order, apart from
+    /// what the scenario brings by itself. To be called before the first step.
+    pub fn repeat(&mut self, recorded: impl IntoIterator<Item = (Time, Intervention)>) {
+        let own: Vec<(Time, Intervention)> = self.agenda.told().collect();
+        let mut own = own.into_iter().peekable();
+        for (at, what) in recorded {
+            if own.next_if(|own| *own == (at, what.clone())).is_none() {
+                self.agenda.apply(at, what);
+            }
+        }
     }
 
     /// The scenario with all that has been applied to this run as events on schedule: run from the start, it
@@ -167,7 +180,7 @@ impl Simulation {
             }
             Intervention::Tell { robots, order } => return self.tell(at, &robots, &order),
             Intervention::Join { like, name, pose } => self.join(at, like, name, pose),
-            Intervention::Leave(robots) => self.leave(&robots),
+            Intervention::Leave(robots) => self.leave(at, &robots),
         }
         self.disturbed = at;
     }
@@ -339,19 +352,17 @@ impl Simulation {
             .record(digest, robot, at, Event::Moved(state.pose));
     }
 
-    /// Robots go for good. What they hold stays where they were.
-    fn leave(&mut self, robots: &[RobotId]) {
+    /// Robots go for good, on record as crashes. What they hold stays where they were.
+    fn leave(&mut self, at: Time, robots: &[RobotId]) {
         self.have_changed = true;
         self.shared.gone.resize(self.shared.bodies.len(), false);
         for &robot in robots {
             self.shared.gone[robot.index()] = true;
+            self.bring_fault(at, &FaultKind::Crash(vec![robot]));
             let position = self.shared.bodies[robot.index()].position;
             let mind = self.mind_mut(robot);
-            let was_impaired = mind.is_impaired();
-            mind.crash();
             mind.is_gone = true;
             let held = mind.senses.holding.take();
-            self.impaired -= usize::from(was_impaired);
             if let Some(thing) = held {
                 self.shared.things.put_down(thing, position);
             }

@@ -288,14 +288,13 @@ fn knobs(table: Section<'_>) -> Option<Vec<NetworkKnob>> {
     knobs.extend(span("queue").map(NetworkKnob::Queue));
     let largest = table.count("largest");
     knobs.extend(largest.map(|bytes| NetworkKnob::Largest(bytes as u32)));
-    if knobs.is_empty() {
+    if !KNOBS.iter().any(|name| table.is_written(name)) {
         let (message, help) = (
             "the event changes nothing of the network",
             "give `loss`, `delay` or any other field of [network] but `link`",
         );
         let report = table.report;
         report.problem_with_help(table.origin, &table.path_of(""), message, help);
-        return None;
     }
-    Some(knobs)
+    (!knobs.is_empty()).then_some(knobs)
 }

@@ -1,13 +1,15 @@
 //! A run that is steered from outside: each intervention does what it says, is on record, and can be repeated.
 
 use crate::engine_support::{Wander, count, exact_delay, obstacle, run, scenario, simulate};
+use crate::reading;
+use starl_core::event::Value;
 use starl_core::intervention::NetworkKnob;
 use starl_core::{
-    Command, ConvexPolygon, Event, FaultKind, Intervention, Obstacle, Order, Point, Pose,
+    Command, ConvexPolygon, Duration, Event, FaultKind, Intervention, Obstacle, Order, Point, Pose,
     Primitives, Program, Record, Robot, RobotId, Time, WayPoint,
 };
 use starl_sim::scenario::{Bounds, Occasion, ScenarioEvent};
-use starl_sim::{Scenario, Simulation};
+use starl_sim::{Scenario, Simulation, write};
 
 const R0: RobotId = RobotId(0);
 
@@ -311,7 +313,10 @@ fn what_cannot_be_is_refused_with_a_reason_and_changes_nothing() {
     let nobody = Intervention::Fault(FaultKind::Crash(vec![RobotId(7)]));
     let name = || "C".to_string();
     for (what, expected) in [
-        (loss, "a number in it is not finite, or out of its range"),
+        (
+            loss,
+            "a number in it is not finite or out of its range, a name is blank, or it names no robot, or one twice",
+        ),
         (nobody, "there is no robot 7; the fleet has 2"),
         (
             Intervention::RemoveThing { name: name() },
@@ -368,8 +373,71 @@ fn steer(simulation: &mut Simulation) -> Vec<Record> {
     ] {
         simulation.apply(now, what).expect("it is fine");
     }
-    records.extend(run(simulation, 3.0));
+    records.extend(run(simulation, 1.0));
+    let now = simulation.now();
+    for (count, what) in (0..).zip(orders()) {
+        let at = now + Duration::from_millis(10 * count);
+        simulation.apply(at, what).expect("it is fine");
+    }
+    records.extend(run(simulation, 2.0));
     records
+}
+
+/// Interventions that programs hear of or that concern robots of the same name, one after the other.
+fn orders() -> Vec<Intervention> {
+    let late = RobotId(2);
+    let fields = [
+        ("text", Value::Text("go \"home\"".into())),
+        ("number in words", Value::Text("5s".into())),
+        ("for", Value::Time(at(5))),
+        ("to", Value::Point(Point::new(0.1, -0.2, -0.0))),
+        ("whole", Value::Float(3.0)),
+        ("count", Value::Int(-3)),
+        ("flag", Value::Bool(true)),
+        ("robot", Value::Robot(late)),
+        ("robots", Value::Robots(vec![late, R0])),
+    ];
+    let fields = fields.map(|(name, value)| (name.into(), value));
+    let order = Order {
+        name: "go".into(),
+        fields: fields.into_iter().collect(),
+    };
+    let way_point = WayPoint {
+        name: "A".into(),
+        position: Point::planar(1.0, 0.3),
+        group: 2,
+    };
+    let name = || "cup".to_string();
+    let position = Point::planar(0.1, 0.2);
+    let obstacle = Obstacle::circle(position * 30.0, 0.25);
+    vec![
+        Intervention::Tell {
+            robots: vec![late, R0, late],
+            order,
+        },
+        Intervention::SetWayPoint(way_point),
+        Intervention::RemoveWayPoint { name: "A".into() },
+        Intervention::SetThing {
+            name: name(),
+            position,
+        },
+        Intervention::RemoveThing { name: name() },
+        Intervention::MoveObstacle { index: 0, obstacle },
+        Intervention::RemoveObstacle { index: 0 },
+        Intervention::Network(vec![
+            NetworkKnob::Range(Some(3.0)),
+            NetworkKnob::Delay(Duration::from_millis(20)),
+            NetworkKnob::Range(None),
+        ]),
+        Intervention::Leave(vec![late]),
+        // Another of the same name, and an event of the one that has left.
+        Intervention::Join {
+            like: R0,
+            name: "late".into(),
+            pose: Pose::level(Point::planar(2.5, 3.0), 0.7),
+        },
+        Intervention::Fault(FaultKind::Repair(vec![late])),
+    ]
 }
 
 #[test]
@@ -379,6 +447,11 @@ fn the_scenario_of_a_steered_run_goes_as_the_run_went() {
     let mut again = simulate(steered.as_scenario(), Wander::default());
     assert_eq!(run(&mut again, 5.0), records);
     assert_eq!(again.digest(), steered.digest());
+    let text = write::scenario(&steered.as_scenario());
+    let read = reading::read(&text, &[]).unwrap_or_else(|problems| panic!("{problems}\n{text}"));
+    let mut from_file = simulate(read.scenario, Wander::default());
+    assert_eq!(run(&mut from_file, 5.0), records, "{text}");
+    assert_eq!(from_file.digest(), steered.digest());
     let mut left_alone = simulate(pair(), Wander::default());
     run(&mut left_alone, 5.0);
     assert_ne!(left_alone.digest(), steered.digest());

@@ -102,6 +102,27 @@ fn it_runs_the_same() {
         at = "1234567890ns"
         kind = "partition"
         groups = [["create0", "differential"], ["create2"]]
+        [[event]]
+        rate = "1/s"
+        within = { low = [0.5, 0.5], high = [3, 3] }
+        kind = "set_way_point"
+        name = "A"
+        [[event]]
+        rate = "10/min"
+        kind = "push"
+        robot = "create1"
+        by = [0.1, -0.1]
+        [[event]]
+        at = "3s"
+        kind = "join"
+        like = "differential0"
+        name = "late"
+        position = [0.3, 0.3]
+        heading = "20deg"
+        [[event]]
+        at = "4s"
+        kind = "crash"
+        robots = ["late", "create"]
     "#;
     let read = reading::read(text, &[]).unwrap().scenario;
     let digest = |scenario: Scenario| {
