@@ -4,7 +4,7 @@
 use crate::engine::{Programs, Simulation, StartError};
 use crate::scenario::{Bounds, Goal, Group, Scenario};
 use starl_core::event::{Event, Name};
-use starl_core::{Record, RobotId, Time};
+use starl_core::{Intervention, Record, RobotId, Time};
 use starl_properties::{Excuse, Monitor, Setting, Verdict, Violation, Watch};
 
 /// A scenario under way and under watch.
@@ -74,6 +74,14 @@ impl Run {
     /// The simulation.
     pub fn simulation(&self) -> &Simulation {
         &self.simulation
+    }
+
+    /// Steers the simulation: see [`Simulation::apply`].
+    ///
+    /// # Errors
+    /// What is wrong with the intervention.
+    pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), String> {
+        self.simulation.apply(at, what)
     }
 
     /// Whether to step on several threads: see [`Simulation::set_parallel`].
