@@ -31,7 +31,7 @@ portable:
 # The same run has the same digest natively and in WebAssembly. `make golden` writes the digests down
 # anew after a change of behaviour that is meant.
 wasm: wasm-module
-	node --test apps/starl-wasm/tests/
+	node --test apps/starl-wasm/tests/starl.test.mjs
 	node apps/starl-wasm/golden.mjs $(STARL) $(ANSWER)
 
 golden: wasm-module

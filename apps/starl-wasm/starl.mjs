@@ -131,11 +131,11 @@ export class Simulation {
   }
 
   run({ until, steps } = {}) {
-    return this.#request("run", { until, steps });
+    return this.#request("run", { until: until === Infinity ? undefined : moment(until), steps });
   }
 
   apply(intervention, { at } = {}) {
-    this.#request("apply", { at, intervention });
+    this.#request("apply", { at: moment(at), intervention });
   }
 
   snapshot() {
@@ -177,6 +177,12 @@ export class Simulation {
   poses() {
     return this.#starl.poses(this.#id);
   }
+}
+
+// JSON has no word for what is no number: it would be taken for a moment that is not given.
+function moment(seconds) {
+  if (seconds === undefined || Number.isFinite(seconds)) return seconds;
+  throw new StarlError(`${seconds} is not a time; give seconds from 0`);
 }
 
 function read(exports, length) {

@@ -1,4 +1,4 @@
-// The interface for JavaScript: node --test tests/
+// The interface for JavaScript: node --test apps/starl-wasm/tests/starl.test.mjs
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
