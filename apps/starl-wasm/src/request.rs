@@ -78,7 +78,7 @@ pub struct Contents(BTreeMap<String, Content>);
 
 /// A file: a text, or its bytes.
 #[derive(Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "a file is a text, or a list of its bytes")]
 enum Content {
     Text(String),
     Bytes(Vec<u8>),

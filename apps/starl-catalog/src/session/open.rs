@@ -98,7 +98,7 @@ pub(super) fn open(
         if is_default {
             let stem = key.rsplit('/').next().unwrap_or(&key);
             let stem = stem.strip_suffix(SUFFIX).unwrap_or(stem);
-            overrides.push(change("title", &format!("{stem:?}")));
+            overrides.push(change("title", &format!("'{}'", stem.replace('\'', " "))));
         }
     }
     for assignment in &options.set {

@@ -53,7 +53,7 @@ impl Simulation {
         obstacles.map(|(place, (&index, obstacle))| Standing {
             index,
             obstacle,
-            is_hidden: shared.hidden.contains(&place),
+            is_hidden: shared.hidden.binary_search(&place).is_ok(),
         })
     }
 
