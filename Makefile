@@ -4,6 +4,7 @@
 VENV = target/venv/bin
 CARGO_TARGET_DIR ?= target
 STARL = $(CARGO_TARGET_DIR)/release/starl
+ANSWER = $(CARGO_TARGET_DIR)/release/examples/answer
 
 run:
 	cargo run --release -- run race
@@ -30,13 +31,15 @@ portable:
 # The same run has the same digest natively and in WebAssembly. `make golden` writes the digests down
 # anew after a change of behaviour that is meant.
 wasm: wasm-module
-	node apps/starl-wasm/golden.mjs $(STARL)
+	node --test apps/starl-wasm/tests/starl.test.mjs
+	node apps/starl-wasm/golden.mjs $(STARL) $(ANSWER)
 
 golden: wasm-module
-	node apps/starl-wasm/golden.mjs $(STARL) --write
+	node apps/starl-wasm/golden.mjs $(STARL) $(ANSWER) --write
 
 wasm-module: $(STARL)
 	cargo build --release -p starl-wasm --target wasm32-unknown-unknown
+	cargo build --release -p starl-wasm --example answer
 
 # Traces read with libraries that are not ours.
 trace: $(STARL)

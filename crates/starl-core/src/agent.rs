@@ -65,6 +65,21 @@ impl Agent {
         &self.random
     }
 
+    /// Lets a watcher ask the program something that takes a handle to its robot, such as which of its guards
+    /// hold. Nothing comes of it: effects are thrown away, and random numbers come from a copy of the stream.
+    pub fn rehearse<T>(
+        &self,
+        view: &View<'_>,
+        run: impl FnOnce(&dyn Program, &mut Robot<'_>) -> T,
+    ) -> T {
+        let mut effects = Effects::default();
+        let mut random = self.random.clone();
+        run(
+            &*self.program,
+            &mut Robot::new(view, &mut effects, &mut random),
+        )
+    }
+
     /// Shows the program, e.g. to a test.
     pub fn program(&self) -> &dyn Program {
         &*self.program

@@ -76,6 +76,14 @@ impl Run {
         &self.simulation
     }
 
+    /// Steers the simulation: see [`Simulation::apply`].
+    ///
+    /// # Errors
+    /// What is wrong with the intervention.
+    pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), String> {
+        self.simulation.apply(at, what)
+    }
+
     /// Whether to step on several threads: see [`Simulation::set_parallel`].
     pub fn set_parallel(&mut self, parallel: bool) {
         self.simulation.set_parallel(parallel);
@@ -84,14 +92,6 @@ impl Run {
     /// Whether to keep [`Simulation::journal`]: see [`Simulation::set_journal`].
     pub fn set_journal(&mut self, keep: bool) {
         self.simulation.set_journal(keep);
-    }
-
-    /// Steers the run: see [`Simulation::apply`].
-    ///
-    /// # Errors
-    /// What is wrong with the intervention.
-    pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), String> {
-        self.simulation.apply(at, what)
     }
 
     /// Steers the run as another one was steered: see [`Simulation::repeat`].

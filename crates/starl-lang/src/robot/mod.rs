@@ -16,6 +16,7 @@ mod builtins;
 mod code;
 mod corruption;
 mod host;
+mod inspection;
 mod joint;
 mod messages;
 mod orders;
@@ -30,6 +31,7 @@ mod words;
 mod workbench;
 
 pub use code::Code;
+pub use inspection::{ActionState, PrimitiveState, VariableState};
 pub use parameter::ParameterError;
 pub use program::RobotProgram;
 

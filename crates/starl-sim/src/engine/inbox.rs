@@ -56,6 +56,22 @@ impl Calendar {
         self.pages[steps].deliveries.push(delivery);
     }
 
+    /// The datagrams on their way to a robot with their times of arrival, in the order in which they will
+    /// arrive. Takes time in proportion to all datagrams under way.
+    pub fn mail(&self, robot: RobotId) -> Vec<(Time, &Transmission)> {
+        let mut mail = Vec::new();
+        for page in &self.pages {
+            let mine = page.deliveries.iter();
+            let mine = mine.filter(|delivery| delivery.to as usize == robot.index());
+            mail.extend(mine.map(|delivery| {
+                let transmission = &page.transmissions[delivery.transmission as usize];
+                (delivery.at, transmission)
+            }));
+        }
+        mail.sort_by_key(|(at, content)| (*at, content.from, content.sequence));
+        mail
+    }
+
     /// Sorts the arrivals of the coming step into `inboxes`, and makes it the present one.
     pub fn turn(&mut self, robots: usize, inboxes: &mut Inboxes) {
         let mut page = self.pages.pop_front().unwrap_or_default();

@@ -7,6 +7,7 @@ mod discover;
 mod fault;
 mod grid;
 mod inbox;
+mod inspect;
 mod intervene;
 mod mind;
 mod obstacles;
@@ -23,6 +24,7 @@ mod things;
 mod witness;
 
 pub use fault::timeline;
+pub use inspect::{Mail, Standing};
 pub use record::Tally;
 pub use simulation::{Programs, Progress, Simulation, StartError};
 

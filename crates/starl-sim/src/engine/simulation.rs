@@ -28,7 +28,7 @@ pub struct Simulation {
     pub(super) origin: Arc<Scenario>,
     pub(super) shared: Shared,
     pub(super) shards: Vec<Shard>,
-    calendar: Calendar,
+    pub(super) calendar: Calendar,
     /// Where bodies would be after the step if nothing were in the way.
     pub(super) next: Vec<Point>,
     /// Where bodies are after the step; changes places with the shared ones at its end.

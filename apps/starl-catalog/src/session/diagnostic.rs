@@ -1,0 +1,184 @@
+//! All that is wrong with files that are held in memory, programs and scenarios alike.
+
+use super::files::{Beside, Files};
+use crate::Refusal;
+use crate::language::{Findings, SUFFIX};
+use crate::programs::Registry;
+use serde::Serialize;
+use starl_lang::check::check as check_program;
+use starl_lang::compile::compile;
+use starl_lang::diagnostic::{LineIndex, Severity};
+use starl_sim::read::{Place, Problem, Request, Source};
+
+/// The ending of scenarios' names.
+pub(super) const SCENARIO_SUFFIX: &str = ".toml";
+
+/// One problem of a file.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct Diagnostic {
+    /// The file's path; none for a problem with an option.
+    pub file: Option<String>,
+    /// The line, from 1.
+    pub line: u32,
+    /// The first character concerned in its line, from 1; counted in Unicode characters.
+    pub column: u32,
+    /// The line of the end.
+    pub end_line: u32,
+    /// The character after the last.
+    pub end_column: u32,
+    /// How many Unicode characters are concerned, 0 if only the start is known.
+    pub length: u32,
+    /// `error` or `warning`.
+    pub severity: &'static str,
+    /// The number of the error in the language's reference, e.g. `E0301`; none for scenarios.
+    pub code: Option<&'static str>,
+    /// The field of a scenario, as `network.loss`; or the option.
+    pub field: Option<String>,
+    /// The problem, in a sentence without a full stop.
+    pub message: String,
+    /// A suggested fix.
+    pub help: Option<String>,
+    /// More that is worth knowing.
+    pub notes: Vec<String>,
+}
+
+impl Diagnostic {
+    /// An error with a file as a whole.
+    pub(super) fn of_file(file: &str, message: String) -> Diagnostic {
+        Diagnostic {
+            file: Some(file.to_string()),
+            line: 1,
+            column: 1,
+            end_line: 1,
+            end_column: 1,
+            length: 0,
+            severity: "error",
+            code: None,
+            field: None,
+            message,
+            help: None,
+            notes: Vec::new(),
+        }
+    }
+
+    /// A problem of a scenario, or of a file that it names.
+    fn of_problem(problem: Problem) -> Diagnostic {
+        let Problem {
+            place,
+            field,
+            message,
+            help,
+        } = problem;
+        let field = (!field.is_empty()).then_some(field);
+        let (file, line, column, field) = match place {
+            Place::File { name, line, column } => (Some(name), line, column, field),
+            Place::Option(option) => (None, 1, 1, Some(option)),
+        };
+        Diagnostic {
+            file,
+            line,
+            column,
+            end_line: line,
+            end_column: column,
+            field,
+            help,
+            ..Diagnostic::of_file("", message)
+        }
+    }
+
+    /// The problems of a program or library called `file`.
+    fn of_findings<'a>(
+        file: &'a str,
+        source: &'a str,
+        diagnostics: &'a [starl_lang::diagnostic::Diagnostic],
+    ) -> impl Iterator<Item = Diagnostic> + use<'a> {
+        let lines = LineIndex::new(source);
+        diagnostics.iter().map(move |diagnostic| {
+            let last = source.len() as u32;
+            let start = lines.position(source, diagnostic.span.start.min(last));
+            let end = lines.position(source, diagnostic.span.end.min(last));
+            let said = diagnostic.note_at_span.iter();
+            Diagnostic {
+                line: start.line,
+                column: start.column,
+                end_line: end.line,
+                end_column: end.column,
+                length: diagnostic.span.of(source).chars().count() as u32,
+                severity: match diagnostic.severity() {
+                    Severity::Error => "error",
+                    Severity::Warning => "warning",
+                },
+                code: Some(diagnostic.code.number()),
+                help: diagnostic.mend.as_ref().map(|mend| mend.message.clone()),
+                notes: said.chain(&diagnostic.notes).cloned().collect(),
+                ..Diagnostic::of_file(file, diagnostic.message.clone())
+            }
+        })
+    }
+
+    /// What the compiler has found in a program that a scenario names.
+    pub(super) fn of_program(findings: &Findings, beside: &Beside<'_>) -> Vec<Diagnostic> {
+        let path = beside.resolve(&findings.path);
+        Diagnostic::of_findings(&path, &findings.source, &findings.diagnostics).collect()
+    }
+
+    /// All that is wrong with a scenario and its programs.
+    pub(super) fn of_refusal(refusal: Refusal, beside: &Beside<'_>) -> Vec<Diagnostic> {
+        let found = refusal.findings.iter();
+        let mut all: Vec<Diagnostic> = found
+            .flat_map(|findings| Diagnostic::of_program(findings, beside))
+            .collect();
+        all.extend(refusal.problems.into_iter().map(Diagnostic::of_problem));
+        all
+    }
+}
+
+/// Checks every program and library (`.starl`) and every scenario (`.toml`). Scenarios may name files and
+/// programs of all examples, `example:race/race.starl`, and programs of the registry. The problems are in the order of files and places.
+pub fn check(files: &Files, registry: &Registry) -> Vec<Diagnostic> {
+    let programs = files
+        .ending_with(SUFFIX)
+        .flat_map(|path| match files.text(path) {
+            Ok(text) => program(files, path, text),
+            Err(message) => vec![Diagnostic::of_file(path, message)],
+        });
+    let scenarios = files
+        .ending_with(SCENARIO_SUFFIX)
+        .flat_map(|path| match files.text(path) {
+            Ok(text) => scenario(files, path, text, registry),
+            Err(message) => vec![Diagnostic::of_file(path, message)],
+        });
+    let mut all: Vec<Diagnostic> = programs.chain(scenarios).collect();
+    all.sort();
+    all.dedup();
+    all
+}
+
+fn program(files: &Files, path: &str, text: &str) -> Vec<Diagnostic> {
+    let checked = check_program(text, &Beside::new(files, path));
+    let mut diagnostics = checked.files[0].diagnostics.clone();
+    if !checked.has_errors() {
+        diagnostics.extend(compile(&checked).err().unwrap_or_default());
+    }
+    Diagnostic::of_findings(path, text, &diagnostics).collect()
+}
+
+/// What is wrong with a scenario. The programs among the files are checked by themselves.
+fn scenario(files: &Files, path: &str, text: &str, registry: &Registry) -> Vec<Diagnostic> {
+    let beside = Beside::new(files, path);
+    let request = Request::new(Source::new(path, text));
+    let found = match crate::read(&request, &beside, registry) {
+        Ok(application) => {
+            let warnings = application.warnings().iter();
+            warnings
+                .flat_map(|findings| Diagnostic::of_program(findings, &beside))
+                .collect()
+        }
+        Err(refusal) => Diagnostic::of_refusal(refusal, &beside),
+    };
+    let is_new = |found: &Diagnostic| {
+        let file = found.file.as_deref().unwrap_or_default();
+        !(file.ends_with(SUFFIX) && files.has(file))
+    };
+    found.into_iter().filter(is_new).collect()
+}

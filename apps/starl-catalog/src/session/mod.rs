@@ -1,0 +1,258 @@
+//! A simulation as front ends hold it that keep files in memory, such as a web page: opened from texts, stepped,
+//! steered, looked into, copied and brought back.
+//!
+//! Everything that goes out is plain data that can be serialised. Nothing here makes a difference to what a run
+//! does: its digest is that of `starl run`.
+
+mod diagnostic;
+mod files;
+mod inspect;
+mod open;
+mod report;
+
+pub use diagnostic::{Diagnostic, check};
+pub use files::{Beside, Files};
+pub use inspect::{
+    ActionReport, ClockReport, MailReport, PrimitiveReport, RobotReport, TimerReport,
+    VariableReport,
+};
+pub use open::{Options, Refused};
+pub use report::{
+    Excused, Failure, Member, Messages, Progress, Property, Report, Standing, Status, Thing,
+    Violation, World, fleet,
+};
+
+use crate::programs::Registry;
+use starl_core::{Intervention, Record, RobotId, Time};
+use starl_sim::{Run, write};
+use starl_trace::Topic;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+/// So many records are kept until they are taken; then the oldest are dropped.
+pub const MOST_RECORDS: usize = 200_000;
+
+/// How many numbers [`Session::poses`] gives for each robot.
+pub const POSE_NUMBERS: usize = 11;
+
+/// A simulation with the moments of it that are kept.
+pub struct Session {
+    global_names: BTreeMap<String, String>,
+    warnings: Vec<Diagnostic>,
+    topics: Option<BTreeSet<Topic>>,
+    live: Live,
+    kept: BTreeMap<u32, Live>,
+    next: u32,
+}
+
+/// All that changes as time goes on. A copy goes on exactly as the original would.
+#[derive(Clone)]
+struct Live {
+    run: Run,
+    records: VecDeque<Record>,
+    dropped: u64,
+}
+
+/// Records that were taken.
+#[derive(Clone, Debug, Default)]
+pub struct Batch {
+    /// What happened, in order.
+    pub records: Vec<Record>,
+    /// How many more there are to be taken.
+    pub left: usize,
+    /// How many were dropped since the last call, because nobody took them in time.
+    pub dropped: u64,
+}
+
+impl Session {
+    /// Opens the scenario that the options name. Programs in Rust are those of the registry.
+    ///
+    /// # Errors
+    /// All that is wrong with the options, the scenario and its programs.
+    pub fn open(files: &Files, options: &Options, registry: &Registry) -> Result<Session, Refused> {
+        let opened = open::open(files, options, registry)?;
+        let run = opened.application.run();
+        Ok(Session {
+            global_names: opened.global_names,
+            warnings: opened.warnings,
+            topics: None,
+            live: Live {
+                run: run.map_err(|error| error.message)?,
+                records: VecDeque::new(),
+                dropped: 0,
+            },
+            kept: BTreeMap::new(),
+            next: 0,
+        })
+    }
+
+    /// Keeps the records of these topics only, by their names in traces such as `/starl/action`; of all topics
+    /// at first.
+    ///
+    /// # Errors
+    /// Names the topic that there is not.
+    pub fn set_topics(&mut self, names: &[String]) -> Result<(), String> {
+        let topic = |name: &String| {
+            let topic = Topic::named(name).filter(|&topic| topic != Topic::Summary);
+            topic.ok_or_else(|| {
+                let known = Topic::ALL.iter().filter(|&&known| known != Topic::Summary);
+                let known: Vec<&str> = known.map(|known| known.name()).collect();
+                let known = known.join(", ");
+                format!("there is no topic {name:?}; the topics are {known}")
+            })
+        };
+        self.topics = Some(names.iter().map(topic).collect::<Result<_, _>>()?);
+        Ok(())
+    }
+
+    /// What the compiler warns of.
+    pub fn warnings(&self) -> &[Diagnostic] {
+        &self.warnings
+    }
+
+    /// The run.
+    pub fn run(&self) -> &Run {
+        &self.live.run
+    }
+
+    /// How far the run is.
+    pub fn status(&self) -> Status {
+        Status::of(&self.live.run, 0)
+    }
+
+    /// Makes one physics step, also when the run is over.
+    pub fn step(&mut self) -> Status {
+        self.live.step(self.topics.as_ref());
+        Status::of(&self.live.run, 1)
+    }
+
+    /// Makes physics steps until the run is over, the time `until` has come, or so many steps are made.
+    pub fn advance(&mut self, until: Time, most_steps: u64) -> Status {
+        let mut steps = 0;
+        let live = &mut self.live;
+        while steps < most_steps && live.run.simulation().now() < until && !live.run.is_over() {
+            live.step(self.topics.as_ref());
+            steps += 1;
+        }
+        Status::of(&live.run, steps)
+    }
+
+    /// Steers the run: see [`starl_sim::Simulation::apply`].
+    ///
+    /// # Errors
+    /// What is wrong with the intervention.
+    pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), String> {
+        self.live.run.apply(at, what)
+    }
+
+    /// Keeps the present moment, records that were not taken included; gives its number.
+    pub fn snapshot(&mut self) -> u32 {
+        let number = self.next;
+        self.next += 1;
+        self.kept.insert(number, self.live.clone());
+        number
+    }
+
+    /// Goes back, or forth, to a moment that was kept. It stays kept.
+    ///
+    /// # Errors
+    /// Where there is no such moment.
+    pub fn restore(&mut self, number: u32) -> Result<Status, String> {
+        let kept = self.kept.get(&number);
+        self.live = kept.ok_or_else(|| unknown(number))?.clone();
+        Ok(self.status())
+    }
+
+    /// Forgets a moment that was kept.
+    ///
+    /// # Errors
+    /// Where there is no such moment.
+    pub fn forget(&mut self, number: u32) -> Result<(), String> {
+        let kept = self.kept.remove(&number);
+        kept.map(|_| ()).ok_or_else(|| unknown(number))
+    }
+
+    /// Takes up to `most` records, the oldest first.
+    pub fn take_records(&mut self, most: usize) -> Batch {
+        let records = &mut self.live.records;
+        let taken = most.min(records.len());
+        Batch {
+            records: records.drain(..taken).collect(),
+            left: records.len(),
+            dropped: std::mem::take(&mut self.live.dropped),
+        }
+    }
+
+    /// The scenario with all that was applied, as the text of a file: run from the start, it goes as this run
+    /// went. Programs of an example get the names that they have everywhere; other programs keep their paths
+    /// from the scenario's folder.
+    pub fn scenario(&self) -> String {
+        let mut scenario = self.live.run.simulation().as_scenario();
+        for group in &mut scenario.fleet.groups {
+            if let Some(name) = self.global_names.get(&group.program) {
+                group.program.clone_from(name);
+            }
+        }
+        write::scenario(&scenario)
+    }
+
+    /// What has come of the run so far.
+    pub fn report(&self) -> Report {
+        Report::of(&self.live.run)
+    }
+
+    /// One robot as it is now; none if there is no such robot.
+    pub fn robot(&self, robot: RobotId) -> Option<RobotReport> {
+        RobotReport::of(&self.live.run, robot)
+    }
+
+    /// Writes [`POSE_NUMBERS`] numbers for each robot in the order of their numbers: the true x, y, z, yaw, pitch
+    /// and roll; x, y, z and yaw as the robot believes them; and its condition, 0 for running, 1 for finished, 2
+    /// for failed, 3 for down, 4 for left. Metres and radians.
+    pub fn poses(&self, numbers: &mut Vec<f64>) {
+        let simulation = self.live.run.simulation();
+        numbers.clear();
+        for &robot in simulation.robots() {
+            let (truth, belief) = (
+                simulation.state(robot).pose,
+                simulation.estimate(robot).pose,
+            );
+            let condition = match inspect::condition(&self.live.run, robot) {
+                "running" => 0.0,
+                "finished" => 1.0,
+                "failed" => 2.0,
+                "down" => 3.0,
+                _ => 4.0,
+            };
+            numbers.extend([
+                truth.position.x,
+                truth.position.y,
+                truth.position.z,
+                truth.yaw,
+                truth.pitch,
+                truth.roll,
+                belief.position.x,
+                belief.position.y,
+                belief.position.z,
+                belief.yaw,
+                condition,
+            ]);
+        }
+    }
+}
+
+impl Live {
+    fn step(&mut self, topics: Option<&BTreeSet<Topic>>) {
+        let records = self.run.step().iter();
+        let wanted = records.filter(|record| {
+            topics.is_none_or(|topics| topics.contains(&Topic::of(&record.event)))
+        });
+        self.records.extend(wanted.cloned());
+        let excess = self.records.len().saturating_sub(MOST_RECORDS);
+        self.records.drain(..excess);
+        self.dropped += excess as u64;
+    }
+}
+
+fn unknown(number: u32) -> String {
+    format!("there is no snapshot {number}")
+}

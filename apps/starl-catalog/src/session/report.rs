@@ -1,0 +1,305 @@
+//! What there is to say of a run at any time: how far it is, its verdicts and counts, its fleet and its world.
+
+use super::inspect::condition;
+use serde::Serialize;
+use starl_core::{Obstacle, Point, RobotId, WayPoint};
+use starl_properties::Verdict;
+use starl_sim::Run;
+
+/// How far a run is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Status {
+    /// The present time, seconds.
+    pub now: f64,
+    /// Whether the run has come to its end. It can be stepped further all the same.
+    pub over: bool,
+    /// `reached`, `violated`, `timed_out` or `failed`; none before the end.
+    pub outcome: Option<&'static str>,
+    /// How many steps the call has made.
+    pub steps: u64,
+}
+
+/// What has come of a run so far.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// The present time, seconds.
+    pub now: f64,
+    /// Whether the run has come to its end.
+    pub over: bool,
+    /// See [`Status::outcome`].
+    pub outcome: Option<&'static str>,
+    /// The hash of all that has happened, hexadecimal.
+    pub digest: String,
+    /// How many robots are where.
+    pub progress: Progress,
+    /// What became of datagrams.
+    pub messages: Messages,
+    /// How often bodies have come to touch.
+    pub collisions: u64,
+    /// Each property that is watched.
+    pub properties: Vec<Property>,
+    /// Every violation so far.
+    pub violations: Vec<Violation>,
+    /// Every program so far that could not go on.
+    pub failures: Vec<Failure>,
+}
+
+/// How many robots are where.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Progress {
+    /// All robots, those that have left too.
+    pub robots: usize,
+    /// Robots that are up.
+    pub up: usize,
+    /// Of these, robots whose programs have reached their goals.
+    pub finished: usize,
+    /// Of these, robots whose programs cannot go on.
+    pub failed: usize,
+}
+
+/// What became of datagrams: see [`starl_sim::engine::Tally`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Messages {
+    /// Handed to the network.
+    pub sent: u64,
+    /// Arrived.
+    pub delivered: u64,
+    /// Lost at random.
+    pub lost: u64,
+    /// Dropped for another reason.
+    pub dropped: u64,
+    /// Sent again.
+    pub retransmitted: u64,
+}
+
+/// A property.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Property {
+    /// Its name.
+    pub property: String,
+    /// `holds`, `violated`, `open` (it demands something by a time that has not come) or `unused` (nothing has
+    /// happened yet that it speaks of).
+    pub verdict: &'static str,
+    /// How often it was violated.
+    pub violations: usize,
+    /// How often something that speaks against it was excused, by reason.
+    pub excused: Vec<Excused>,
+}
+
+/// How often something that speaks against a property was excused for one reason.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Excused {
+    /// The reason.
+    pub reason: &'static str,
+    /// How often.
+    pub count: u64,
+}
+
+/// A violation of a property.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Violation {
+    /// The property.
+    pub property: String,
+    /// When, seconds.
+    pub at: f64,
+    /// The numbers of the robots concerned.
+    pub robots: Vec<u32>,
+    /// What was seen.
+    pub text: String,
+}
+
+/// A program that could not go on.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Failure {
+    /// Since when, seconds.
+    pub at: f64,
+    /// The number of its robot.
+    pub robot: u32,
+    /// Why.
+    pub text: String,
+}
+
+/// A robot of the fleet.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Member {
+    /// Its number.
+    pub id: u32,
+    /// Its name.
+    pub name: String,
+    /// The name of its model.
+    pub model: &'static str,
+    /// The program that it runs.
+    pub program: String,
+    /// The radius of its body, metres.
+    pub radius: f64,
+    /// The height of its body, metres.
+    pub height: f64,
+    /// Whether it flies.
+    pub flies: bool,
+    /// See [`RobotReport::condition`](super::RobotReport::condition).
+    pub condition: &'static str,
+}
+
+/// The world as it stands.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct World {
+    /// The obstacles that stand, the walls around the world included.
+    pub obstacles: Vec<Standing>,
+    /// The way-points.
+    pub way_points: Vec<WayPoint>,
+    /// The things.
+    pub things: Vec<Thing>,
+}
+
+/// An obstacle that stands.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Standing {
+    /// Its index, as interventions have it.
+    pub index: u32,
+    /// Its shape and place, as interventions have them.
+    pub obstacle: Obstacle,
+    /// Robots do not know it until they meet it.
+    pub hidden: bool,
+}
+
+/// A thing.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Thing {
+    /// Its index.
+    pub index: usize,
+    /// Its name.
+    pub name: String,
+    /// Where it is, metres.
+    pub position: Point,
+    /// The number of the robot that holds it.
+    pub holder: Option<u32>,
+}
+
+impl Status {
+    /// How far a run is.
+    pub(super) fn of(run: &Run, steps: u64) -> Status {
+        let over = run.is_over();
+        Status {
+            now: run.simulation().now().seconds(),
+            over,
+            outcome: over.then(|| run.outcome().word()),
+            steps,
+        }
+    }
+}
+
+impl Report {
+    /// What has come of a run so far. Takes time in proportion to the fleet.
+    pub fn of(run: &Run) -> Report {
+        let simulation = run.simulation();
+        let Status {
+            now, over, outcome, ..
+        } = Status::of(run, 0);
+        let (progress, tally) = (simulation.progress(), simulation.tally());
+        Report {
+            now,
+            over,
+            outcome,
+            digest: simulation.digest().to_string(),
+            progress: Progress {
+                robots: simulation.robots().len(),
+                up: progress.up,
+                finished: progress.finished,
+                failed: progress.failed,
+            },
+            messages: Messages {
+                sent: tally.sent,
+                delivered: tally.delivered,
+                lost: tally.lost,
+                dropped: tally.dropped,
+                retransmitted: tally.retransmitted,
+            },
+            collisions: tally.collisions,
+            properties: run.verdicts().into_iter().map(Property::of).collect(),
+            violations: (run.violations().iter())
+                .map(|violation| Violation {
+                    property: violation.property.to_string(),
+                    at: violation.at.seconds(),
+                    robots: violation.robots.iter().map(|robot| robot.0).collect(),
+                    text: violation.text.clone(),
+                })
+                .collect(),
+            failures: (run.failures().iter())
+                .map(|failure| Failure {
+                    at: failure.at.seconds(),
+                    robot: failure.robot.0,
+                    text: failure.text.to_string(),
+                })
+                .collect(),
+        }
+    }
+}
+
+impl Property {
+    fn of(verdict: Verdict) -> Property {
+        Property {
+            verdict: match (verdict.violations, verdict.open, verdict.used) {
+                (0, _, false) => "unused",
+                (0, false, _) => "holds",
+                (0, true, _) => "open",
+                _ => "violated",
+            },
+            property: verdict.property.to_string(),
+            violations: verdict.violations,
+            excused: (verdict.excused.iter())
+                .map(|(excuse, count)| Excused {
+                    reason: excuse.text(),
+                    count: *count,
+                })
+                .collect(),
+        }
+    }
+}
+
+/// All robots in the order of their numbers, those that have joined and left too.
+pub fn fleet(run: &Run) -> Vec<Member> {
+    let fleet = &run.simulation().scenario().fleet;
+    let groups = fleet.groups.iter();
+    let groups = groups.flat_map(|group| group.starts.iter().map(move |_| group));
+    let members = (0..).map(RobotId).zip(groups).map(|(robot, group)| {
+        let body = group.model.body();
+        Member {
+            id: robot.0,
+            name: fleet.name(robot),
+            model: group.model.name(),
+            program: group.program.clone(),
+            radius: body.radius,
+            height: body.height,
+            flies: body.flies(),
+            condition: condition(run, robot),
+        }
+    });
+    members.collect()
+}
+
+impl World {
+    /// The world as it stands in a run.
+    pub fn of(run: &Run) -> World {
+        let simulation = run.simulation();
+        let things = simulation.things().enumerate();
+        let things = things.filter(|(_, (name, ..))| !name.is_empty());
+        World {
+            obstacles: (simulation.standing_obstacles())
+                .map(|standing| Standing {
+                    index: standing.index,
+                    obstacle: standing.obstacle.clone(),
+                    hidden: standing.is_hidden,
+                })
+                .collect(),
+            way_points: simulation.places().to_vec(),
+            things: things
+                .map(|(index, (name, position, holder))| Thing {
+                    index,
+                    name: name.to_string(),
+                    position,
+                    holder: holder.map(|robot| robot.0),
+                })
+                .collect(),
+        }
+    }
+}

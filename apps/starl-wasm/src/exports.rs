@@ -1,0 +1,80 @@
+//! The names that the module exports.
+//!
+//! One buffer carries JSON both ways: JavaScript asks for room with [`buffer`], writes a request there, calls
+//! [`call`], and reads as many bytes as that returns from where [`answer`] says. Poses are read in place: [`poses`]
+//! and [`poses_at`]. What was read before is gone after the next call, and memory may have grown.
+//!
+//! A panic is a fault of StarL and ends the instance: the call traps, and [`failure`] puts the message where
+//! [`answer`] says.
+
+#![allow(
+    unsafe_code,
+    reason = "exported names are unsafe attributes; no pointer is followed here"
+)]
+
+use crate::Host;
+use std::sync::{LazyLock, Mutex, MutexGuard, Once, PoisonError};
+use std::{mem, panic};
+
+static BUFFER: Mutex<Vec<u8>> = Mutex::new(Vec::new());
+static HOST: LazyLock<Mutex<Host>> = LazyLock::new(Mutex::default);
+static POSES: Mutex<Vec<f64>> = Mutex::new(Vec::new());
+static HOOK: Once = Once::new();
+
+fn locked<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Makes room for a request of `length` bytes and says where.
+#[unsafe(no_mangle)]
+pub extern "C" fn buffer(length: usize) -> *mut u8 {
+    HOOK.call_once(|| {
+        panic::set_hook(Box::new(|panic| {
+            *locked(&BUFFER) = panic.to_string().into_bytes();
+        }));
+    });
+    let mut buffer = locked(&BUFFER);
+    buffer.clear();
+    buffer.resize(length, 0);
+    buffer.as_mut_ptr()
+}
+
+/// Where the answer is.
+#[unsafe(no_mangle)]
+pub extern "C" fn answer() -> *const u8 {
+    locked(&BUFFER).as_ptr()
+}
+
+/// Carries out the request in the buffer, puts the answer there and returns its length.
+#[unsafe(no_mangle)]
+pub extern "C" fn call() -> usize {
+    // Not locked meanwhile: the message of a panic goes there.
+    let request = mem::take(&mut *locked(&BUFFER));
+    let answer = locked(&HOST).answer(&request);
+    let mut buffer = locked(&BUFFER);
+    *buffer = answer;
+    buffer.len()
+}
+
+/// After a trap: the length of the message of the panic.
+#[unsafe(no_mangle)]
+pub extern "C" fn failure() -> usize {
+    locked(&BUFFER).len()
+}
+
+/// Writes the poses of a simulation's robots, see [`Host::poses`]; returns how many numbers there are, or -1 if
+/// there is no such simulation.
+#[unsafe(no_mangle)]
+pub extern "C" fn poses(simulation: u32) -> isize {
+    let mut poses = locked(&POSES);
+    match locked(&HOST).poses(simulation, &mut poses) {
+        true => poses.len() as isize,
+        false => -1,
+    }
+}
+
+/// Where the poses are: 64-bit floating-point numbers.
+#[unsafe(no_mangle)]
+pub extern "C" fn poses_at() -> *const f64 {
+    locked(&POSES).as_ptr()
+}

@@ -1,0 +1,168 @@
+//! Holds simulations and answers requests. Bad requests of any kind get an answer that says why.
+
+use crate::request::Request;
+use serde::Serialize;
+use serde_json::{Value, json};
+use starl_catalog::examples::{self, EXAMPLES};
+use starl_catalog::programs::Registry;
+use starl_catalog::session::{Refused, Session, Status, World, check, fleet};
+use starl_core::Time;
+use std::collections::BTreeMap;
+
+/// Simulations by number, of programs in the StarL language and those in Rust that ship with StarL.
+#[derive(Default)]
+pub struct Host {
+    registry: Registry,
+    sessions: BTreeMap<u32, Session>,
+    next: u32,
+}
+
+impl Host {
+    /// The answer to a request, both in JSON: `{"ok": ...}`, or `{"error": {"message": ..., "diagnostics": ...}}`.
+    pub fn answer(&mut self, request: &[u8]) -> Vec<u8> {
+        let answered = serde_json::from_slice(request)
+            .map_err(|error| Refused::from(format!("the request cannot be read: {error}")))
+            .and_then(|request| self.carry_out(request));
+        match answered {
+            Ok(Answer::Json(value)) => encoded(&json!({ "ok": value })),
+            Ok(Answer::Text(text)) => [br#"{"ok":"#, &text[..], b"}"].concat(),
+            Err(refused) => encoded(&json!({ "error": refused })),
+        }
+    }
+
+    /// Writes the poses of a simulation's robots, [`starl_catalog::session::POSE_NUMBERS`] each, see
+    /// [`Session::poses`]. False if there is no such simulation.
+    pub fn poses(&self, simulation: u32, poses: &mut Vec<f64>) -> bool {
+        let session = self.sessions.get(&simulation);
+        session.map(|session| session.poses(poses)).is_some()
+    }
+
+    fn carry_out(&mut self, request: Request) -> Result<Answer, Refused> {
+        let answer = match request {
+            Request::Examples {} => answer(&all_examples()),
+            Request::Check { files } => answer(&check(&files.into(), &self.registry)),
+            Request::Open {
+                files,
+                options,
+                topics,
+            } => {
+                let mut session = Session::open(&files.into(), &options, &self.registry)?;
+                if let Some(topics) = topics {
+                    session.set_topics(&topics)?;
+                }
+                return Ok(self.keep(session));
+            }
+            Request::Close { simulation } => {
+                self.find(simulation)?;
+                self.sessions.remove(&simulation);
+                Answer::Json(Value::Null)
+            }
+            Request::Status { simulation } => answer(&self.find(simulation)?.status()),
+            Request::Step { simulation } => answer(&self.find(simulation)?.step()),
+            Request::Run {
+                simulation,
+                until,
+                steps,
+            } => {
+                let until = until.map_or(Time::NEVER, |until| until.0);
+                let session = self.find(simulation)?;
+                answer(&session.advance(until, steps.unwrap_or(u64::MAX)))
+            }
+            Request::Apply {
+                simulation,
+                at,
+                intervention,
+            } => {
+                let session = self.find(simulation)?;
+                let at = at.map_or(Time::ZERO, |at| at.0);
+                session.apply(at, intervention)?;
+                Answer::Json(Value::Null)
+            }
+            Request::Snapshot { simulation } => answer(&self.find(simulation)?.snapshot()),
+            Request::Restore {
+                simulation,
+                snapshot,
+            } => answer::<Status>(&self.find(simulation)?.restore(snapshot)?),
+            Request::Drop {
+                simulation,
+                snapshot,
+            } => {
+                self.find(simulation)?.forget(snapshot)?;
+                Answer::Json(Value::Null)
+            }
+            Request::Scenario { simulation } => answer(&self.find(simulation)?.scenario()),
+            Request::Records { simulation, max } => {
+                let session = self.find(simulation)?;
+                let batch = session.take_records(max.unwrap_or(usize::MAX));
+                let records = starl_trace::json_list(&batch.records);
+                let rest = format!(r#","left":{},"dropped":{}}}"#, batch.left, batch.dropped);
+                Answer::Text([br#"{"records":"#, &records[..], rest.as_bytes()].concat())
+            }
+            Request::World { simulation } => answer(&World::of(self.find(simulation)?.run())),
+            Request::Fleet { simulation } => answer(&fleet(self.find(simulation)?.run())),
+            Request::Robot { simulation, robot } => {
+                let found = self.find(simulation)?.robot(robot);
+                answer(&found.ok_or_else(|| format!("there is no robot {robot}"))?)
+            }
+            Request::Report { simulation } => answer(&self.find(simulation)?.report()),
+        };
+        Ok(answer)
+    }
+
+    fn find(&mut self, simulation: u32) -> Result<&mut Session, String> {
+        let session = self.sessions.get_mut(&simulation);
+        session
+            .ok_or_else(|| format!("there is no simulation {simulation}; it may have been closed"))
+    }
+
+    fn keep(&mut self, session: Session) -> Answer {
+        let number = self.next;
+        self.next += 1;
+        let scenario = session.run().simulation().scenario();
+        let opened = json!({
+            "simulation": number,
+            "title": scenario.title,
+            "seed": scenario.seed.to_string(),
+            "duration": scenario.duration.seconds(),
+            "step_length": scenario.physics.step.seconds(),
+            "warnings": session.warnings(),
+        });
+        self.sessions.insert(number, session);
+        Answer::Json(opened)
+    }
+}
+
+/// What a request comes to.
+enum Answer {
+    /// A value.
+    Json(Value),
+    /// A value that is written down already.
+    Text(Vec<u8>),
+}
+
+/// Numbers that are infinite or not a number become null.
+fn answer<T: Serialize + ?Sized>(content: &T) -> Answer {
+    Answer::Text(encoded(content))
+}
+
+fn encoded<T: Serialize + ?Sized>(content: &T) -> Vec<u8> {
+    serde_json::to_vec(content)
+        .unwrap_or_else(|error| unreachable!("plain data can be written as JSON: {error}"))
+}
+
+/// The examples with their files; those that are not text are left out.
+fn all_examples() -> Vec<Value> {
+    let example = |example: &examples::Example| {
+        let own = example.path.rsplit('/').next().unwrap_or(example.path);
+        let mut files = BTreeMap::from([(own, example.text)]);
+        let texts = example.files.iter();
+        files.extend(texts.filter_map(|(path, bytes)| Some((*path, str::from_utf8(bytes).ok()?))));
+        json!({
+            "name": example.name,
+            "summary": example.summary,
+            "scenario": own,
+            "files": files,
+        })
+    };
+    EXAMPLES.iter().map(example).collect()
+}

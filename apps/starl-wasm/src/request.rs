@@ -1,0 +1,113 @@
+//! What can be asked of a host, as JSON: an object whose only member is the name of the request.
+
+use serde::Deserialize;
+use starl_catalog::session::{Files, Options};
+use starl_core::{Duration, Intervention, RobotId, Time};
+use std::collections::BTreeMap;
+
+/// A request.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Request {
+    Examples {},
+    Check {
+        files: Contents,
+    },
+    Open {
+        #[serde(default)]
+        files: Contents,
+        #[serde(default)]
+        options: Options,
+        topics: Option<Vec<String>>,
+    },
+    Close {
+        simulation: u32,
+    },
+    Status {
+        simulation: u32,
+    },
+    Step {
+        simulation: u32,
+    },
+    Run {
+        simulation: u32,
+        until: Option<Seconds>,
+        steps: Option<u64>,
+    },
+    Apply {
+        simulation: u32,
+        at: Option<Seconds>,
+        intervention: Intervention,
+    },
+    Snapshot {
+        simulation: u32,
+    },
+    Restore {
+        simulation: u32,
+        snapshot: u32,
+    },
+    Drop {
+        simulation: u32,
+        snapshot: u32,
+    },
+    Scenario {
+        simulation: u32,
+    },
+    Records {
+        simulation: u32,
+        max: Option<usize>,
+    },
+    World {
+        simulation: u32,
+    },
+    Fleet {
+        simulation: u32,
+    },
+    Robot {
+        simulation: u32,
+        robot: RobotId,
+    },
+    Report {
+        simulation: u32,
+    },
+}
+
+/// Files by path.
+#[derive(Default, Deserialize)]
+pub struct Contents(BTreeMap<String, Content>);
+
+/// A file: a text, or its bytes.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "a file is a text, or a list of its bytes")]
+enum Content {
+    Text(String),
+    Bytes(Vec<u8>),
+}
+
+impl From<Contents> for Files {
+    fn from(contents: Contents) -> Files {
+        let files = contents.0.into_iter().map(|(path, content)| {
+            let bytes = match content {
+                Content::Text(text) => text.into_bytes(),
+                Content::Bytes(bytes) => bytes,
+            };
+            (path, bytes)
+        });
+        files.collect()
+    }
+}
+
+/// A moment in seconds since the start of the run.
+#[derive(Deserialize)]
+#[serde(try_from = "f64")]
+pub struct Seconds(pub Time);
+
+impl TryFrom<f64> for Seconds {
+    type Error = String;
+    fn try_from(seconds: f64) -> Result<Seconds, String> {
+        match seconds >= 0.0 && seconds.is_finite() {
+            true => Ok(Seconds(Time::ZERO + Duration::from_seconds_f64(seconds))),
+            false => Err(format!("{seconds} is not a time; give seconds from 0")),
+        }
+    }
+}

@@ -1,0 +1,362 @@
+// Types of starl.mjs. Unless something else is said: times are seconds since the start of the run, lengths are
+// metres, angles are radians, and places are in one right-handed world frame with z up.
+
+/** Files by path. Paths are relative, with `/` between their parts. */
+export type Files = Record<string, string | Uint8Array>;
+
+/** What StarL refuses. */
+export class StarlError extends Error {
+  /** The single problems; empty where there is no more to say than the message does. */
+  readonly diagnostics: Diagnostic[];
+}
+
+/** So many numbers of `poses()` belong to each robot. */
+export const POSE_NUMBERS: 11;
+
+/**
+ * Loads the module, by default `starl_wasm.wasm` beside this file, and makes an instance of it.
+ * Instances share nothing.
+ */
+export function load(source?: string | URL | Response | BufferSource | WebAssembly.Module): Promise<Starl>;
+
+/** An instance of the simulator. It holds any number of simulations. */
+export class Starl {
+  private constructor();
+  /** The examples that come with StarL. */
+  examples(): Example[];
+  /** All that is wrong with programs and libraries (`.starl`) and scenarios (`.toml`), by file and place. */
+  check(files: Files): Diagnostic[];
+  /** Opens a scenario with its programs. Throws a StarlError with diagnostics if something is wrong with them. */
+  open(files: Files, options?: Options): Simulation;
+}
+
+/** An example that comes with StarL. */
+export interface Example {
+  name: string;
+  /** What one sees, in one line. */
+  summary: string;
+  /** The path of its scenario in `files`. */
+  scenario: string;
+  files: Record<string, string>;
+}
+
+/** What to open, and what to change of it. Each stands for an option of `starl run`. */
+export interface Options {
+  /**
+   * The path of a scenario among the files, or an example's name. By default the only scenario among the files; if
+   * there is none, an empty floor with a few robots.
+   */
+  scenario?: string;
+  /**
+   * The path of a program, or the name of one in Rust, in the place of the scenario's. If there is no scenario, by
+   * default the only program among the files.
+   */
+  program?: string;
+  /** Another seed. Seeds have 64 bits: give large ones as bigint or text. */
+  seed?: number | bigint | string;
+  /** Another duration, such as `"30s"`. */
+  duration?: string;
+  /** Another fleet, such as `"create=2,drone=2"`. */
+  robots?: string;
+  /** Fields of the scenario to set, such as `"network.loss=0.2"`. */
+  set?: string[];
+  /** The path of a file with faults to add. */
+  faults?: string;
+  /** Keep the records of these topics only, such as `"/starl/action"`. All by default. */
+  topics?: Iterable<string>;
+}
+
+/** One problem of a file. */
+export interface Diagnostic {
+  /** The file's path; null for a problem with an option. */
+  file: string | null;
+  /** From 1. */
+  line: number;
+  /** From 1, in Unicode characters (code points). */
+  column: number;
+  end_line: number;
+  /** The character after the last. */
+  end_column: number;
+  /** In Unicode characters; 0 if only the start is known. */
+  length: number;
+  severity: "error" | "warning";
+  /** The number in the reference of errors; null for scenarios. */
+  code: string | null;
+  /** The field of a scenario, such as `network.loss`, or the option. */
+  field: string | null;
+  message: string;
+  /** A suggested fix. */
+  help: string | null;
+  notes: string[];
+}
+
+/** How far a run is. */
+export interface Status {
+  now: number;
+  /** Whether the run has come to its end. */
+  over: boolean;
+  /** Null before the end. */
+  outcome: Outcome | null;
+  /** How many physics steps the call has made. */
+  steps: number;
+}
+
+export type Outcome = "reached" | "violated" | "timed_out" | "failed";
+
+/** One simulation. Its methods throw a StarlError after `close()`. */
+export class Simulation {
+  private constructor();
+  readonly title: string;
+  /** The seed of 64 bits, as text. */
+  readonly seed: string;
+  /** When the run ends at the latest. */
+  readonly duration: number;
+  /** The length of a physics step. */
+  readonly step_length: number;
+  /** What the compiler warns of. */
+  readonly warnings: Diagnostic[];
+
+  /** Frees its memory and that of its snapshots. */
+  close(): void;
+  status(): Status;
+  /** Makes one physics step, also when the run is over. */
+  step(): Status;
+  /**
+   * Makes physics steps until the run is over, the time `until` has come, or `steps` are made; to the end if
+   * neither is given.
+   */
+  run(budget?: { until?: number; steps?: number }): Status;
+  /**
+   * Steers the run: at the time `at`, or at once if that is not given or has passed. Throws a StarlError that says
+   * what is wrong with the intervention.
+   */
+  apply(intervention: Intervention, when?: { at?: number }): void;
+  /** Keeps the present moment, records that were not taken included. */
+  snapshot(): number;
+  /** Goes back, or forth, to a moment that was kept, exactly. It stays kept. */
+  restore(snapshot: number): Status;
+  /** Forgets a moment that was kept. */
+  drop(snapshot: number): void;
+  /** The scenario as a file, with all that was applied: run from the start, it goes as this run went. */
+  scenario(): string;
+  /** Takes up to `max` records, the oldest first; all if `max` is not given. */
+  records(max?: number): Batch;
+  world(): World;
+  /** All robots in the order of their numbers, those that have joined and left too. */
+  fleet(): Member[];
+  /** All there is to see of a robot now. */
+  robot(robot: number): Robot;
+  /** What has come of the run so far. */
+  report(): Report;
+  /**
+   * POSE_NUMBERS numbers for each robot in the order of their numbers: the true x, y, z, yaw, pitch and roll; x, y,
+   * z and yaw as the robot believes them; and its condition, 0 running, 1 finished, 2 failed, 3 down, 4 left. The
+   * array lies in the memory of the module: it is good until the next call of any method. Copy it to keep it.
+   */
+  poses(): Float64Array;
+}
+
+/** Records that were taken. */
+export interface Batch {
+  records: TraceRecord[];
+  /** How many more there are to be taken. */
+  left: number;
+  /** How many were dropped since the last call: more than 200,000 are not kept. */
+  dropped: number;
+}
+
+/** A record as it stands in a trace: docs/reference/trace.md. */
+export interface TraceRecord {
+  /** Nanoseconds. */
+  time_ns: number;
+  /** Such as `/starl/action`. */
+  topic: string;
+  /** Its members depend on the topic; `robot` is absent where something happened to the world as a whole. */
+  message: { robot?: number; [member: string]: unknown };
+}
+
+export interface Point {
+  x: number;
+  y: number;
+  z: number;
+}
+
+export interface Pose {
+  /** The centre of the body's base. */
+  position: Point;
+  /** Heading from the x axis, left positive. */
+  yaw: number;
+  /** Nose-down angle. */
+  pitch: number;
+  /** Right-side-down angle. */
+  roll: number;
+}
+
+/** Rates of change of a pose, world frame. */
+export interface Twist {
+  linear: Point;
+  yaw: number;
+  pitch: number;
+  roll: number;
+}
+
+/** Null is from the floor to the sky. */
+export type HeightSpan = { low: number; high: number } | null;
+
+export interface Obstacle {
+  shape:
+    | { Polygon: { base: Point[]; height: HeightSpan } }
+    | { Circle: { center: Point; radius: number; height: HeightSpan } }
+    | { Cuboid: { low: Point; high: Point } };
+}
+
+export interface WayPoint {
+  name: string;
+  position: Point;
+  /** 0 where none is given. */
+  group: number;
+}
+
+export interface World {
+  /** Those that stand, the walls around the world included; `index` is that of interventions. */
+  obstacles: { index: number; obstacle: Obstacle; hidden: boolean }[];
+  way_points: WayPoint[];
+  things: { index: number; name: string; position: Point; holder: number | null }[];
+}
+
+export type Condition = "running" | "finished" | "failed" | "down" | "left";
+
+export interface Member {
+  id: number;
+  name: string;
+  model: string;
+  /** The program that it runs, as the scenario names it. */
+  program: string;
+  /** Of its body. */
+  radius: number;
+  height: number;
+  flies: boolean;
+  condition: Condition;
+}
+
+/** One robot at one moment. */
+export interface Robot {
+  id: number;
+  name: string;
+  model: string;
+  program: string;
+  condition: Condition;
+  /** Whether its software has started in its present life. */
+  started: boolean;
+  /** Why its program cannot go on. */
+  failure: string | null;
+  motors_stuck: boolean;
+  sensors_frozen: boolean;
+  pose: Pose;
+  twist: Twist;
+  /** What it believes; `at` is in nanoseconds of its own clock. */
+  estimate: { pose: Pose; twist: Twist; at: number };
+  /** What its model is told to do. */
+  command: unknown;
+  /** The name of the thing in its gripper. */
+  holding: string | null;
+  /** How far it has come along its path. */
+  distance: number;
+  way_points_reached: number;
+  /** What its own clock shows; how far it was ahead at the start; seconds that it counts in a simulated second. */
+  clock: { now: number; offset: number; rate: number };
+  /** Null if its program does not run. */
+  next_activation: number | null;
+  /** The next one first. */
+  timers: {
+    /** The primitive that armed it, by its name in the program, or `program`; null if that is not known. */
+    owner: string | null;
+    port: number;
+    kind: number;
+    number: number;
+    /** By the robot's own clock. */
+    due: number;
+    /** In simulated time. */
+    due_simulated: number;
+  }[];
+  /** Datagrams on their way to it, the next one first; `at` is when it arrives. */
+  mailbox: { from: number; sequence: number; to: string | null; port: number; at: number; bytes: number }[];
+  /** Of a program in the StarL language: values are texts as programs write them. */
+  variables: { name: string; type: string; value: string; parameter: boolean }[];
+  /** Of a program in the StarL language: whether guards hold now. */
+  actions: { name: string; enabled: boolean; error: string | null }[];
+  /** Of a program in the StarL language; `state` is text for people. */
+  primitives: { name: string; kind: string; port: number | null; state: string | null }[];
+  /** All that a program in Rust goes by, as text for people; null if it does not show it. */
+  state: string | null;
+}
+
+export interface Report {
+  now: number;
+  over: boolean;
+  outcome: Outcome | null;
+  /** The hash of all that has happened: 16 hexadecimal digits. */
+  digest: string;
+  progress: { robots: number; up: number; finished: number; failed: number };
+  /** Counts of datagrams. */
+  messages: { sent: number; delivered: number; lost: number; dropped: number; retransmitted: number };
+  /** How often bodies have come to touch. */
+  collisions: number;
+  properties: {
+    property: string;
+    verdict: "holds" | "violated" | "open" | "unused";
+    violations: number;
+    /** How often something that speaks against it was excused, by reason. */
+    excused: { reason: string; count: number }[];
+  }[];
+  violations: { property: string; at: number; robots: number[]; text: string }[];
+  failures: { at: number; robot: number; text: string }[];
+}
+
+/** Something that steers a run from outside. Robots are numbers. */
+export type Intervention =
+  | { fault: Fault }
+  /** Moves a body as far as nothing is in the way. */
+  | { push: { robot: number; by: Point } }
+  | { network: NetworkKnob[] }
+  | { add_obstacle: { obstacle: Obstacle; hidden: boolean } }
+  | { move_obstacle: { index: number; obstacle: Obstacle } }
+  | { remove_obstacle: { index: number } }
+  | { set_way_point: WayPoint }
+  | { remove_way_point: { name: string } }
+  | { set_thing: { name: string; position: Point } }
+  | { remove_thing: { name: string } }
+  /** An operator tells robots something; all of them if `robots` is empty. */
+  | { tell: { robots: number[]; order: { name: string; fields: unknown } } }
+  /** A robot of the kind of another joins, and gets the next free number. */
+  | { join: { like: number; name: string; pose: Pose } }
+  | { leave: number[] };
+
+export type Fault =
+  | { crash: number[] }
+  | { restart: number[] }
+  /** Robots in different groups do not hear each other; robots in no group form one more. */
+  | { partition: number[][] }
+  | "heal"
+  | { stuck_motor: number[] }
+  | { frozen_sensor: number[] }
+  | { repair: number[] }
+  | { corrupt_state: number[] };
+
+/** Delays are in nanoseconds. */
+export type NetworkKnob =
+  | { delay: number }
+  | { jitter: number }
+  | { distribution: "constant" | "uniform" | "normal" | "exponential" }
+  | { loss: number }
+  | { duplication: number }
+  | { reordering: number }
+  | { reordering_delay: number }
+  /** Metres; null is everywhere. */
+  | { range: number | null }
+  | { line_of_sight: boolean }
+  /** Bits per second; null is anything. */
+  | { bandwidth: number | null }
+  | { queue: number }
+  /** Bytes. */
+  | { largest: number };

@@ -1,0 +1,195 @@
+// StarL's simulator for JavaScript: Node.js from 18, browsers and workers. Types and units: starl.d.mts.
+//
+// Requests and answers pass through one buffer of the WebAssembly module as JSON; poses are read in place.
+
+/** What StarL refuses, with the single problems where there are any. */
+export class StarlError extends Error {
+  constructor(message, diagnostics = []) {
+    super(message);
+    this.name = "StarlError";
+    this.diagnostics = diagnostics;
+  }
+}
+
+/** So many numbers of `poses()` belong to each robot. */
+export const POSE_NUMBERS = 11;
+
+/** Loads the module and makes an instance of it. */
+export async function load(source = new URL("./starl_wasm.wasm", import.meta.url)) {
+  return new Starl(await instantiate(source));
+}
+
+async function instantiate(source) {
+  if (source instanceof WebAssembly.Module) return WebAssembly.instantiate(source, {});
+  if (ArrayBuffer.isView(source) || source instanceof ArrayBuffer) {
+    return (await WebAssembly.instantiate(source, {})).instance;
+  }
+  if (typeof Response !== "undefined" && source instanceof Response) return instantiateResponse(source);
+  const url = new URL(source, import.meta.url);
+  if (url.protocol === "file:") {
+    const { readFile } = await import("node:fs/promises");
+    return (await WebAssembly.instantiate(await readFile(url), {})).instance;
+  }
+  return instantiateResponse(await fetch(url));
+}
+
+async function instantiateResponse(response) {
+  if (!response.ok) throw new StarlError(`${response.url}: ${response.status} ${response.statusText}`);
+  return (await WebAssembly.instantiate(await response.arrayBuffer(), {})).instance;
+}
+
+/** An instance of the simulator. It holds any number of simulations. */
+export class Starl {
+  #exports;
+  #failure = null;
+
+  constructor(instance) {
+    this.#exports = instance.exports;
+  }
+
+  examples() {
+    return this.request({ examples: {} });
+  }
+
+  check(files) {
+    return this.request({ check: { files: contents(files) } });
+  }
+
+  open(files, options = {}) {
+    const { topics, seed, ...rest } = options;
+    if (seed !== undefined) rest.seed = String(seed);
+    const open = { files: contents(files), options: rest };
+    if (topics !== undefined) open.topics = [...topics];
+    return new Simulation(this, this.request({ open }));
+  }
+
+  /** Hands over a request as the module takes it, and gives what it answers. */
+  request(request) {
+    return this.#guarded((exports) => {
+      const text = JSON.stringify(request);
+      if (text === undefined) throw new StarlError("the request is no JSON");
+      const bytes = new TextEncoder().encode(text);
+      const at = exports.buffer(bytes.length);
+      new Uint8Array(exports.memory.buffer, at, bytes.length).set(bytes);
+      const length = exports.call();
+      const { ok, error } = JSON.parse(read(exports, length));
+      if (error) throw new StarlError(error.message, error.diagnostics);
+      return ok;
+    });
+  }
+
+  /** The poses of a simulation's robots, in the memory of the module. */
+  poses(simulation) {
+    return this.#guarded((exports) => {
+      const count = exports.poses(simulation);
+      if (count < 0) throw new StarlError(`there is no simulation ${simulation}; it may have been closed`);
+      return new Float64Array(exports.memory.buffer, exports.poses_at(), count);
+    });
+  }
+
+  /** A trap leaves the instance in no state to go on. */
+  #guarded(run) {
+    if (this.#failure) throw new StarlError(this.#failure);
+    const exports = this.#exports;
+    try {
+      return run(exports);
+    } catch (error) {
+      if (!(error instanceof WebAssembly.RuntimeError)) throw error;
+      const panic = read(exports, exports.failure()) || error.message;
+      this.#failure = `StarL has failed, which is a fault of StarL; load it anew: ${panic}`;
+      throw new StarlError(this.#failure);
+    }
+  }
+}
+
+/** One simulation. */
+export class Simulation {
+  #starl;
+  #id;
+
+  constructor(starl, { simulation, ...about }) {
+    this.#starl = starl;
+    this.#id = simulation;
+    Object.assign(this, about);
+    Object.freeze(this);
+  }
+
+  #request(name, parameters = {}) {
+    return this.#starl.request({ [name]: { simulation: this.#id, ...parameters } });
+  }
+
+  close() {
+    this.#request("close");
+  }
+
+  status() {
+    return this.#request("status");
+  }
+
+  step() {
+    return this.#request("step");
+  }
+
+  run({ until, steps } = {}) {
+    return this.#request("run", { until: until === Infinity ? undefined : moment(until), steps });
+  }
+
+  apply(intervention, { at } = {}) {
+    this.#request("apply", { at: moment(at), intervention });
+  }
+
+  snapshot() {
+    return this.#request("snapshot");
+  }
+
+  restore(snapshot) {
+    return this.#request("restore", { snapshot });
+  }
+
+  drop(snapshot) {
+    this.#request("drop", { snapshot });
+  }
+
+  scenario() {
+    return this.#request("scenario");
+  }
+
+  records(max) {
+    return this.#request("records", { max });
+  }
+
+  world() {
+    return this.#request("world");
+  }
+
+  fleet() {
+    return this.#request("fleet");
+  }
+
+  robot(robot) {
+    return this.#request("robot", { robot });
+  }
+
+  report() {
+    return this.#request("report");
+  }
+
+  poses() {
+    return this.#starl.poses(this.#id);
+  }
+}
+
+// JSON has no word for what is no number: it would be taken for a moment that is not given.
+function moment(seconds) {
+  if (seconds === undefined || Number.isFinite(seconds)) return seconds;
+  throw new StarlError(`${seconds} is not a time; give seconds from 0`);
+}
+
+function read(exports, length) {
+  return new TextDecoder().decode(new Uint8Array(exports.memory.buffer, exports.answer(), length));
+}
+
+function contents(files) {
+  const content = (file) => (typeof file === "string" ? file : Array.from(file));
+  return Object.fromEntries(Object.entries(files ?? {}).map(([path, file]) => [path, content(file)]));
+}

@@ -1,0 +1,9 @@
+//! What JavaScript asks of the simulator, asked natively.
+
+mod bad_requests_are_answered;
+mod digests_are_those_of_the_command;
+mod files_are_checked;
+mod records_are_handed_over_once;
+mod robots_can_be_inspected;
+mod runs_can_be_steered;
+mod support;

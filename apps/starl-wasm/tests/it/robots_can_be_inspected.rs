@@ -1,0 +1,150 @@
+//! A robot's variables, guards, primitives, timers and mail, without any effect on the run.
+
+use crate::support::Client;
+use serde_json::{Value, json};
+
+fn named<'a>(list: &'a Value, name: &str) -> &'a Value {
+    let mut list = list.as_array().expect("a list").iter();
+    list.find(|entry| entry["name"] == name)
+        .unwrap_or_else(|| panic!("there is no {name}"))
+}
+
+#[test]
+fn guards_tell_what_happens_next() {
+    let program = "program Counter\n\ncount: Int = 0\n\ntick()\n    pre count < 3\n    eff count = count + 1\n\nstop()\n    pre count >= 3\n    eff finish()\n";
+    let mut client = Client::open(
+        json!({"counter.starl": program}),
+        json!({"robots": "create=1", "set": ["robots.0.control_period=\"100ms\""]}),
+    );
+    let before = client.ask("robot", json!({"robot": 0}));
+    assert_eq!(before["started"], false);
+    assert_eq!(before["variables"], json!([]));
+    let mut seen = Vec::new();
+    while client.ask("run", json!({"steps": 1}))["over"] == false {
+        let robot = client.ask("robot", json!({"robot": 0}));
+        let count = named(&robot["variables"], "count")["value"].clone();
+        let enabled = |name| named(&robot["actions"], name)["enabled"].clone();
+        let now = (count, enabled("tick"), enabled("stop"));
+        if seen.last() != Some(&now) {
+            seen.push(now);
+        }
+    }
+    let expected = [("1", true), ("2", true), ("3", false)]
+        .map(|(count, ticks)| (json!(count), json!(ticks), json!(!ticks)));
+    assert_eq!(seen, expected);
+}
+
+#[test]
+fn looking_makes_no_difference() {
+    for example in ["mutex", "memory", "search", "light-painting", "race"] {
+        let open = || Client::open(json!({}), json!({"scenario": example, "seed": "5"}));
+        let (mut watched, mut alone) = (open(), open());
+        let robots = watched
+            .ask("fleet", json!({}))
+            .as_array()
+            .map_or(0, Vec::len);
+        for second in 1..4 {
+            for robot in 0..robots {
+                let seen = watched.ask("robot", json!({"robot": robot}));
+                assert_eq!(seen["id"], robot);
+                let actions = seen["actions"].as_array().expect("a list");
+                assert!(
+                    actions.iter().all(|action| action["error"].is_null()),
+                    "{actions:?}"
+                );
+            }
+            watched.ask("run", json!({"until": second}));
+        }
+        alone.ask("run", json!({"until": 3}));
+        assert_eq!(watched.digest(), alone.digest(), "{example}");
+    }
+}
+
+#[test]
+fn mail_arrives_when_it_was_to_arrive() {
+    let set = ["network.delay=\"300ms\"", "network.jitter=\"0s\""];
+    let options = json!({"scenario": "broadcast", "set": set});
+    let mut client = Client::open(json!({}), options);
+    let mail = loop {
+        let status = client.ask("step", json!({}));
+        assert_eq!(status["over"], false, "nobody gets a message");
+        let robot = client.ask("robot", json!({"robot": 0}));
+        assert!(robot["timers"].is_array());
+        let mailbox = robot["mailbox"].as_array().expect("a list");
+        if let Some(mail) = mailbox.first() {
+            break mail.clone();
+        }
+    };
+    assert_eq!(mail["to"], "news");
+    client.ask("records", json!({}));
+    client.ask(
+        "run",
+        json!({"until": mail["at"].as_f64().expect("a time") + 0.05}),
+    );
+    let batch = client.ask("records", json!({}));
+    let mut records = batch["records"].as_array().expect("a list").iter();
+    let delivered = records.find(|record| {
+        let message = &record["message"];
+        record["topic"] == "/starl/delivered"
+            && message["robot"] == 0
+            && message["from"] == mail["from"]
+            && message["sequence"] == mail["sequence"]
+    });
+    let at = delivered.expect("it arrives")["time_ns"]
+        .as_f64()
+        .expect("a time")
+        / 1e9;
+    assert!((at - mail["at"].as_f64().expect("a time")).abs() < 1e-9);
+}
+
+#[test]
+fn primitives_and_timers_have_owners() {
+    let mut client = Client::open(json!({}), json!({"scenario": "mutex"}));
+    client.ask("run", json!({"until": 2.0}));
+    let robot = client.ask("robot", json!({"robot": 0}));
+    let primitives = robot["primitives"].as_array().expect("a list");
+    assert!(
+        primitives
+            .iter()
+            .any(|primitive| primitive["kind"] == "Mutex")
+    );
+    assert!(
+        primitives
+            .iter()
+            .all(|primitive| primitive["state"].is_string())
+    );
+    let timers = robot["timers"].as_array().expect("a list");
+    assert!(!timers.is_empty());
+    assert!(
+        timers.iter().all(|timer| timer["owner"].is_string()),
+        "{timers:?}"
+    );
+}
+
+#[test]
+fn programs_in_rust_show_their_state_and_poses_are_those_of_robots() {
+    let options = json!({"scenario": "race", "set": ["program=race"]});
+    let mut client = Client::open(json!({}), options);
+    client.ask("run", json!({"until": 3.0}));
+    let robot = client.ask("robot", json!({"robot": 1}));
+    assert!(
+        robot["state"]
+            .as_str()
+            .is_some_and(|state| !state.is_empty())
+    );
+    let mut poses = Vec::new();
+    assert!(client.host.poses(0, &mut poses));
+    let fleet = client.ask("fleet", json!({}));
+    assert_eq!(poses.len(), 11 * fleet.as_array().map_or(0, Vec::len));
+    assert_eq!(json!(poses[11]), robot["pose"]["position"]["x"]);
+    assert_eq!(json!(poses[18]), robot["estimate"]["pose"]["position"]["y"]);
+    assert!(!client.host.poses(1, &mut poses));
+    assert!(client.try_ask("robot", json!({"robot": 999})).is_err());
+    let world = client.ask("world", json!({}));
+    assert!(
+        world["way_points"]
+            .as_array()
+            .is_some_and(|points| !points.is_empty())
+    );
+    assert!(world["obstacles"].is_array());
+}

@@ -1,0 +1,137 @@
+// The interface for JavaScript: node --test apps/starl-wasm/tests/starl.test.mjs
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import test from "node:test";
+import { pathToFileURL } from "node:url";
+import { POSE_NUMBERS, Starl, StarlError, load } from "../starl.mjs";
+import { moduleFile } from "./module.mjs";
+
+const module = await WebAssembly.compile(readFileSync(moduleFile));
+
+const COUNTER = `program Counter
+
+count: Int = 0
+
+tick()
+    pre count < 3
+    eff count = count + 1
+
+stop()
+    pre count >= 3
+    eff finish()
+`;
+
+test("the module can be loaded from a URL, from bytes and compiled", async () => {
+  for (const source of [pathToFileURL(moduleFile), pathToFileURL(moduleFile).href, readFileSync(moduleFile), module]) {
+    const names = (await load(source)).examples().map((example) => example.name);
+    assert.ok(names.includes("race"));
+  }
+});
+
+test("simulations live side by side and end alike", async () => {
+  const starl = await load(module);
+  const [one, other] = [1, 2].map(() => starl.open({}, { scenario: "race", seed: 3n }));
+  assert.equal(one.seed, "3");
+  one.run();
+  while (!other.run({ steps: 50 }).over);
+  assert.deepEqual(one.report(), other.report());
+  assert.equal(one.report().outcome, "reached");
+  one.close();
+  assert.throws(() => one.status(), StarlError);
+  assert.throws(() => one.poses(), StarlError);
+  assert.equal(other.status().over, true);
+});
+
+test("a snapshot can be gone back to again and again", async () => {
+  const simulation = (await load(module)).open({}, { scenario: "formation" });
+  simulation.run({ until: 2 });
+  const snapshot = simulation.snapshot();
+  const digests = new Set();
+  for (const steps of [3, 30, 300]) {
+    simulation.restore(snapshot);
+    simulation.run({ steps });
+    simulation.run({ until: 5 });
+    digests.add(simulation.report().digest);
+  }
+  assert.equal(digests.size, 1);
+  simulation.drop(snapshot);
+  assert.throws(() => simulation.restore(snapshot), /no snapshot/);
+});
+
+test("poses are those of the robots, also when memory has grown", async () => {
+  const simulation = (await load(module)).open({}, { scenario: "race" });
+  simulation.run({ until: 2 });
+  const before = simulation.poses().slice();
+  const snapshots = Array.from({ length: 200 }, () => simulation.snapshot());
+  assert.equal(snapshots.length, 200);
+  const poses = simulation.poses();
+  assert.deepEqual(poses, before);
+  const fleet = simulation.fleet();
+  assert.equal(poses.length, fleet.length * POSE_NUMBERS);
+  const { pose, estimate } = simulation.robot(2);
+  const own = poses.subarray(2 * POSE_NUMBERS, 3 * POSE_NUMBERS);
+  assert.deepEqual([...own.slice(0, 4)], [pose.position.x, pose.position.y, pose.position.z, pose.yaw]);
+  assert.deepEqual([...own.slice(6, 8)], [estimate.pose.position.x, estimate.pose.position.y]);
+});
+
+test("what is wrong with files has a place", async () => {
+  const starl = await load(module);
+  assert.deepEqual(starl.check({ "counter.starl": COUNTER }), []);
+  const broken = { "counter.starl": COUNTER.replace("count + 1", "cound + 1") };
+  const [found] = starl.check(broken);
+  assert.equal(found.file, "counter.starl");
+  assert.equal(found.line, 7);
+  assert.equal(found.severity, "error");
+  assert.throws(
+    () => starl.open(broken),
+    (error) => error instanceof StarlError && error.diagnostics[0].line === 7,
+  );
+});
+
+test("files can be bytes", async () => {
+  const starl = await load(module);
+  const simulation = starl.open({ "counter.starl": new TextEncoder().encode(COUNTER) }, { robots: "create=2" });
+  const actions = new Set();
+  while (!simulation.run({ steps: 1 }).over) {
+    for (const { name, enabled } of simulation.robot(0).actions) if (enabled) actions.add(name);
+  }
+  assert.deepEqual([...actions].sort(), ["stop", "tick"]);
+  const { records, left, dropped } = simulation.records(5);
+  assert.equal(records.length, 5);
+  assert.ok(left > 0 && dropped === 0);
+});
+
+test("a run can be steered", async () => {
+  const simulation = (await load(module)).open({}, { scenario: "race" });
+  simulation.run({ until: 1 });
+  simulation.apply({ fault: { crash: [0] } });
+  simulation.apply({ fault: { restart: [0] } }, { at: 2 });
+  simulation.step();
+  assert.equal(simulation.fleet()[0].condition, "down");
+  simulation.run({ until: 2.1 });
+  assert.equal(simulation.fleet()[0].condition, "running");
+  assert.throws(() => simulation.apply({ fault: { crash: [77] } }), /there is no robot 77/);
+  assert.throws(() => simulation.apply({ push: {} }), StarlError);
+  assert.throws(() => simulation.apply({ leave: [1] }, { at: Number.NaN }), StarlError);
+});
+
+test("what is no request is refused", async () => {
+  const starl = await load(module);
+  for (const request of [null, 1, "", {}, [], { run: {} }, { open: { files: 3 } }, undefined]) {
+    assert.throws(() => starl.request(request), StarlError);
+  }
+  assert.throws(() => starl.open({}, { scenario: "rase" }), /race/);
+  assert.throws(() => starl.open({}), /neither a scenario nor a program/);
+});
+
+test("after a trap an instance says so", () => {
+  const memory = new WebAssembly.Memory({ initial: 1 });
+  const trap = () => {
+    throw new WebAssembly.RuntimeError("unreachable");
+  };
+  const exports = { memory, buffer: () => 0, call: trap, failure: () => 0, answer: () => 0 };
+  const starl = new Starl({ exports });
+  assert.throws(() => starl.examples(), /fault of StarL.*unreachable/);
+  assert.throws(() => starl.examples(), StarlError);
+});

@@ -1,0 +1,149 @@
+//! Looks into a program that runs on a robot, without changing it: for those who watch or debug a run.
+
+use super::atomic::Script;
+use super::host::{Context, RobotHost};
+use super::primitives::KINDS;
+use super::program::{Phase, RobotProgram};
+use super::words::type_name;
+use super::workbench::Workbench;
+use crate::machine::{Limits, Machine, Parameter, Value};
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::fmt;
+use starl_core::{Port, Primitive, Robot};
+
+/// A variable with its value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VariableState {
+    /// Its name.
+    pub name: String,
+    /// Its type, as programs write it.
+    pub kind: String,
+    /// Its value.
+    pub value: Value,
+    /// Whether it is a parameter, which the scenario sets and nothing changes.
+    pub is_parameter: bool,
+}
+
+/// An action, and whether it would fire.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ActionState {
+    /// Its name.
+    pub name: String,
+    /// Whether its guard holds, or the error that evaluating it ends with.
+    pub enabled: Result<bool, String>,
+}
+
+/// A primitive, and what it goes by.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PrimitiveState {
+    /// Its name in the program; what the program's primitives share has a name of its own.
+    pub name: String,
+    /// Its kind, for instance `Mutex`.
+    pub kind: String,
+    /// Where it listens; nowhere, if it is not bound yet or has no state machine of its own.
+    pub port: Option<Port>,
+    /// All of its state as Rust's `Debug` shows it; none before it is bound.
+    pub state: Option<String>,
+}
+
+impl RobotProgram {
+    /// Its variables and parameters in the order of the text; none before it starts. A variable that a fault has
+    /// given what is no value of its type is left out.
+    pub fn variables(&self) -> Vec<VariableState> {
+        if !self.has_started() {
+            return Vec::new();
+        }
+        let program = self.code.program();
+        let bytecode = program.bytecode();
+        let variables = program.values(&self.state).map(|(name, value)| {
+            let declared = bytecode.variables.iter().find(|known| known.name == name);
+            VariableState {
+                name: name.to_string(),
+                kind: declared.map_or(String::new(), |known| type_name(bytecode, &known.kind)),
+                value,
+                is_parameter: declared.is_some_and(|known| known.parameter != Parameter::No),
+            }
+        });
+        variables.collect()
+    }
+
+    /// Its actions in the order of the text, each with whether its guard holds now; none if the program does not
+    /// run. Guards are evaluated on a copy of the program, each with the fuel of a whole activation. An action
+    /// with `atomic` may have to wait for its variables even if its guard holds.
+    pub fn actions(&self, robot: &mut Robot<'_>) -> Vec<ActionState> {
+        if self.phase != Phase::Running {
+            return Vec::new();
+        }
+        let code = &self.code;
+        let actions = code.program().bytecode().actions.iter();
+        (0..)
+            .zip(actions)
+            .map(|(number, action)| {
+                let (mut state, mut bound) = (self.state.clone(), self.bound.clone());
+                let mut services = self.services.clone();
+                let enabled = robot.rehearse(|robot| {
+                    let Workbench { workspace, memo } = &mut Workbench::default();
+                    let mut host = RobotHost {
+                        context: Context::new(code, robot, memo, &mut services),
+                        bound: &mut bound,
+                        failure: None,
+                        has_fired: false,
+                        script: Script::None,
+                    };
+                    let (program, limits) = (code.program(), Limits::default());
+                    let machine = Machine::new(program, &mut state, workspace, &mut host, limits);
+                    { machine }.guard(number)
+                });
+                ActionState {
+                    name: action.name.clone(),
+                    enabled: enabled.map_err(|error| code.describe(&error)),
+                }
+            })
+            .collect()
+    }
+
+    /// Its primitives in the order of the text, then what they share: the memory of shared variables, what
+    /// actions with `atomic` need, and the detector of failed robots.
+    pub fn primitives_state(&self) -> Vec<PrimitiveState> {
+        let bound = self.code.instances().iter().zip(&self.bound);
+        let mut primitives: Vec<PrimitiveState> = bound
+            .map(|(instance, seat)| PrimitiveState {
+                name: instance.variable.clone(),
+                kind: KINDS
+                    .get(usize::from(instance.kind))
+                    .map_or(String::new(), |kind| kind.name.to_string()),
+                port: seat.as_ref().and_then(|seat| seat.port),
+                state: seat.as_ref().map(|seat| format!("{seat:?}")),
+            })
+            .collect();
+        let services = &self.services;
+        let mut share = |kind: &str, port, state: Option<&dyn fmt::Debug>| {
+            if let Some(state) = state {
+                primitives.push(PrimitiveState {
+                    name: kind.to_string(),
+                    kind: kind.to_string(),
+                    port,
+                    state: Some(format!("{state:?}")),
+                });
+            }
+        };
+        share(
+            "SharedMemory",
+            services.memory.as_ref().map(|memory| memory.port()),
+            services.memory.as_ref().map(|memory| memory as _),
+        );
+        share(
+            "Atomic",
+            None,
+            services.atomic.as_ref().map(|atomic| atomic as _),
+        );
+        share(
+            "FailureDetector",
+            self.code.detector(),
+            services.detector.as_ref().map(|detector| detector as _),
+        );
+        primitives
+    }
+}

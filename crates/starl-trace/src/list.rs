@@ -1,0 +1,22 @@
+//! Records as one JSON text, for hosts that show a run while it goes on.
+
+use crate::json::Json;
+use crate::{Topic, encode};
+use starl_core::Record;
+
+/// The records as a JSON array. Each is an object with `time_ns`, the `topic`, and the `message` as it stands
+/// in a trace. Numbers that are infinite or not a number are null; a trace would refuse them.
+pub fn json_list<'a>(records: impl IntoIterator<Item = &'a Record>) -> Vec<u8> {
+    let mut json = Json::default();
+    json.mark(b'[');
+    for record in records {
+        json.item().mark(b'{');
+        json.key("time_ns").integer(record.at.0);
+        json.key("topic").string(Topic::of(&record.event).name());
+        json.key("message");
+        encode::event(&mut json, record.robot, &record.event);
+        json.mark(b'}');
+    }
+    json.mark(b']');
+    json.bytes().to_vec()
+}
