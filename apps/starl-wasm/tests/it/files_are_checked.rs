@@ -5,8 +5,8 @@ use serde_json::{Value, json};
 use starl_wasm::Host;
 
 const LIBRARY: &str = "library tools\n\nfunction twice(n: Int) -> Int\n    return n + n\n";
-const PROGRAM: &str = "program Counter\n\nimport tools\n\ncount: Int = 0\n\ntick()\n    pre count < 8\n    eff count = twice(count) + 1\n\nstop()\n    pre count >= 8\n    eff finish()\n";
-const SCENARIO: &str = "program = \"../programs/counter.starl\"\nduration = \"10s\"\n[[robots]]\nmodel = \"create\"\ncount = 2\n";
+const PROGRAM: &str = "program Counter\n\nimport tools\n\ncount: Int = 0\n\ntick()\n    pre count < 8\n    eff count = tools.twice(count) + 1\n\nstop()\n    pre count >= 8\n    eff finish()\n";
+const SCENARIO: &str = "program = \"../programs/counter.starl\"\nduration = \"10s\"\n[world]\nstart_area = { low = [0, 0], high = [4, 4] }\n[[robots]]\nmodel = \"create\"\ncount = 2\n";
 
 fn files(program: &str, scenario: &str) -> Value {
     json!({
@@ -32,7 +32,7 @@ fn files_find_each_other_by_relative_paths() {
 
 #[test]
 fn a_problem_of_a_program_has_a_place_and_a_code() {
-    let broken = PROGRAM.replace("count = twice(count) + 1", "count = twize(count) + 1");
+    let broken = PROGRAM.replace("tools.twice(count) + 1", "cound + 1");
     let found = check(files(&broken, SCENARIO));
     assert_eq!(found.len(), 1, "{found:?}");
     let found = &found[0];
@@ -62,7 +62,7 @@ fn a_problem_of_a_scenario_has_a_place_and_a_field() {
     let found = check(files(PROGRAM, &broken));
     assert_eq!(found.len(), 1, "{found:?}");
     assert_eq!(found[0]["file"], "lab/small.toml");
-    assert_eq!(found[0]["line"], 7);
+    assert_eq!(found[0]["line"], 9);
     assert_eq!(found[0]["field"], "network.loss");
     assert_eq!(found[0]["code"], Value::Null);
 }
@@ -110,8 +110,8 @@ fn an_examples_program_can_be_edited() {
     assert!(line["files"][line["scenario"].as_str().expect("a path")].is_string());
     let edited = json!({"line.starl": "program Line\n\nstop()\n    pre true\n    eff finish()\n"});
     let mut client = Client::open(edited, json!({"scenario": "line"}));
-    let end = client.ask("run", json!({}));
-    assert!(end["now"].as_f64().is_some_and(|now| now < 2.0), "{end}");
+    client.ask("run", json!({"until": 2.0}));
+    assert_eq!(client.ask("fleet", json!({}))[0]["condition"], "finished");
     assert!(
         !client
             .ask("scenario", json!({}))
