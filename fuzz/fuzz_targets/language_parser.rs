@@ -30,7 +30,10 @@ fn tokens(parse: &Parse) -> Vec<(SyntaxKind, String)> {
 fuzz_target!(|text: &str| {
     let read = parse(text);
     assert_eq!(read.syntax().text().to_string(), text);
-    let skipped = read.syntax().descendants().any(|node| node.kind() == SyntaxKind::Error);
+    let skipped = read
+        .syntax()
+        .descendants()
+        .any(|node| node.kind() == SyntaxKind::Error);
     assert!(!skipped || has_errors(read.diagnostics()));
     for diagnostic in read.diagnostics() {
         let spans = diagnostic

@@ -31,18 +31,29 @@ fuzz_target!(|bytes: &[u8]| {
     let given = |index: usize| parts.len() > index && !part(index).is_empty();
     request.faults = given(3).then(|| Source::new("faults.toml", text(3)));
     request.robots = given(4).then(|| text(4));
-    request.overrides =
-        text(5).lines().filter_map(|line| Override::set(line).ok()).collect();
+    request.overrides = text(5)
+        .lines()
+        .filter_map(|line| Override::set(line).ok())
+        .collect();
     // Fleets of millions are slow, not wrong.
-    if bytes.windows(5).any(|window| window.iter().all(|b| b.is_ascii_digit() || *b == b'_')) {
+    if bytes
+        .windows(5)
+        .any(|window| window.iter().all(|b| b.is_ascii_digit() || *b == b'_'))
+    {
         return;
     }
-    let files = Files { world: part(1), image: part(2) };
+    let files = Files {
+        world: part(1),
+        image: part(2),
+    };
     match read::scenario(&request, &files) {
         Ok(resolved) => {
             assert!(!resolved.scenario.fleet.is_empty());
             let again = read::again(&resolved.inputs).expect("it was read before");
-            assert_eq!(format!("{:?}", again.scenario), format!("{:?}", resolved.scenario));
+            assert_eq!(
+                format!("{:?}", again.scenario),
+                format!("{:?}", resolved.scenario)
+            );
         }
         Err(problems) => {
             assert!(!problems.0.is_empty());
