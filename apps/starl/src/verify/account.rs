@@ -48,7 +48,7 @@ pub enum Reason {
 impl Reason {
     fn text(self) -> &'static str {
         match self {
-            Reason::Unused => "nothing that it is about was used",
+            Reason::Unused => "the trace does not use what it is about",
             Reason::LiveProgram => "it needs the running program",
             Reason::CutShort => "the trace ends before its bound is over",
             Reason::MissingRecords => "the trace has no records of true poses",
@@ -106,12 +106,16 @@ impl Account {
             counted(self.records as usize, "record")
         )?;
         if let Some(ends) = &self.ends {
-            writeln!(text, "the trace ends early: {ends}")?;
+            writeln!(text, "{ends}")?;
         }
-        let names = self.properties.iter().map(|entry| entry.property.len());
+        let used = || {
+            let entries = self.properties.iter();
+            entries.filter(|entry| entry.reason != Some(Reason::Unused))
+        };
+        let names = used().map(|entry| entry.property.len());
         let width = names.max().unwrap_or(0).max(8);
         writeln!(text, "\n{:width$}  verdict", "property")?;
-        for entry in &self.properties {
+        for entry in used() {
             let Property {
                 property, verdict, ..
             } = entry;
@@ -130,6 +134,11 @@ impl Account {
                     grouped(many as u64)
                 )?,
             }
+        }
+        match self.properties.len() - used().count() {
+            0 => {}
+            1 => writeln!(text, "1 more is about what this trace does not use")?,
+            many => writeln!(text, "{many} more are about what this trace does not use")?,
         }
         for Property {
             property, first, ..

@@ -48,7 +48,7 @@ fn acquire(at: f64, robot: u32) -> Record {
 }
 
 /// A trace of a host of its own, with two robots and no scenario.
-fn foreign(path: &Path, setting: &str, records: &[Record], end: Option<f64>) {
+fn foreign(path: &Path, setting: &str, records: &[Record], end: f64) {
     let robot = |id: u32| RobotEntry {
         id: RobotId(id),
         name: format!("rover{id}"),
@@ -68,27 +68,25 @@ fn foreign(path: &Path, setting: &str, records: &[Record], end: Option<f64>) {
     for record in records {
         writer.write(record).expect("it can be written");
     }
-    if let Some(end) = end {
-        let outcome = Outcome {
-            outcome: "stopped".into(),
-            digest: 0,
-            end: seconds(end),
-        };
-        writer.finish(&outcome).expect("it can be written");
-    }
+    let outcome = Outcome {
+        outcome: "stopped".into(),
+        digest: 0,
+        end: seconds(end),
+    };
+    writer.finish(&outcome).expect("it can be written");
 }
 
 #[test]
 fn a_run_that_was_well_is_found_so() {
     let folder = folder("verify_well");
-    let arguments = ["run", "mutex", "--quiet", "--trace", "a.mcap"];
+    let arguments = ["run", "election", "--quiet", "--trace", "a.mcap"];
     assert_eq!(status(&starl(&folder, &arguments)), 0);
     let output = starl(&folder, &["verify", "a.mcap"]);
     let text = stdout(&output);
     assert_eq!(status(&output), 0, "{text}{}", stderr(&output));
     let account = json(&starl(&folder, &["verify", "a.mcap", "--json"]));
     assert_eq!(account["is_whole"], true);
-    assert_eq!(entry(&account, "mutex.safety")["verdict"], "holds");
+    assert_eq!(entry(&account, "election.uniqueness")["verdict"], "holds");
     assert_eq!(entry(&account, "no_collision")["verdict"], "holds");
     assert_eq!(entry(&account, "barrier.safety")["reason"], "unused");
     let entries = account["properties"].as_array().expect("a list").iter();
@@ -103,8 +101,8 @@ fn a_run_that_was_well_is_found_so() {
 #[test]
 fn verdicts_are_those_of_the_run() {
     let folder = folder("verify_same");
-    let faults =
-        "[rates]\ncrash = 0.02\nrestart_after = \"5s\"\npartition = 0.01\nheal_after = \"4s\"\n";
+    let faults = "[fault_rates]\ncrash = \"0.2/s\"\nrestart_after = \"3s\"\n\
+                  partition = \"0.1/s\"\nheal_after = \"4s\"\n";
     file(&folder, "faults.toml", faults);
     for target in ["election", "broadcast", "registration"] {
         let arguments = [
@@ -140,7 +138,7 @@ fn a_violation_is_shown_with_its_place_and_makes_the_status_1() {
         acquire(2.0, 1),
         enter(3.25, 1),
     ];
-    foreign(&folder.join("a.mcap"), "", &records, Some(4.0));
+    foreign(&folder.join("a.mcap"), "", &records, 4.0);
     let output = starl(&folder, &["verify", "a.mcap"]);
     let text = stdout(&output);
     assert_eq!(status(&output), 1, "{text}");
@@ -161,7 +159,7 @@ fn what_is_excused_is_counted() {
     let folder = folder("verify_excused");
     let crash = record(3.0, 0, Event::Fault(Fault::Crash));
     let records = [acquire(2.0, 1), crash];
-    foreign(&folder.join("a.mcap"), "", &records, Some(60.0));
+    foreign(&folder.join("a.mcap"), "", &records, 60.0);
     let text = stdout(&starl(&folder, &["verify", "a.mcap"]));
     assert!(
         text.contains("holds; 1 excused: a robot was down"),
@@ -181,7 +179,7 @@ fn a_trace_that_ends_early_is_judged_as_far_as_it_goes() {
         pose(2.5),
     ];
     // A writer that was killed: no summary, no footer.
-    foreign(&folder.join("whole.mcap"), "", &records, Some(9.0));
+    foreign(&folder.join("whole.mcap"), "", &records, 9.0);
     let whole = fs::read(folder.join("whole.mcap")).expect("it was written");
     fs::write(folder.join("a.mcap"), &whole[..whole.len() - 40]).expect("the folder is ours");
     let output = starl(&folder, &["verify", "a.mcap", "--json"]);
@@ -191,7 +189,7 @@ fn a_trace_that_ends_early_is_judged_as_far_as_it_goes() {
     assert_eq!(entry(&account, "mutex.safety")["verdict"], "holds");
     assert_eq!(entry(&account, "mutex.progress")["reason"], "cut_short");
     let text = stdout(&starl(&folder, &["verify", "a.mcap"]));
-    assert!(text.contains("the trace ends early: "), "{text}");
+    assert!(text.contains("the trace is truncated: "), "{text}");
     assert!(
         text.contains("the trace ends before its bound is over"),
         "{text}"
@@ -204,10 +202,10 @@ fn a_host_says_what_it_is_judged_by() {
     let records = [acquire(2.0, 1)];
     let setting =
         r#"{ "bodies": [], "properties": { "mutex_bound": 5000000000, "barrier": false } }"#;
-    foreign(&folder.join("a.mcap"), setting, &records, Some(10.0));
+    foreign(&folder.join("a.mcap"), setting, &records, 10.0);
     let bodies = r#"[{"radius":0.2,"height":0.3,"workspace":"Ground"},{"radius":0.2,"height":0.3,"workspace":"Ground"}]"#;
     let setting = setting.replace("[]", bodies);
-    foreign(&folder.join("b.mcap"), &setting, &records, Some(10.0));
+    foreign(&folder.join("b.mcap"), &setting, &records, 10.0);
     let account = json(&starl(&folder, &["verify", "b.mcap", "--json"]));
     let progress = entry(&account, "mutex.non_interference");
     assert_eq!(progress["first"]["at_seconds"], 7.0, "{account}");
@@ -223,13 +221,8 @@ fn a_host_says_what_it_is_judged_by() {
 fn bad_input_is_one_message_and_the_status_2() {
     let folder = folder("verify_bad");
     file(&folder, "no.mcap", "this is no trace");
-    foreign(&folder.join("a.mcap"), "{ \"step\": 0 }", &[], Some(1.0));
-    foreign(
-        &folder.join("b.mcap"),
-        "{ \"step\": \"soon\" }",
-        &[],
-        Some(1.0),
-    );
+    foreign(&folder.join("a.mcap"), "{ \"step\": 0 }", &[], 1.0);
+    foreign(&folder.join("b.mcap"), "{ \"step\": \"soon\" }", &[], 1.0);
     for (trace, says) in [
         ("no.mcap", "no.mcap"),
         ("missing.mcap", "cannot be read"),
