@@ -301,9 +301,11 @@ impl NoCollision {
 
     /// What an obstacle is called.
     fn name(&self, index: u32) -> String {
-        match self.edges.contains(&(index as usize)) {
-            true => EDGE.into(),
-            false => format!("obstacle {index}"),
+        let index = index as usize;
+        let has_appeared = index >= self.edges.end && index < self.expires.len();
+        match index < self.edges.start || has_appeared {
+            true => format!("obstacle {index}"),
+            false => EDGE.into(),
         }
     }
 

@@ -297,7 +297,7 @@ fn an_obstacle_that_appears_is_reached_into_from_then_on() {
     let mut story = Story::of_ground_robots(1);
     pillar(&mut story, 9.0, u64::MAX / 1_000_000);
     story.setting.walls = 1;
-    story.walks(0, 900, 0, at(1.0, 0.0), at(0.1, 0.0));
+    story.walks(0, 900, 0, at(1.0, 0.0), at(1.9, 0.0));
     steered(&mut story, 350, appearing(2.2));
     let verdict = story.verdict(1000);
     assert_only(&verdict, "no_collision", 600, &[0]);
@@ -320,7 +320,7 @@ fn an_obstacle_that_appears_on_a_robot_is_not_the_robots_fault() {
 fn an_obstacle_that_moves_or_vanishes_is_not_where_it_was() {
     let mut story = Story::of_ground_robots(1);
     pillar(&mut story, 2.0, u64::MAX / 1_000_000);
-    story.walks(0, 1900, 0, at(0.5, 0.0), at(0.1, 0.0));
+    story.walks(0, 1900, 0, at(0.5, 0.0), at(2.4, 0.0));
     let obstacle = Obstacle::circle(at(1.0, 3.0), 0.5);
     let away = Intervention::MoveObstacle { index: 0, obstacle };
     let mut vanishes = story.clone();
@@ -342,15 +342,16 @@ fn a_robot_that_joins_is_watched_and_one_that_leaves_is_not() {
         name: "late".into(),
         pose: Pose::level(at(x, 0.0), 0.0),
     };
-    story.stays(0, 1900, 0, at(0.0, 0.0));
+    story.stays(0, 1700, 0, at(0.0, 0.0));
     story.stays(0, 900, 1, at(2.0, 0.0));
     // Where robot 1 stands there is no room.
     steered(&mut story, 500, join(2.0));
     steered(&mut story, 500, join(1.0));
-    story.walks(500, 1900, 2, at(1.0, 0.0), at(-0.05, 0.0));
+    story.walks(500, 1900, 2, at(1.0, 0.0), at(0.3, 0.0));
     steered(&mut story, 950, Intervention::Leave(vec![RobotId(1)]));
-    // At 0.4 m they touch, which rounding does not count.
     let mut leaves = story.clone();
+    // At 0.4 m they touch, which rounding does not count.
+    story.stays(1800, 1900, 0, at(0.0, 0.0));
     assert_only(&story.verdict(2000), "no_collision", 1800, &[0, 2]);
     steered(&mut leaves, 1750, Intervention::Leave(vec![RobotId(0)]));
     assert_none(&leaves.verdict(2000));
