@@ -55,8 +55,10 @@ fn clocks_that_drift_and_lag() {
 
 #[test]
 fn lists_are_kept_once() {
-    let mut world = World::default();
-    world.fleet = (0..1_000).map(RobotId).collect();
+    let world = World {
+        fleet: (0..1_000).map(RobotId).collect(),
+        ..World::default()
+    };
     let first = [(Time(0), activation(&world))];
     let again: Vec<_> = (0..100).map(|at| (Time(at), activation(&world))).collect();
     let size = |deeds: &[(Time, Deed)]| -> usize {
