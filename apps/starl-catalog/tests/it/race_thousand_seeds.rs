@@ -1,11 +1,12 @@
 //! Race reaches its goal and violates no property, whatever the seed: calm and over a bad network, with
-//! its own fleet and with one of twelve, in the StarL language and in Rust.
+//! its own fleet and with one of twelve, in the StarL language and in Rust. A hundred seeds are tried, and
+//! a thousand by `make nightly`.
 
 use crate::support::Case;
 use rayon::prelude::*;
 use starl_sim::Outcome;
 
-const SEEDS: u64 = 1_000;
+const SEEDS: u64 = 100;
 const BAD_NETWORK: [&str; 2] = ["network.loss=0.2", "network.delay=100ms"];
 const PROGRAMS: [&str; 2] = ["program=race.starl", "program=race"];
 const TWELVE: Option<&str> = Some("create=6,drone=6");
@@ -34,9 +35,9 @@ fn race(program: &str, seed: u64, fleet: Option<&str>, sets: &[&str]) -> Option<
     })
 }
 
-fn all_reach_their_goal(fleet: Option<&str>, sets: &[&str]) {
-    let runs = PROGRAMS.len() as u64 * SEEDS;
-    let race = |run| race(PROGRAMS[(run / SEEDS) as usize], run % SEEDS, fleet, sets);
+fn all_reach_their_goal(fleet: Option<&str>, sets: &[&str], seeds: u64) {
+    let runs = PROGRAMS.len() as u64 * seeds;
+    let race = |run| race(PROGRAMS[(run / seeds) as usize], run % seeds, fleet, sets);
     let failures: Vec<String> = (0..runs).into_par_iter().filter_map(race).collect();
     let first = failures
         .iter()
@@ -53,20 +54,29 @@ fn all_reach_their_goal(fleet: Option<&str>, sets: &[&str]) {
 
 #[test]
 fn four_in_calm() {
-    all_reach_their_goal(None, &[]);
+    all_reach_their_goal(None, &[], SEEDS);
 }
 
 #[test]
 fn four_over_a_bad_network() {
-    all_reach_their_goal(None, &BAD_NETWORK);
+    all_reach_their_goal(None, &BAD_NETWORK, SEEDS);
 }
 
 #[test]
 fn twelve_in_calm() {
-    all_reach_their_goal(TWELVE, &[]);
+    all_reach_their_goal(TWELVE, &[], SEEDS);
 }
 
 #[test]
 fn twelve_over_a_bad_network() {
-    all_reach_their_goal(TWELVE, &BAD_NETWORK);
+    all_reach_their_goal(TWELVE, &BAD_NETWORK, SEEDS);
+}
+
+#[test]
+#[ignore = "minutes"]
+fn a_thousand_seeds_of_each() {
+    for fleet in [None, TWELVE] {
+        all_reach_their_goal(fleet, &[], 1_000);
+        all_reach_their_goal(fleet, &BAD_NETWORK, 1_000);
+    }
 }

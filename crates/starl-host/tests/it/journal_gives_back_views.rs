@@ -55,7 +55,7 @@ fn clocks_that_drift_and_lag() {
 
 #[test]
 fn lists_are_kept_once() {
-    let world = World {
+    let mut world = World {
         fleet: (0..1_000).map(RobotId).collect(),
         ..World::default()
     };
