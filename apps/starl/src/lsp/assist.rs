@@ -141,7 +141,8 @@ fn kind(item: &Completion) -> CompletionItemKind {
             | Symbol::Binding(_)
             | Symbol::Local(_)
             | Symbol::Argument(..)
-            | Symbol::Property(_) => CompletionItemKind::VARIABLE,
+            | Symbol::Property(_)
+            | Symbol::Input(_) => CompletionItemKind::VARIABLE,
         },
     }
 }

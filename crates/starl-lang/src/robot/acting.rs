@@ -13,7 +13,7 @@ use crate::machine::{Limits, Machine};
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
-use starl_core::{Message, Program, Robot};
+use starl_core::{Message, Robot};
 
 /// At most so many messages and orders, and so many events of primitives, wait for an action with `atomic`; beyond that
 /// the oldest are dropped.
@@ -141,7 +141,7 @@ impl RobotProgram {
         while let Some(waiting) = self.waiting.pop_front() {
             match waiting {
                 Waiting::Message(message) => self.run(robot, Part::Message(&message)),
-                Waiting::Order(order) => self.told(robot, &order),
+                Waiting::Order(order) => self.follow(robot, &order),
             }
         }
     }

@@ -14,12 +14,10 @@ use super::workbench::Workbench;
 use crate::machine::{Limits, Machine, RuntimeError, State, Value};
 use alloc::boxed::Box;
 use alloc::collections::VecDeque;
-use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::any::Any;
 use core::{fmt, mem};
-use starl_core::event::Level;
 use starl_core::random::hash_key;
 use starl_core::{Message, Order, Port, Primitive, Primitives, Program, Random, Robot};
 
@@ -312,22 +310,7 @@ impl Program for RobotProgram {
     fn told(&mut self, robot: &mut Robot<'_>, order: &Order) {
         // The way-points may have changed, and guards may ask for them.
         self.rests = false;
-        if self.phase != Phase::Running {
-            return;
-        }
-        let code = self.code.clone();
-        match code.orders().decode(code.program(), order) {
-            Ok(Some(arrival)) if self.holds(arrival.handlers) => {
-                self.keep_waiting(Waiting::Order(order.clone()));
-            }
-            Ok(Some(arrival)) => self.run(robot, Part::Order(arrival)),
-            Ok(None) if order.name == Order::WAY_POINTS => {}
-            Ok(None) => {
-                let text = format!("order `{}` ignored: it has no handler", order.name);
-                robot.log(Level::Debug, text);
-            }
-            Err(problem) => robot.log(Level::Warning, problem),
-        }
+        self.follow(robot, order);
     }
 
     fn corrupt(&mut self, random: &mut Random) {
