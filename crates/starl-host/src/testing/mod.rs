@@ -1,4 +1,4 @@
-//! For tests of what runs on nodes: a small host in memory.
+//! For tests of what runs on nodes, and of hosts: a small host in memory, and the suite that every host passes.
 //!
 //! [`Fleet`] runs robots in virtual time over a [`Wire`] that loses, delays, duplicates and cuts. It is
 //! deterministic: everything follows from its seed.
@@ -25,6 +25,7 @@
 //! assert!(fleet.robots[robot].node.condition().finished);
 //! ```
 
+pub mod conformance;
 mod desk;
 mod fleet;
 mod reading;
