@@ -26,6 +26,8 @@ unit:
 # What programs are made of also builds where there is no operating system.
 portable:
 	cargo check -p starl-core -p starl-primitives -p starl-motion --target thumbv7em-none-eabihf
+	cargo check -p starl-host --lib --example bare --target thumbv7em-none-eabihf
+	cargo check -p starl-host --target wasm32-unknown-unknown
 	cargo check -p starl-lang --no-default-features --target thumbv7em-none-eabihf
 
 # The same run has the same digest natively and in WebAssembly. `make golden` writes the digests down
