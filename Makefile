@@ -33,6 +33,8 @@ unit:
 # What programs are made of also builds where there is no operating system.
 portable:
 	cargo check --locked -p starl-core -p starl-primitives -p starl-motion --target thumbv7em-none-eabihf
+	cargo check --locked -p starl-host --lib --example bare --target thumbv7em-none-eabihf
+	cargo check --locked -p starl-host --target wasm32-unknown-unknown
 	cargo check --locked -p starl-lang --no-default-features --target thumbv7em-none-eabihf
 
 # The same run has the same digest natively and in WebAssembly. `make golden` writes the digests down

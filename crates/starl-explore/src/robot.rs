@@ -236,9 +236,6 @@ impl Turn {
             history,
             ..
         } = &mut self.local;
-        if !node.runs() {
-            return;
-        }
         let model = &surroundings.model;
         let robot = node.id();
         let mut wire = Wire {
@@ -249,7 +246,9 @@ impl Turn {
             motions: &mut self.motions,
             workspace: Workspace::default(),
         };
-        *history = fingerprint(&format!("{history:x} {clock} {input:?}"));
+        if node.runs() {
+            *history = fingerprint(&format!("{history:x} {clock} {input:?}"));
+        }
         let now = surroundings.time(*clock);
         let estimate = Estimate {
             pose: model.members[robot.index()].pose,

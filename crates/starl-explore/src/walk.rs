@@ -12,7 +12,7 @@ use crate::scene::{Invariant, Scene};
 use crate::step::{Datagram, Step};
 use crate::watch::{self, Checkers};
 use starl_core::event::DropReason;
-use starl_core::{Destination, Event, Payload, Record, RobotId, Time};
+use starl_core::{Destination, Event, Payload, Record, RobotId, Time, TimerKey};
 use starl_properties::Violation;
 use std::cmp::Reverse;
 use std::fmt;
@@ -157,6 +157,16 @@ impl Walk {
             locals: self.locals.iter().collect(),
             surroundings: &self.surroundings,
         }
+    }
+
+    /// The timers of a robot that may fire now, in the order of their keys.
+    pub fn ready(&self, robot: RobotId) -> Vec<TimerKey> {
+        let Some(local) = self.locals.get(robot.index()).filter(|local| local.runs()) else {
+            return Vec::new();
+        };
+        let timers = local.timers(&self.surroundings);
+        let ready = ready(local, &self.surroundings).into_iter();
+        ready.map(|place| timers[place as usize].0).collect()
     }
 
     /// What is on its way, in the order in which it was sent.

@@ -15,6 +15,8 @@ pub mod journal;
 pub mod node;
 pub mod outlet;
 pub mod replayer;
+#[cfg(feature = "testing")]
+pub mod testing;
 pub mod timers;
 
 pub use clock::Clock;

@@ -119,6 +119,12 @@ impl Node {
         self.clock
     }
 
+    /// Sets the robot's clock, as a restart may set one without a battery back to 0. Armed timers stay due when
+    /// they are.
+    pub fn set_clock(&mut self, clock: Clock) {
+        self.clock = clock;
+    }
+
     /// Whether the robot's software runs.
     pub fn condition(&self) -> Condition {
         self.condition

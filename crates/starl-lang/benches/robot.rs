@@ -13,15 +13,17 @@
 mod robot_support;
 
 use robot_support::compile;
-use starl_core::effect::Effects;
-use starl_core::motion::{Body, Obstacles, Workspace};
+use starl_core::motion::{self, Body, Obstacles};
 use starl_core::{
-    Agent, Effect, Estimate, Input, MotionRequest, Point, Pose, Program, Random, RobotId, Sensors,
-    Time, View, WayPoint,
+    Agent, Duration, Event, Input, Point, Pose, Program, Random, RobotId, Sensors, Time, WayPoint,
+};
+use starl_host::{
+    Clock, Datagram, Happening, Hardware, Node, Outlet, PlanJob, Snapshot, Workspace,
 };
 use starl_lang::machine::State;
 use starl_lang::robot::RobotProgram;
 use starl_lang::robot::properties::{self, Judge};
+use starl_motion::Neighbour;
 use std::time::Instant;
 
 const ROBOTS: u32 = 100_000;
@@ -40,13 +42,39 @@ struct Fleet {
     ids: Vec<RobotId>,
     way_points: Vec<WayPoint>,
     obstacles: Obstacles,
-    agents: Vec<Agent>,
-    effects: Effects,
+    nodes: Vec<Node>,
+    sink: Sink,
+}
+
+/// Where nodes leave what they ask for; nobody looks at it but for plans.
+#[derive(Default)]
+struct Sink {
+    workspace: Workspace,
+    plan: Option<PlanJob>,
+}
+
+impl Outlet for Sink {
+    fn workspace(&mut self) -> &mut Workspace {
+        &mut self.workspace
+    }
+
+    fn record(&mut self, _: Time, _: Event) {}
+
+    fn transmit(&mut self, _: Time, _: Datagram) {}
+
+    fn plan(&mut self, _: Time, job: PlanJob) {
+        self.plan = Some(job);
+    }
+
+    fn neighbours(&mut self, _: f64, _: &mut Vec<Neighbour>) {}
 }
 
 impl Fleet {
     fn new(make: &dyn Fn() -> Box<dyn Program>) -> Fleet {
-        let agent = |id| Agent::new(make(), Random::keyed(1, &[id]));
+        let node = |id| {
+            let agent = Agent::new(make(), Random::keyed(1, &[u64::from(id)]));
+            Node::new(RobotId(id), Clock::default(), agent, Time::ZERO)
+        };
         let way_point = |index: u32| WayPoint {
             name: format!("w{index}"),
             position: Point::planar(f64::from(index), 1.0),
@@ -56,53 +84,50 @@ impl Fleet {
             ids: (0..ROBOTS).map(RobotId).collect(),
             way_points: (0..10).map(way_point).collect(),
             obstacles: [].into(),
-            agents: (0..u64::from(ROBOTS)).map(agent).collect(),
-            effects: Effects::default(),
+            nodes: (0..ROBOTS).map(node).collect(),
+            sink: Sink::default(),
         }
     }
 
-    /// Hands all robots an input, and the answers of the planner; gives nanoseconds for each.
-    fn feed(&mut self, input: &Input) -> f64 {
+    /// Lets this happen to all robots, and hands them the answers of the planner; gives nanoseconds for each.
+    fn handle(&mut self, happening: &Happening) -> f64 {
+        let hardware = Hardware {
+            body: Body {
+                radius: 0.1,
+                height: 0.1,
+                workspace: motion::Workspace::Ground,
+            },
+            control_period: Duration::ZERO,
+            drive: None,
+        };
+        let snapshot = Snapshot {
+            hardware: &hardware,
+            sensors: Sensors::default(),
+            fleet: &self.ids,
+            way_points: &self.way_points,
+            obstacles: &self.obstacles,
+        };
         let began = Instant::now();
-        for (agent, &id) in self.agents.iter_mut().zip(&self.ids) {
-            let view = View {
-                id,
-                now: Time::ZERO,
-                estimate: Estimate::default(),
-                body: Body {
-                    radius: 0.1,
-                    height: 0.1,
-                    workspace: Workspace::Ground,
-                },
-                sensors: Sensors::default(),
-                fleet: &self.ids,
-                way_points: &self.way_points,
-                obstacles: &self.obstacles,
-            };
-            agent.handle(input, &view, &mut self.effects);
-            let plan = self.effects.list.drain(..).find_map(|effect| match effect {
-                Effect::Move(MotionRequest::Plan(request)) => Some(request),
-                _ => None,
-            });
-            if let Some(request) = plan {
-                let answer = Input::Planned {
-                    ticket: request.ticket,
-                    path: Some(vec![request.target]),
-                };
-                agent.handle(&answer, &view, &mut self.effects);
-                self.effects.list.clear();
+        for node in &mut self.nodes {
+            node.handle(Time::ZERO, happening.clone(), &snapshot, &mut self.sink);
+            if let Some(PlanJob { job, request, .. }) = self.sink.plan.take() {
+                let path = Some(vec![request.target]);
+                let answer = Happening::Planned { job, path };
+                node.handle(Time::ZERO, answer, &snapshot, &mut self.sink);
             }
         }
         began.elapsed().as_nanos() as f64 / f64::from(ROBOTS)
     }
 }
 
+const ACTIVATE: Happening = Happening::Input(Input::Activate);
+
 fn measure(name: &str, make: &dyn Fn() -> Box<dyn Program>) {
     let before = resident();
     let mut fleet = Fleet::new(make);
-    let began = fleet.feed(&Input::Start) + fleet.feed(&Input::Activate);
+    let began = fleet.handle(&Happening::Start) + fleet.handle(&ACTIVATE);
     let bytes = (resident() - before) / ROBOTS as usize;
-    let mut times: Vec<f64> = (0..31).map(|_| fleet.feed(&Input::Activate)).collect();
+    let mut times: Vec<f64> = (0..31).map(|_| fleet.handle(&ACTIVATE)).collect();
     times.sort_by(f64::total_cmp);
     println!(
         "{name}: {bytes} bytes a robot under way; {began:.0} ns to begin, then best {:.0} and median {:.0} ns \
@@ -120,8 +145,8 @@ struct Seen<'a> {
 
 impl Seen<'_> {
     fn program(&self, robot: RobotId) -> Option<&RobotProgram> {
-        let agent = self.fleet.agents.get(robot.index())?;
-        agent.program().inspect()?.downcast_ref()
+        let node = self.fleet.nodes.get(robot.index())?;
+        node.program().inspect()?.downcast_ref()
     }
 }
 
@@ -159,8 +184,8 @@ impl properties::Fleet for Seen<'_> {
 /// How long it takes to judge Race's properties, all robots and those that have changed.
 fn measure_judge(program: &RobotProgram) {
     let mut fleet = Fleet::new(&|| Box::new(program.clone()));
-    fleet.feed(&Input::Start);
-    fleet.feed(&Input::Activate);
+    fleet.handle(&Happening::Start);
+    fleet.handle(&ACTIVATE);
     for tells_versions in [false, true] {
         let seen = Seen {
             fleet: &fleet,

@@ -1,6 +1,7 @@
 //! The tests of `starl-explore`, in one binary so that they link once.
 
 mod arbitrated_mutexes_are_safe;
+mod conforms;
 mod elections_are_safe;
 mod permission_mutex_is_safe;
 mod registrations_agree;

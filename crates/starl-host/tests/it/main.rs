@@ -1,5 +1,6 @@
 //! The tests of `starl-host`, in one binary so that they link once.
 
+mod conforms;
 mod journal_bytes;
 mod journal_damage;
 mod journal_gives_back_views;

@@ -58,7 +58,7 @@ fn fired(machine: &StateMachine, states: &BTreeSet<usize>, action: &str) -> BTre
 /// Holds a run to the state machine, and gives the actions that were done.
 fn follow(source: &str, mut world: World, steps: u32) -> BTreeSet<String> {
     let machine = machine(source);
-    let robots = world.nodes.len();
+    let robots = world.robots.len();
     let mut all = BTreeSet::new();
     for _ in 0..steps {
         let before: Vec<usize> = (0..robots).map(|it| state(&machine, &world, it)).collect();
@@ -101,7 +101,7 @@ fn of_formation() {
     let source = include_str!("../listings/formation.starl");
     let mut world = World::of(&compile(source), 3);
     for (robot, x) in [(0, 0.0), (1, 2.0), (2, 1.0)] {
-        world.nodes[robot].position = starl_core::Point::planar(x, 0.3 * x);
+        world.put(robot, starl_core::Point::planar(x, 0.3 * x));
     }
     let all = follow(source, world, 60);
     let all: Vec<&str> = all.iter().map(String::as_str).collect();

@@ -24,7 +24,8 @@ impl Fleet for Seen<'_> {
     }
 
     fn pose(&self, robot: RobotId) -> Option<Pose> {
-        let position = self.0.nodes.get(robot.index())?.position;
+        self.0.robots.get(robot.index())?;
+        let position = self.0.position(robot.index());
         Some(Pose {
             position,
             ..Pose::default()
@@ -32,21 +33,21 @@ impl Fleet for Seen<'_> {
     }
 
     fn velocity(&self, robot: RobotId) -> Option<Point> {
-        self.0.nodes.get(robot.index()).map(|_| Point::ZERO)
+        self.0.robots.get(robot.index()).map(|_| Point::ZERO)
     }
 
     fn has_finished(&self, robot: RobotId) -> bool {
         self.0
-            .nodes
+            .robots
             .get(robot.index())
-            .is_some_and(|node| node.finished)
+            .is_some_and(|unit| unit.node.condition().finished)
     }
 
     fn is_up(&self, robot: RobotId) -> bool {
         self.0
-            .nodes
+            .robots
             .get(robot.index())
-            .is_some_and(|node| !node.down)
+            .is_some_and(|unit| !unit.node.condition().down)
     }
 }
 
@@ -60,9 +61,7 @@ fn run(code: &Code, seed: u64, copies: bool) -> (World, String) {
     let mut judged = String::new();
     for step in 0..8 {
         if step == 4 && copies {
-            for node in &mut world.nodes {
-                node.agent = node.agent.clone();
-            }
+            world = world.clone();
         }
         world.step();
         garble(&mut world, &mut random);
@@ -75,9 +74,11 @@ fn run(code: &Code, seed: u64, copies: bool) -> (World, String) {
 
 /// Delivers what was sent once more, with a few bytes changed.
 fn garble(world: &mut World, random: &mut Random) {
-    let sent: Vec<_> = world.sent.iter().take(3).cloned().collect();
-    for (from, _, port, payload) in sent {
-        let mut bytes = payload.to_vec();
+    let sent = world.sent().take(3);
+    let sent: Vec<_> = sent
+        .map(|sent| (sent.from, sent.port, sent.payload.to_vec()))
+        .collect();
+    for (from, port, mut bytes) in sent {
         for byte in &mut bytes {
             if random.chance(0.1) {
                 *byte = random.below(256) as u8;
@@ -89,7 +90,7 @@ fn garble(world: &mut World, random: &mut Random) {
             payload: bytes.into(),
         };
         let to = (from.0 + 1) % ROBOTS;
-        world.feed(to as usize, &Input::Message(message));
+        world.input(to as usize, &Input::Message(message));
     }
 }
 
@@ -110,7 +111,7 @@ fn order(world: &mut World, random: &mut Random) {
                 name: name.into(),
                 fields: fields.collect(),
             };
-            world.feed(robot, &Input::Order(order));
+            world.input(robot, &Input::Order(order));
         }
     }
 }
@@ -132,9 +133,10 @@ fn detail(random: &mut Random) -> Value {
 /// What there is to see of a run.
 fn seen((world, judged): &(World, String)) -> String {
     let mut text = format!("{:?}{judged}", world.records);
-    for (robot, node) in world.nodes.iter().enumerate() {
+    for (robot, unit) in world.robots.iter().enumerate() {
         let state = world.program(robot).state();
-        text += &format!("{state:?}{:?}{}", node.failed, node.halts);
+        let failure = world.failure(robot);
+        text += &format!("{state:?}{failure:?}{}", unit.travel.halts);
     }
     text
 }
@@ -157,17 +159,14 @@ fn never_go_wrong() {
             continue;
         }
         let first = run(&code, seed, false);
-        for node in &first.0.nodes {
-            let failed = node.failed.as_deref().unwrap_or_default();
+        for robot in 0..ROBOTS as usize {
+            let failed = first.0.failure(robot).unwrap_or_default();
             assert!(!failed.contains("wrong type"), "{failed}\n{text}");
         }
         assert_eq!(seen(&run(&code, seed, false)), seen(&first), "{text}");
         assert_eq!(seen(&run(&code, seed, true)), seen(&first), "{text}");
-        running += first
-            .0
-            .nodes
-            .iter()
-            .filter(|node| node.failed.is_none())
+        running += (0..ROBOTS as usize)
+            .filter(|&robot| first.0.failure(robot).is_none())
             .count();
         events += first.0.records.len();
     }

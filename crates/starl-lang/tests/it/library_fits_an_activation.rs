@@ -16,7 +16,7 @@ fn run(robots: u32, import: &str, statements: &str) -> Option<String> {
     let bytecode = compile(&checked).unwrap_or_else(|problems| panic!("{problems:?}"));
     let code = Code::load(bytecode).unwrap_or_else(|error| panic!("{error}"));
     let world = World::of(&code, robots);
-    world.nodes[0].failed.clone()
+    world.failure(0).map(String::from)
 }
 
 #[test]

@@ -23,7 +23,7 @@ fn every_case_is_as_expected() {
         let bytecode = compile(&checked).unwrap_or_else(|problems| panic!("{problems:?}"));
         let code = Code::load(bytecode).unwrap_or_else(|error| panic!("{error}"));
         let world = World::of(&code, 5);
-        assert_eq!(world.nodes[0].failed, None, "{name}");
+        assert_eq!(world.failure(0), None, "{name}");
         let emitted = world.emitted(0);
         assert_eq!(emitted.len(), text.matches("emit(").count(), "{name}");
         for (case, fields) in emitted {

@@ -74,11 +74,11 @@ fn who_is_cut_off_from_most_shows_no_leader() {
     let mut world = World::of(&compile(&program("leases", 1000)), 3);
     world.steps(50);
     let leader = agreed(&world, &[0, 1, 2]).expect("a leader");
-    world.loses = |from, to| from == 0 || to == 0;
+    world.wire.isolate(0, 3);
     world.steps(100);
     assert_eq!(world.get(0, "leader"), Value::None);
     let rest = agreed(&world, &[1, 2]).expect("a leader");
-    world.loses = |_, _| false;
+    world.wire.cut.clear();
     world.steps(100);
     assert_eq!(agreed(&world, &[0, 1, 2]), Some(rest.clone()));
     assert!(leader != "robot0" || rest != "robot0");

@@ -51,7 +51,7 @@ on radio.failed(number)
 #[test]
 fn a_message_that_is_not_acknowledged_fails_with_its_number() {
     let mut world = World::of(&compile(SENDER), 3);
-    world.loses = |from, to| from == 2 || to == 2;
+    world.wire.isolate(2, 3);
     world.step();
     // The numbers of a program's messages differ even where those of the protocol do not.
     assert_eq!((world.int(0, "first"), world.int(0, "second")), (1, 2));
@@ -67,7 +67,7 @@ fn a_message_that_is_not_acknowledged_fails_with_its_number() {
 #[test]
 fn the_handler_runs_between_activations() {
     let mut world = World::of(&compile(SENDER), 3);
-    world.loses = |from, to| from == 2 || to == 2;
+    world.wire.isolate(2, 3);
     world.steps(600);
     let Value::Some(at) = world.get(0, "failed_at") else {
         panic!("it has not failed")
@@ -103,9 +103,9 @@ on radio.failed(number)
 #[test]
 fn a_handler_that_brings_about_its_own_event_does_not_run_for_ever() {
     let mut world = World::of(&compile(AGAIN), 2);
-    world.loses = |_, _| true;
+    world.wire.loss = 1.0;
     world.step();
-    assert_eq!(world.nodes[0].failed, None);
+    assert_eq!(world.failure(0), None);
     assert_eq!(world.int(0, "sent"), 1030);
     world.step();
     // Six were given up for others. At each input, of which a step has two, they are sent again, for

@@ -36,7 +36,7 @@ fn order(name: &'static str, fields: &[(&'static str, Value)]) -> Input {
 fn heard(orders: &[Input]) -> (String, Vec<(Level, String)>) {
     let mut world = World::of(&compile(STEERED), 1);
     for order in orders {
-        world.feed(0, order);
+        world.input(0, order);
     }
     (world.get(0, "heard").to_string(), logged(&world))
 }
@@ -153,12 +153,12 @@ role guard
         heard.add("guard " + String(speed))
 "#;
     let mut world = World::of(&compile(text), 1);
-    world.feed(0, &order("go", &[("speed", 1.0.into())]));
+    world.input(0, &order("go", &[("speed", 1.0.into())]));
     assert_eq!(
         world.get(0, "heard").to_string(),
         "[\"1.0\", \"scout 1.0\", \"guard 1.0\"]"
     );
-    world.feed(0, &order("go", &[("speed", 2.0.into())]));
+    world.input(0, &order("go", &[("speed", 2.0.into())]));
     assert_eq!(
         world.get(0, "heard").to_string(),
         "[\"1.0\", \"scout 1.0\", \"guard 1.0\", \"2.0\", \"guard 2.0\"]"
@@ -172,7 +172,7 @@ fn way_points(world: &mut World, places: &[f64]) {
         group: 0,
     };
     world.way_points = places.iter().enumerate().map(way_point).collect();
-    world.feed(0, &order(Order::WAY_POINTS, &[]));
+    world.input(0, &order(Order::WAY_POINTS, &[]));
 }
 
 #[test]
@@ -231,7 +231,7 @@ leave()
 "#;
     let mut world = World::of(&compile(text), 1);
     world.steps(3);
-    world.feed(0, &order("go", &[]));
+    world.input(0, &order("go", &[]));
     world.step();
     assert_eq!(world.get(0, "gone"), machine::Value::Bool(true));
 }
@@ -247,14 +247,10 @@ on input divide(by: Int)
     n = 10 / by
 "#;
     let mut world = World::of(&compile(text), 1);
-    world.feed(0, &order("divide", &[("by", 5_i64.into())]));
+    world.input(0, &order("divide", &[("by", 5_i64.into())]));
     assert_eq!(world.int(0, "n"), 2);
-    world.feed(0, &order("divide", &[("by", 0_i64.into())]));
-    let failed = world.nodes[0].failed.clone();
-    assert_eq!(
-        failed.as_deref(),
-        Some("divide.starl:7:9: division by zero")
-    );
+    world.input(0, &order("divide", &[("by", 0_i64.into())]));
+    assert_eq!(world.failure(0), Some("divide.starl:7:9: division by zero"));
 }
 
 #[test]
@@ -283,12 +279,9 @@ count()
     while world.int(0, "turn") == 0 {
         assert!(orders < 10_000, "the action never takes place");
         let next = world.now + starl_core::Duration::from_millis(1);
-        world.feed(0, &order("add", &[("what", "more".into())]));
+        world.input(0, &order("add", &[("what", "more".into())]));
         orders += 1;
-        if orders % 100 == 0 {
-            (0..3).for_each(|robot| world.feed(robot, &Input::Activate));
-        }
-        world.let_pass_until(next);
+        world.run_before(next);
     }
     let texts = world.get(0, "order").to_string();
     assert_eq!(texts.matches("more").count(), orders, "no order is lost");
@@ -300,7 +293,7 @@ fn a_program_that_has_not_started_hears_nothing() {
     let code = compile(STEERED);
     let program = crate::robot_support::program(&code);
     let mut world = World::unstarted(vec![program]);
-    world.feed(0, &order("halt", &[]));
+    world.input(0, &order("halt", &[]));
     world.start();
     assert_eq!(world.get(0, "heard").to_string(), "[]");
 }

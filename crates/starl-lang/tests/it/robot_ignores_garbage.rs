@@ -44,7 +44,7 @@ fn a_message_that_the_program_does_not_handle_is_ignored() {
     let mut world = World::new(programs.into());
     world.steps(2);
     assert_eq!((world.int(0, "heard"), world.int(0, "sum")), (2, 6));
-    assert_eq!(world.nodes[0].failed, None);
+    assert_eq!(world.failure(0), None);
 }
 
 #[test]
@@ -55,7 +55,7 @@ fn messages_with_other_fields_are_other_messages() {
     let mut world = World::new(programs.into());
     world.steps(2);
     assert_eq!(world.int(0, "heard"), 0);
-    assert_eq!(world.nodes[0].failed, None);
+    assert_eq!(world.failure(0), None);
 }
 
 #[test]
@@ -68,9 +68,9 @@ fn damaged_messages_are_ignored() {
         Port::named("Listener/shared"),
         Port::PROGRAM,
     ];
-    let sent: Vec<Payload> = (world.sent.iter())
-        .filter(|(_, destination, ..)| *destination == Destination::All)
-        .map(|(.., payload)| payload.clone())
+    let sent: Vec<Payload> = (world.sent())
+        .filter(|sent| sent.destination == Destination::All)
+        .map(|sent| sent.payload.clone())
         .collect();
     let mut random = Random::keyed(1, &[]);
     for round in 0..20_000 {
@@ -91,11 +91,11 @@ fn damaged_messages_are_ignored() {
             port: ports[round % ports.len()],
             payload,
         };
-        world.feed(0, &Input::Message(message));
+        world.input(0, &Input::Message(message));
         if round % 100 == 0 {
             world.step();
         }
-        let failed = world.nodes[0].failed.as_deref();
+        let failed = world.failure(0);
         // Damaged numbers are numbers all the same, and may be great.
         assert!(
             failed.is_none_or(|text| text.contains("too great")),
@@ -115,6 +115,6 @@ fn the_bytes_of_a_message_given_to_the_program_itself_are_not_heard() {
         port: Port::PROGRAM,
         payload: Payload::new(),
     };
-    world.feed(0, &Input::Message(message));
+    world.input(0, &Input::Message(message));
     assert_eq!(world.int(0, "heard"), 0);
 }

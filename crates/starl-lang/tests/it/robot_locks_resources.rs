@@ -54,12 +54,12 @@ fn lost_messages_delay_it_and_break_nothing() {
     let mut world = World::of(&compile(USAGE), 3);
     world.steps(20);
     let before: i64 = (0..3).map(|robot| world.int(robot, "uses")).sum();
-    world.loses = |_, _| true;
+    world.wire.loss = 1.0;
     for _ in 0..20 {
         world.step();
         assert!(users(&world, 3) <= 1);
     }
-    world.loses = |_, _| false;
+    world.wire.loss = 0.0;
     for _ in 0..200 {
         world.step();
         assert!(users(&world, 3) <= 1);
@@ -75,8 +75,7 @@ fn a_robot_that_holds_something_and_asks_for_more_is_told() {
                   eff mux.acquire({\"b\"})\n";
     let mut world = World::of(&compile(source), 2);
     world.steps(20);
-    let mut nodes = world.nodes.iter();
-    let text = nodes.find_map(|node| node.failed.clone());
+    let text = (0..2).find_map(|robot| world.failure(robot));
     let text = text.expect("a robot stops");
     assert!(text.contains("holds resources already"), "{text}");
 }

@@ -29,7 +29,7 @@ fn it_goes_there_with_the_settings_of_the_binding() {
     let mut world = World::of(&compile(MOVES), 1);
     world.steps(3);
     assert_eq!(world.get(0, "reached").to_string(), "true");
-    assert!(world.nodes[0].finished);
+    assert!(world.robots[0].node.condition().finished);
     let starts = world.events_of(0).filter_map(|event| match event {
         Event::Primitive {
             event:
@@ -112,5 +112,5 @@ fn stop_stops_whatever_moves_the_robot() {
         )
     });
     assert_eq!(stops.count(), 1);
-    assert!(world.nodes[0].halts > 0);
+    assert!(world.robots[0].travel.halts > 0);
 }

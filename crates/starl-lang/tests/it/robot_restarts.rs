@@ -1,7 +1,7 @@
 //! A robot that crashed starts again with a fresh copy of its program; the others hear it.
 
 use crate::robot_support::{World, compile};
-use starl_core::{Agent, Input, Random};
+use starl_core::Input;
 use starl_lang::machine::Value;
 use starl_lang::robot::RobotProgram;
 
@@ -33,10 +33,9 @@ fn it_begins_anew_with_its_parameters_and_is_heard() {
     let mut world = World::new(vec![program(5), program(1)]);
     world.steps(2);
     assert_eq!(world.int(0, "count"), 10);
-    let fresh = Agent::new(Box::new(program(5)), Random::keyed(7, &[0]));
-    world.nodes[0].agent = fresh;
-    assert!(!world.program(0).has_started());
-    world.feed(0, &Input::Start);
+    let fresh = program(5);
+    assert!(!fresh.has_started());
+    world.restart(0, fresh);
     assert!(world.program(0).has_started());
     assert_eq!(world.int(0, "count"), 0);
     world.steps(2);
@@ -47,8 +46,8 @@ fn it_begins_anew_with_its_parameters_and_is_heard() {
 fn starting_the_same_program_again_is_starting_anew() {
     let mut world = World::of(&compile(COUNTER), 2);
     world.steps(3);
-    world.feed(0, &Input::Start);
-    assert_eq!(world.nodes[0].failed, None);
+    world.input(0, &Input::Start);
+    assert_eq!(world.failure(0), None);
     assert_eq!(world.int(0, "count"), 0);
     world.steps(1);
     assert_eq!(world.get(1, "heard").to_string(), "[1, 2, 3, 1]");
@@ -58,9 +57,9 @@ fn starting_the_same_program_again_is_starting_anew() {
 fn copies_go_their_own_ways() {
     let mut world = World::of(&compile(COUNTER), 1);
     world.steps(2);
-    let copy = world.nodes[0].agent.clone();
+    let copy = world.robots[0].node.clone();
     world.steps(3);
     assert_eq!(world.int(0, "count"), 5);
-    world.nodes[0].agent = copy;
+    world.robots[0].node = copy;
     assert_eq!(world.int(0, "count"), 2);
 }

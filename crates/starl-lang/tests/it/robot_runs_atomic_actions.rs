@@ -3,7 +3,7 @@
 
 use crate::robot_support::{self, World, compile};
 use starl_core::event::{PrimitiveEvent, RegisterEvent};
-use starl_core::{Agent, Event, Input, Port, Random};
+use starl_core::{Event, Port, Random};
 use starl_lang::machine::Value;
 use starl_lang::robot::Code;
 
@@ -57,16 +57,14 @@ fn most_seen(world: &World, robots: usize) -> i64 {
 
 /// The robot has crashed and starts again.
 fn restart(world: &mut World, code: &Code, robot: usize) {
-    let program = Box::new(robot_support::program(code));
-    world.nodes[robot].agent = Agent::new(program, Random::keyed(7, &[robot as u64]));
-    world.feed(robot, &Input::Start);
+    world.restart(robot, robot_support::program(code));
 }
 
 #[test]
 fn no_increment_is_lost() {
     let code = compile(COUNT);
     for seed in 0..30 {
-        let mut world = World::over_bad_network(&code, 4, seed, 200.0);
+        let mut world = World::over_bad_network(&code, 4, seed, 200);
         let mut steps = 0;
         while sum(&world, 4, "added") < 80 {
             world.step();
@@ -83,7 +81,7 @@ fn no_increment_is_lost() {
 #[test]
 fn without_atomic_increments_are_lost() {
     let code = compile(CARELESS);
-    let mut world = World::over_bad_network(&code, 4, 1, 200.0);
+    let mut world = World::over_bad_network(&code, 4, 1, 200);
     world.steps(600);
     assert_eq!(sum(&world, 4, "added"), 80);
     assert!(most_seen(&world, 4) < 80, "{}", most_seen(&world, 4));
@@ -93,21 +91,21 @@ fn without_atomic_increments_are_lost() {
 fn partitions_delay_it_are_told_and_lose_nothing() {
     let code = compile(COUNT);
     for seed in 0..20 {
-        let mut world = World::over_bad_network(&code, 5, seed, 200.0);
+        let mut world = World::over_bad_network(&code, 5, seed, 200);
         let mut random = Random::keyed(seed, &[4]);
         let mut was_blocked = false;
         for _ in 0..12 {
             let side: Vec<bool> = (0..5).map(|_| random.chance(0.5)).collect();
             let pairs = (0..5).flat_map(|a| (0..5).map(move |b| (a, b)));
             let cut = pairs.filter(|&(a, b)| side[a as usize] != side[b as usize]);
-            world.cut = cut.collect();
+            world.wire.cut = cut.collect();
             for _ in 0..80 {
                 world.step();
                 let (added, seen) = (sum(&world, 5, "added"), most_seen(&world, 5));
                 assert!(added <= seen && seen <= added + 4, "seed {seed}");
                 was_blocked |= (0..5).any(|r| world.get(r, "blocked") == Value::Bool(true));
             }
-            world.cut.clear();
+            world.wire.cut.clear();
             world.steps(30);
         }
         assert!(was_blocked, "seed {seed}");
@@ -144,7 +142,7 @@ fn is_storing(world: &World, robot: usize) -> bool {
 fn what_a_robot_adds_before_it_crashes_counts_once_or_not_at_all() {
     let code = compile(COUNT);
     for seed in 0..60 {
-        let mut world = World::over_bad_network(&code, 3, seed, 200.0);
+        let mut world = World::over_bad_network(&code, 3, seed, 200);
         let mut random = Random::keyed(seed, &[5]);
         world.steps(40);
         // Added in lives that are over.
@@ -155,9 +153,8 @@ fn what_a_robot_adds_before_it_crashes_counts_once_or_not_at_all() {
             let robot = random.below(3) as usize;
             before += world.int(robot, "added");
             uncertain += i64::from(is_storing(&world, robot));
-            world.nodes[robot].down = true;
+            world.crash(robot);
             world.steps(random.below(20));
-            world.nodes[robot].down = false;
             restart(&mut world, &code, robot);
             world.steps(60 + random.below(40));
         }
@@ -185,12 +182,12 @@ fn after_a_corruption_it_goes_on() {
         world.steps(30);
         for robot in 0..3 {
             let mut random = Random::keyed(seed, &[6, robot as u64]);
-            world.nodes[robot].agent.corrupt(&mut random);
+            world.corrupt(robot, &mut random);
         }
         world.steps(600);
         for robot in 0..3 {
             // Whatever the numbers are, those that should be added are; overflow ends a program.
-            let is_done = world.nodes[robot].failed.is_some() || world.int(robot, "added") >= 20;
+            let is_done = world.failure(robot).is_some() || world.int(robot, "added") >= 20;
             assert!(
                 is_done || world.int(robot, "added") < 0,
                 "seed {seed}, robot {robot}"
@@ -236,14 +233,13 @@ count()
 fn what_is_written_together_is_seen_together_even_if_robots_crash() {
     let code = compile(TRANSFER);
     for seed in 0..20 {
-        let mut world = World::over_bad_network(&code, 3, seed, 200.0);
+        let mut world = World::over_bad_network(&code, 3, seed, 200);
         let mut random = Random::keyed(seed, &[5]);
         world.steps(40);
         for _ in 0..6 {
             let robot = random.below(3) as usize;
-            world.nodes[robot].down = true;
+            world.crash(robot);
             world.steps(random.below(20));
-            world.nodes[robot].down = false;
             restart(&mut world, &code, robot);
             world.steps(60 + random.below(40));
         }
@@ -273,13 +269,13 @@ fn an_action_waits_no_longer_when_its_guard_holds_no_longer() {
     world.steps(30);
     assert_eq!(world.get(0, "gave_up"), Value::Bool(false));
     let mut world = World::of(&compile(source), 3);
-    world.loses = |from, to| from == 0 || to == 0;
+    world.wire.isolate(0, 3);
     world.steps(200);
     assert_eq!(world.get(0, "gave_up"), Value::Bool(true));
-    world.loses = |_, _| false;
+    world.wire.cut.clear();
     world.steps(200);
     assert_eq!(world.get(1, "wants"), Value::Bool(false));
-    assert!(world.nodes.iter().all(|node| node.failed.is_none()));
+    assert!((0..3).all(|robot| world.failure(robot).is_none()));
 }
 
 #[test]
@@ -288,11 +284,13 @@ fn an_action_costs_what_is_documented() {
     for robots in [3, 5] {
         let mut world = World::of(&compile(&source), robots);
         while world.int(0, "added") < 20 {
-            let before = (world.int(0, "added"), world.sent.len());
+            let before = (world.int(0, "added"), world.records.len());
             world.step();
             let ports = ["Count/atomic", "Count/linearizable"].map(Port::named);
-            let sent = world.sent[before.1..].iter();
-            let sent = sent.filter(|(_, _, port, _)| ports.contains(port)).count();
+            let sent = world.records[before.1..].iter();
+            let is_it =
+                |event: &Event| matches!(event, Event::Sent { port, .. } if ports.contains(port));
+            let sent = sent.filter(|(_, _, event)| is_it(event)).count();
             if before.0 > 0 {
                 // The action is done within one step. Copies may be compared besides.
                 assert_eq!(world.int(0, "added"), before.0 + 1);

@@ -10,7 +10,7 @@ fn race_is_run_to_its_end() {
     let mut world = World::of(&code, 3).with_way_points(&places);
     world.steps(20);
     for robot in 0..3 {
-        assert_eq!(world.nodes[robot].failed, None);
+        assert_eq!(world.failure(robot), None);
         assert_eq!(world.int(robot, "currentIndex"), 3);
     }
     assert_eq!(world.actions(0)[..3], ["initialize", "pick", "wait"]);
@@ -21,13 +21,13 @@ fn a_formation_forms_by_shared_positions() {
     let code = compile(include_str!("../listings/formation.starl"));
     let mut world = World::of(&code, 3);
     for (robot, x) in [(0, 0.0), (1, 2.0), (2, 1.0)] {
-        world.nodes[robot].position = starl_core::Point::planar(x, 0.3 * x);
+        world.put(robot, starl_core::Point::planar(x, 0.3 * x));
     }
-    let before: Vec<_> = world.nodes.iter().map(|node| node.position).collect();
+    let before: Vec<_> = (0..3).map(|robot| world.position(robot)).collect();
     world.steps(60);
     for (robot, before) in before.iter().enumerate() {
-        assert_eq!(world.nodes[robot].failed, None);
-        assert_ne!(world.nodes[robot].position, *before, "robot {robot} stays");
+        assert_eq!(world.failure(robot), None);
+        assert_ne!(world.position(robot), *before, "robot {robot} stays");
     }
 }
 
@@ -41,7 +41,7 @@ fn an_intersection_is_crossed_by_those_that_have_registered() {
         .into_iter()
         .enumerate()
     {
-        world.nodes[robot].position = starl_core::Point::planar(x, y);
+        world.put(robot, starl_core::Point::planar(x, y));
     }
     let is_at = |world: &World, robot: usize, location: &str| {
         world.get(robot, "loc") == Value::Variant(location.into())
@@ -52,7 +52,7 @@ fn an_intersection_is_crossed_by_those_that_have_registered() {
         steps += 1;
         assert!(steps < 600, "they do not come through");
         for (robot, listed) in listed.iter_mut().enumerate() {
-            assert_eq!(world.nodes[robot].failed, None);
+            assert_eq!(world.failure(robot), None);
             *listed |= is_at(&world, robot, "mov_wait");
         }
     }

@@ -10,8 +10,8 @@ fn both_robots_visit_all_way_points_and_finish() {
     world.steps(20);
     for robot in 0..2 {
         assert_eq!(world.int(robot, "currentIndex"), 3);
-        assert!(world.nodes[robot].finished);
-        assert_eq!(world.nodes[robot].failed, None);
+        assert!(world.robots[robot].node.condition().finished);
+        assert_eq!(world.failure(robot), None);
     }
     let actions = world.actions(0);
     assert_eq!(&actions[..3], ["initialize", "pick", "wait"]);
@@ -19,5 +19,5 @@ fn both_robots_visit_all_way_points_and_finish() {
     let (name, fields) = &world.emitted(0)[0];
     assert_eq!(name, "arrived");
     assert_eq!(fields[..], [("index".to_string(), Value::Int(0))]);
-    assert_eq!(world.nodes[0].position, Point::planar(0.0, 3.0));
+    assert_eq!(world.position(0), Point::planar(0.0, 3.0));
 }

@@ -48,7 +48,7 @@ fn heard(world: &World, robot: usize) -> Vec<String> {
 #[test]
 fn each_way_reaches_whom_it_is_meant_for() {
     let mut world = World::of(&compile(ALL_WAYS), 3);
-    world.nodes[2].position = Point::planar(5.5, 0.0);
+    world.put(2, Point::planar(5.5, 0.0));
     world.steps(3);
     assert_eq!(heard(&world, 0), [""; 0]);
     assert_eq!(heard(&world, 1), ["to all", "to one"]);

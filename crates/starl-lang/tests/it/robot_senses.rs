@@ -21,7 +21,7 @@ fn what(world: &World, robot: usize) -> String {
 #[test]
 fn without_sensors_there_is_nothing_to_sense() {
     let mut world = World::of(&compile(SENSES), 2).with_way_points(&[(1.0, 2.0), (3.0, 4.0)]);
-    world.nodes[1].position = Point::planar(0.5, 1.5);
+    world.put(1, Point::planar(0.5, 1.5));
     world.step();
     assert_eq!(
         what(&world, 1),
@@ -41,17 +41,17 @@ fn sensors_are_read() {
         distance,
         nearness: 0.0,
     };
-    world.nodes[0].rays = vec![ray(-1.0, 0.25), ray(1.0, 2.0)];
+    world.robots[0].rays = vec![ray(-1.0, 0.25), ray(1.0, 2.0)];
     let seen = |what, x| Detection {
         what,
         position: Point::planar(x, 0.0),
     };
-    world.nodes[0].detections = vec![
+    world.robots[0].detections = vec![
         seen(Detected::Thing(4), 1.0),
         seen(Detected::Robot(RobotId(7)), 2.0),
     ];
     for (bearing, side) in [(1.0, "left"), (-1.0, "right"), (0.0, "both"), (3.0, "none")] {
-        world.nodes[0].bumper = Some(Contact { bearing });
+        world.robots[0].bumper = Some(Contact { bearing });
         world.step();
         let expected = format!(
             "{{robot0}} {side} [0.25, 2.0] [(robot = none, thing = 4, position = (1.0, 0.0, 0.0)), \
@@ -123,6 +123,6 @@ fn no_number_lies_between_bounds_in_the_wrong_order() {
     let source = "program Bounds\n\nx: Int = 0\n\ndraw()\n    eff x = random_int(4, 4)\n";
     let mut world = World::of(&compile(source), 1);
     world.step();
-    let reason = world.nodes[0].failed.clone().unwrap_or_default();
+    let reason = world.failure(0).unwrap_or_default();
     assert_eq!(reason, "bounds.starl:6:13: no Int is from 4 to below 4");
 }

@@ -1,7 +1,7 @@
 //! Shared variables: what one robot writes the others come to read.
 
 use crate::robot_support::{World, compile};
-use starl_core::{Duration, Port, Time};
+use starl_core::{Duration, Event, Port, Time};
 use starl_lang::machine::Value;
 
 const SHARED: &str = r#"
@@ -61,11 +61,11 @@ fn what_one_robot_writes_the_other_reads() {
 #[test]
 fn what_got_lost_is_repaired() {
     let mut world = World::of(&compile(SHARED), 2);
-    world.loses = |_, _| true;
+    world.wire.loss = 1.0;
     world.steps(5);
     assert_eq!(world.int(0, "known"), 1);
     assert_eq!(world.int(0, "count"), 7);
-    world.loses = |_, _| false;
+    world.wire.loss = 0.0;
     world.steps(100);
     assert_eq!(world.int(0, "known"), 2);
     assert_eq!(world.int(0, "count"), 100);
@@ -74,12 +74,14 @@ fn what_got_lost_is_repaired() {
 #[test]
 fn all_shared_variables_are_one_memory_and_go_out_together() {
     let mut world = World::of(&compile(SHARED), 2);
-    world.let_pass_until(Time::ZERO + Duration::from_millis(1));
-    let before = world.sent.len();
+    world.run_before(Time::ZERO + Duration::from_millis(1));
+    let before = world.records.len();
     world.step();
     let port = Port::named("Shared/shared");
-    let sent = world.sent[before..].iter();
-    let writes = sent.filter(|(from, _, to, _)| from.0 == 1 && *to == port);
+    let sent = world.records[before..].iter();
+    let writes = sent.filter(|(_, from, event)| {
+        from.0 == 1 && matches!(event, Event::Sent { port: to, .. } if *to == port)
+    });
     // One datagram holds all three writes.
     assert_eq!(writes.count(), 1);
 }

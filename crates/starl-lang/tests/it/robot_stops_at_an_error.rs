@@ -26,9 +26,9 @@ after()
 fn the_error_names_the_line_and_the_others_go_on() {
     let mut world = World::of(&compile(INDEX), 2);
     world.steps(4);
-    let reason = world.nodes[0].failed.clone().unwrap_or_default();
+    let reason = world.failure(0).unwrap_or_default();
     assert_eq!(reason, "index.starl:14:16: index 4 is out of range 0..3");
-    assert_eq!(world.nodes[0].halts, 1);
+    assert_eq!(world.robots[0].travel.halts, 1);
     let names = |robot| {
         let emitted = world.emitted(robot);
         emitted
@@ -38,7 +38,7 @@ fn the_error_names_the_line_and_the_others_go_on() {
     };
     // Nothing runs after the error, neither of this activation nor later.
     assert_eq!(names(0), ["reads", "after", "reads"]);
-    assert_eq!(world.nodes[1].failed, None);
+    assert_eq!(world.failure(1), None);
     assert_eq!(names(1).len(), 8);
 }
 
@@ -61,8 +61,8 @@ other()
 fn a_program_that_fails_says_why_and_ends_there() {
     let mut world = World::of(&compile(FAILS), 1);
     world.steps(3);
-    assert_eq!(world.nodes[0].failed.as_deref(), Some("no way"));
-    assert_eq!(world.nodes[0].halts, 1);
+    assert_eq!(world.failure(0), Some("no way"));
+    assert_eq!(world.robots[0].travel.halts, 1);
     assert_eq!(world.int(0, "tries"), 2);
     assert_eq!(world.emitted(0).len(), 1);
 }
@@ -81,7 +81,7 @@ turn()
 ";
     let mut world = World::of(&compile(endless), 1);
     world.step();
-    let reason = world.nodes[0].failed.clone().unwrap_or_default();
+    let reason = world.failure(0).unwrap_or_default();
     let expected = "endless.starl:4:12: functions call one another too deeply";
     assert_eq!(reason, expected);
 }
@@ -99,7 +99,7 @@ go()
     eff motion.reach_avoid(Point(1.0, 1.0), obstacles())
 ";
     let world = World::of(&compile(wrong), 1);
-    let reason = world.nodes[0].failed.clone().unwrap_or_default();
+    let reason = world.failure(0).unwrap_or_default();
     assert!(
         reason.ends_with("`vicinity` is not more than 0"),
         "{reason}"
@@ -118,7 +118,7 @@ go()
         b.send(me, M())
 ";
     let world = World::of(&compile(twice), 1);
-    let reason = world.nodes[0].failed.clone().unwrap_or_default();
+    let reason = world.failure(0).unwrap_or_default();
     let expected = "another primitive of the program has this name";
     assert!(reason.ends_with(expected), "{reason}");
 }

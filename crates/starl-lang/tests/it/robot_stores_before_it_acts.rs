@@ -3,7 +3,8 @@
 
 use crate::robot_support::{self, PERIOD, World, compile};
 use starl_core::event::{MutexEvent, PrimitiveEvent};
-use starl_core::{Agent, Duration, Event, Input, Random};
+use starl_core::{Duration, Event, Random};
+use starl_host::Clock;
 use starl_lang::machine::Value;
 
 /// Robot 0 moves what it has to what all share, and gets more all the time by an action and by messages.
@@ -53,7 +54,7 @@ on More(_, amount)
 fn what_an_action_depends_on_does_not_change_until_it_takes_place() {
     let code = compile(DEPOSIT);
     for seed in 0..30 {
-        let mut world = World::over_bad_network(&code, 3, seed, 300.0);
+        let mut world = World::over_bad_network(&code, 3, seed, 300);
         for _ in 0..300 {
             let ticks = world.int(0, "ticks");
             world.step();
@@ -77,7 +78,7 @@ fn an_action_that_cannot_be_stored_has_not_happened() {
     let given = world.int(0, "given");
     assert!(given > 0);
     // Its questions come to the others, and their answers get lost.
-    world.loses = |_, to| to == 0;
+    world.wire.cut = [(1, 0), (2, 0)].into();
     world.steps(100);
     assert!(world.int(0, "given") <= given + 20, "nothing is given then");
     let given = world.int(0, "given");
@@ -85,7 +86,7 @@ fn an_action_that_cannot_be_stored_has_not_happened() {
     world.steps(50);
     assert_eq!(world.int(0, "given"), given);
     assert_eq!(world.emitted(0).len(), deposits, "it says so when it has");
-    world.loses = |_, _| false;
+    world.wire.cut.clear();
     world.steps(100);
     assert!(world.int(0, "given") > given);
 }
@@ -125,7 +126,7 @@ fn who_dies_with_the_lock_keeps_nobody_waiting_for_long() {
     for seed in 0..60 {
         let mut world = World::of(&code, 4);
         world.random = Random::keyed(seed, &[3]);
-        world.delay_ms = (5.0, 40.0);
+        world.wire.delay_ms = (5, 40);
         world.steps(40 + seed as u32 % 10);
         let mut millisecond = world.now;
         while !holds(&world, 0) {
@@ -133,10 +134,10 @@ fn who_dies_with_the_lock_keeps_nobody_waiting_for_long() {
             if millisecond.0.is_multiple_of(PERIOD.0) {
                 world.step();
             } else {
-                world.let_pass_until(millisecond);
+                world.run_before(millisecond);
             }
         }
-        world.nodes[0].down = true;
+        world.crash(0);
         let (died, before) = (world.now, world.int(1, "added") + world.int(2, "added"));
         while world.int(1, "added") + world.int(2, "added") < before + 2 {
             world.step();
@@ -166,30 +167,27 @@ fn clocks_that_run_wrong_leases_that_overlap_crashes_and_partitions_lose_no_coun
     let code = compile(COUNT);
     let (mut lost, mut counted) = (0, 0);
     for seed in 0..30 {
-        let mut world = World::over_bad_network(&code, 4, seed, 300.0);
+        let mut world = World::over_bad_network(&code, 4, seed, 300);
         let mut random = Random::keyed(seed, &[4]);
         // Far beyond the bound that leases count on, so that a holder believes in them too long.
-        world.clocks_drift = (0..4)
-            .map(|robot| (robot, random.between(-0.7, 2.0)))
-            .collect();
+        for unit in &mut world.robots {
+            let rate = 1.0 + random.between(-0.7, 2.0);
+            unit.node.set_clock(Clock { offset: 0, rate });
+        }
         let (mut before, mut uncertain) = (0, 0);
         for _ in 0..8 {
             let side: Vec<bool> = (0..4).map(|_| random.chance(0.5)).collect();
             let pairs = (0..4).flat_map(|a| (0..4).map(move |b| (a, b)));
             let cut = pairs.filter(|&(a, b)| side[a as usize] != side[b as usize]);
-            world.cut = cut.collect();
+            world.wire.cut = cut.collect();
             world.steps(20 + random.below(60));
-            world.cut.clear();
+            world.wire.cut.clear();
             world.steps(20 + random.below(60));
             let robot = random.below(4) as usize;
             (before, uncertain) = (before + world.int(robot, "added"), uncertain + 1);
-            world.nodes[robot].down = true;
+            world.crash(robot);
             world.steps(random.below(40));
-            world.nodes[robot].down = false;
-            let program = Box::new(robot_support::program(&code));
-            let random = Random::keyed(seed, &[8, world.now.0]);
-            world.nodes[robot].agent = Agent::new(program, random);
-            world.feed(robot, &Input::Start);
+            world.restart(robot, robot_support::program(&code));
             world.steps(100);
         }
         world.steps(200);
@@ -214,17 +212,19 @@ fn clocks_that_run_wrong_leases_that_overlap_crashes_and_partitions_lose_no_coun
 fn two_of_five_that_stay_dead_keep_nobody_waiting() {
     let code = compile(COUNT);
     for seed in 0..20 {
-        let mut world = World::over_bad_network(&code, 5, seed, 300.0);
+        let mut world = World::over_bad_network(&code, 5, seed, 300);
         let mut random = Random::keyed(seed, &[4]);
         // All have come to take part; what those remember who die before that, nobody could know.
         world.steps(60);
         for _ in 0..2 {
             world.steps(20 + random.below(20));
             let dead = random.below(5) as usize;
-            world.nodes[dead].down = true;
+            world.crash(dead);
         }
         world.steps(60);
-        let alive: Vec<usize> = (0..5).filter(|&robot| !world.nodes[robot].down).collect();
+        let alive: Vec<usize> = (0..5)
+            .filter(|&robot| !world.robots[robot].node.condition().down)
+            .collect();
         let added = |world: &World| -> Vec<i64> {
             let alive = alive.iter();
             alive.map(|&robot| world.int(robot, "added")).collect()
@@ -234,7 +234,7 @@ fn two_of_five_that_stay_dead_keep_nobody_waiting() {
         for (before, after) in before.iter().zip(added(&world)) {
             assert!(after > *before, "seed {seed}: {before} to {after}");
         }
-        let failed = world.nodes.iter().find_map(|node| node.failed.clone());
+        let failed = (0..5).find_map(|robot| world.failure(robot));
         assert_eq!(failed, None);
     }
 }
@@ -247,7 +247,7 @@ fn an_action_that_fails_writes_nothing() {
                   seen = sum\n";
     let mut world = World::of(&compile(source), 3);
     world.steps(60);
-    let failed = world.nodes[0].failed.as_deref();
+    let failed = world.failure(0);
     assert!(failed.is_some_and(|text| text.contains("division by zero")));
     assert_eq!(world.get(1, "seen"), Value::Int(1));
 }

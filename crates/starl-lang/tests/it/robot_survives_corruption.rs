@@ -69,7 +69,7 @@ fn all_variables_get_values_of_their_types_and_the_program_runs_on() {
     let mut random = Random::keyed(3, &[]);
     let mut seen: Vec<BTreeSet<String>> = vec![BTreeSet::new(); count];
     for _ in 0..300 {
-        world.nodes[0].agent.corrupt(&mut random);
+        world.corrupt(0, &mut random);
         let state = world.program(0).state();
         // Values that are none of their types are left out here.
         let values: Vec<(String, Value)> = (code.program().values(state))
@@ -86,12 +86,12 @@ fn all_variables_get_values_of_their_types_and_the_program_runs_on() {
         }
         assert_eq!(world.int(0, "fixed"), 42);
         world.step();
-        let failed = world.nodes[0].failed.as_deref();
+        let failed = world.failure(0);
         assert!(
             failed.is_none_or(|text| text.contains("too great")),
             "{failed:?}"
         );
-        assert_eq!(world.nodes[1].failed, None);
+        assert_eq!(world.failure(1), None);
     }
     for (variable, seen) in code.program().bytecode().variables.iter().zip(&seen) {
         let name = &variable.name[..];
@@ -174,10 +174,10 @@ fn primitives_are_overwritten_and_the_program_runs_on() {
         let mut changes = 0;
         for _ in 0..30 {
             let before = primitives(&world);
-            world.nodes[0].agent.corrupt(&mut random);
+            world.corrupt(0, &mut random);
             changes += usize::from(primitives(&world) != before);
             (0..5).for_each(|_| world.step());
-            let failed = world.nodes.iter().find_map(|node| node.failed.as_deref());
+            let failed = (0..world.robots.len()).find_map(|robot| world.failure(robot));
             assert_eq!(failed, None, "{primitive}");
         }
         assert!(changes > 10, "{primitive}: {changes}");

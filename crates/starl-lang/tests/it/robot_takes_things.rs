@@ -53,7 +53,7 @@ fn order(name: &'static str, thing: Option<i64>) -> starl_core::Input {
 #[test]
 fn things_in_sight_have_a_number_a_name_and_a_place() {
     let mut world = world();
-    world.nodes[0].detections = vec![
+    world.robots[0].detections = vec![
         sight(Detected::Thing(2), 0.5),
         sight(Detected::Robot(RobotId(0)), 0.7),
         sight(Detected::Thing(0), 1.0),
@@ -70,15 +70,15 @@ fn things_in_sight_have_a_number_a_name_and_a_place() {
 fn the_nearest_thing_is_taken_and_put_down_again() {
     let mut world = world();
     world.step();
-    assert_eq!(world.nodes[0].holding, None, "there is nothing in sight");
-    world.nodes[0].detections = vec![sight(Detected::Thing(2), 0.1)];
+    assert_eq!(world.robots[0].holding, None, "there is nothing in sight");
+    world.robots[0].detections = vec![sight(Detected::Thing(2), 0.1)];
     world.steps(2);
-    assert_eq!(world.nodes[0].holding, Some(2));
+    assert_eq!(world.robots[0].holding, Some(2));
     assert_eq!(world.get(0, "held").to_string(), "\"cup\"");
-    world.nodes[0].detections.clear();
-    world.feed(0, &order("drop", None));
+    world.robots[0].detections.clear();
+    world.input(0, &order("drop", None));
     world.step();
-    assert_eq!(world.nodes[0].holding, None);
+    assert_eq!(world.robots[0].holding, None);
     assert_eq!(world.get(0, "held").to_string(), "\"nothing\"");
 }
 
@@ -86,8 +86,8 @@ fn the_nearest_thing_is_taken_and_put_down_again() {
 fn a_number_without_a_thing_is_not_taken_and_has_no_name() {
     let mut world = world();
     for thing in [-1, i64::from(u32::MAX) + 1] {
-        world.feed(0, &order("grasp", Some(thing)));
-        assert_eq!(world.nodes[0].holding, None, "{thing}");
+        world.input(0, &order("grasp", Some(thing)));
+        assert_eq!(world.robots[0].holding, None, "{thing}");
     }
     let text = r#"
 program Names

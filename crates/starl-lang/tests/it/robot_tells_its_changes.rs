@@ -1,7 +1,7 @@
 //! The version of a program's variables is another one whenever they may have changed.
 
 use crate::robot_support::{self, World, compile};
-use starl_core::{Agent, Input, Random};
+use starl_core::Random;
 
 const CHANGES: &str = "program Changes
 
@@ -30,7 +30,7 @@ fn it_stays_while_nothing_happens_and_changes_with_each_thing_that_does() {
     assert_eq!((world.int(0, "count"), world.int(1, "count")), (2, 3));
     world.steps(3);
     assert_eq!(versions(&world), later);
-    world.nodes[0].agent.corrupt(&mut Random::keyed(1, &[]));
+    world.corrupt(0, &mut Random::keyed(1, &[]));
     assert_ne!(versions(&world)[0], later[0]);
 }
 
@@ -41,8 +41,6 @@ fn a_run_after_a_crash_has_versions_of_its_own() {
     let mut seen = vec![world.program(0).version()];
     world.step();
     seen.push(world.program(0).version());
-    let program = Box::new(robot_support::program(&code));
-    world.nodes[0].agent = Agent::new(program, Random::keyed(7, &[0]));
-    world.feed(0, &Input::Start);
+    world.restart(0, robot_support::program(&code));
     assert!(!seen.contains(&world.program(0).version()));
 }

@@ -32,14 +32,14 @@ warn()
 #[test]
 fn laps_begin_together() {
     let mut world = World::of(&compile(LAPS), 4);
-    world.loses = |from, to| (from, to) == (1, 2);
+    world.wire.cut = [(1, 2)].into();
     for _ in 0..20 {
         world.steps(10);
         let laps = [0, 1, 2, 3].map(|robot| world.int(robot, "laps"));
         let (low, high) = (laps.iter().min(), laps.iter().max());
         assert!(high.unwrap() - low.unwrap() <= 1, "{laps:?}");
     }
-    world.loses = |_, _| false;
+    world.wire.cut.clear();
     world.steps(100);
     assert!((0..4).all(|robot| world.int(robot, "laps") >= 10));
 }
@@ -49,7 +49,7 @@ fn who_waits_for_a_robot_that_is_down_can_tell() {
     let mut world = World::of(&compile(LAPS), 3);
     world.steps(50);
     assert_eq!(world.get(0, "warned"), Value::Bool(false));
-    world.nodes[2].down = true;
+    world.crash(2);
     world.steps(100);
     assert_eq!(world.get(0, "warned"), Value::Bool(true));
 }

@@ -31,12 +31,10 @@ fn a_late_question_of_an_earlier_life_is_no_arrival() {
     restart(&mut world);
     world.wire.cut.extend([(1, 2), (3, 2)]);
     cross(&mut world, &[2]);
-    world.payloads.clear();
-    world.keep_payloads = true;
+    let before = world.records.len();
     let port = Port::named("gate");
     world.time_out(2, port);
-    world.keep_payloads = false;
-    let late = std::mem::take(&mut world.payloads);
+    let late = world.payloads_from(before);
     assert!(!late.is_empty() && barrier(&world, 2).is_waiting());
 
     // This one passes.

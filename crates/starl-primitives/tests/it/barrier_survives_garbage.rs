@@ -14,13 +14,11 @@ fn damaged_datagrams_and_random_bytes() {
         let mut random = Random::keyed(seed, &[6]);
         let make = Crosser::boxed(None, Some(1000));
         let mut world = World::new(4, seed, Wire::bad(), PERIOD, make);
-        world.keep_payloads = true;
         world.run_for(SECOND * 10);
         world.crash(2);
         world.start(2);
         world.run_for(SECOND * 10);
-        let real = std::mem::take(&mut world.payloads);
-        world.keep_payloads = false;
+        let real = world.payloads();
         for round in 0..2000 {
             let mut bytes = real[random.below(real.len() as u32) as usize].clone();
             for _ in 0..random.below(4) {

@@ -40,10 +40,9 @@ fn garbage_is_borne() {
             let make = Teller::boxed(order, 20, 0.2);
             let wire = Wire::bad();
             let mut world = World::new(3, seed, wire, Some(Duration::from_millis(100)), make);
-            world.keep_payloads = true;
             world.run_for(Duration::from_seconds(10));
             let mut random = Random::keyed(seed, &[5]);
-            let genuine = world.payloads.clone();
+            let genuine = world.payloads();
             let calm = size(&world, 0);
             for _ in 0..3000 {
                 let pick = random.below(genuine.len() as u32) as usize;

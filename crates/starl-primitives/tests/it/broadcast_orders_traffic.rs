@@ -12,14 +12,14 @@ fn datagrams(order: Order, robots: usize) -> f64 {
         let make = Teller::boxed(order, 0, 0.0);
         let mut world = World::new(robots, 1, Wire::perfect(), None, make);
         world.run_for(Duration::from_seconds(10));
-        let before = world.sent;
+        let before = world.sent_count();
         for value in 0..20 {
             if value < messages {
                 world.command(robots - 1, tell(value));
             }
             world.run_for(Duration::from_millis(530));
         }
-        world.sent - before
+        world.sent_count() - before
     };
     (quiet(20) as f64 - quiet(0) as f64) / 20.0
 }

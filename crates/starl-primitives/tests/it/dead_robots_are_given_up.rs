@@ -50,14 +50,14 @@ fn copies_are_bounded_and_spread_out() {
         world.crash(1);
         world.command(0, broadcast(1));
         world.run_for(options.failure_bound());
-        assert_eq!(world.sent, 1 + retries as usize);
+        assert_eq!(world.sent_count(), 1 + retries as usize);
         let failed_at = world.events("fail")[0].0;
         assert!(
             failed_at >= Time::ZERO + options.retry_span() / 2,
             "{failed_at}"
         );
         world.run_for(Duration::from_seconds(100));
-        assert_eq!(world.sent, 1 + retries as usize, "it stays quiet");
+        assert_eq!(world.sent_count(), 1 + retries as usize, "it stays quiet");
     }
 }
 
@@ -106,6 +106,6 @@ fn a_fleet_of_one_has_nobody_to_wait_for() {
     let options = Options::default();
     let mut world = World::new(1, 5, Wire::perfect(), None, Talker::boxed(options));
     world.command(0, broadcast(1));
-    assert_eq!((world.sent, world.timers(0)), (0, 0));
+    assert_eq!((world.sent_count(), world.timers(0)), (0, 0));
     assert_eq!(world.events("acknowledged").len(), 1);
 }

@@ -29,10 +29,10 @@ impl Troubled {
         let mut random = Random::keyed(seed, &[8]);
         for robot in 0..count {
             let drift = random.between(-0.01, 0.01);
-            world.clocks_drift.insert(robot, drift);
+            world.set_clock_drift(robot as usize, drift);
             if !may_forget {
                 let ahead = i64::from(random.below(3600)) * 1_000_000_000;
-                world.clocks_ahead.insert(robot, ahead);
+                world.set_clock_ahead(robot as usize, ahead);
             }
         }
         Troubled {

@@ -18,7 +18,7 @@ fn voter_changes_sides(seed: u64, options: Options) -> (World, Vec<(usize, u32)>
     let (voter, third) = ((leader + 1) % 3, (leader + 2) % 3);
     // The third robot's clock stands still, as it were: its epochs would be earlier ones.
     for robot in [leader, voter] {
-        world.clocks_ahead.insert(robot, 3_600_000_000_000);
+        world.set_clock_ahead(robot as usize, 3_600_000_000_000);
         world.wire.cut.extend([(robot, third), (third, robot)]);
     }
     world.command(leader as usize, RESIGN);

@@ -3,16 +3,16 @@
 
 use crate::harness::locker::{ALGORITHMS, Locker, entries, mutex};
 use crate::harness::{Wire, World};
-use starl_core::{Duration, Input, Message, Port, Random, RobotId};
+use starl_core::{Duration, Input, Message, Payload, Port, Random, RobotId};
 
 const SECOND: Duration = Duration::from_seconds(1);
 const PERIOD: Option<Duration> = Some(Duration::from_millis(100));
 
 /// A datagram that was sent, perhaps with some bytes changed, or none that makes sense.
-fn garbage(world: &World, random: &mut Random) -> Vec<u8> {
-    let mut bytes = match world.payloads.len() as u32 {
+fn garbage(sent: &[Payload], random: &mut Random) -> Vec<u8> {
+    let mut bytes = match sent.len() as u32 {
         0 => Vec::new(),
-        count => world.payloads[random.below(count) as usize].to_vec(),
+        count => sent[random.below(count) as usize].to_vec(),
     };
     for _ in 0..random.below(4) {
         match (random.below(3), bytes.len() as u32) {
@@ -38,15 +38,16 @@ fn after_garbage_it_goes_on() {
             PERIOD,
             Locker::boxed(algorithm, true),
         );
-        world.keep_payloads = true;
-        let mut longest = 0;
+        let (mut longest, mut sent, mut read) = (0, Vec::new(), 0);
         for _ in 0..600 {
             world.run_for(Duration::from_millis(20));
+            sent.extend(world.payloads_from(read));
+            read = world.records.len();
             let message = Message {
                 // The last is no robot of the fleet.
                 from: RobotId(random.below(5)),
                 port: Port::named("lock"),
-                payload: garbage(&world, &mut random).into(),
+                payload: garbage(&sent, &mut random).into(),
             };
             let to = random.below(4) as usize;
             world.input(to, &Input::Message(message));

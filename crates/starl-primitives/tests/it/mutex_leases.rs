@@ -88,7 +88,7 @@ fn nobody_waits_for_a_lease_where_all_arbiters_hear_of_each_other() {
 #[test]
 fn numbers_grow_though_those_who_forgot_them_have_clocks_that_differ() {
     let mut world = world(3, 1, Wire::perfect(), false);
-    world.clocks_ahead.insert(1, 3_600_000_000_000);
+    world.set_clock_ahead(1, 3_600_000_000_000);
     world.run_for(SECOND / 5);
     world.command(0, acquire(&["a"]));
     world.run_for(SECOND / 5);
@@ -131,10 +131,8 @@ fn clocks_that_run_wrong_within_the_bound_do_not_matter() {
         let mut random = Random::keyed(seed, &[5]);
         let mut world = world(5, seed, Wire::bad(), true);
         for robot in 0..5 {
-            world
-                .clocks_drift
-                .insert(robot, random.between(-0.01, 0.01));
-            world.clocks_ahead.insert(robot, i64::from(random.bits()));
+            world.set_clock_drift(robot as usize, random.between(-0.01, 0.01));
+            world.set_clock_ahead(robot as usize, i64::from(random.bits()));
         }
         let mut crashes = Vec::new();
         for _ in 0..20 {
@@ -161,7 +159,7 @@ fn no_two_have_the_same_number_however_wrong_clocks_run() {
         let mut random = Random::keyed(seed, &[6]);
         let mut world = world(5, seed, Wire::bad(), true);
         for robot in 0..5 {
-            world.clocks_drift.insert(robot, random.between(-0.9, 3.0));
+            world.set_clock_drift(robot as usize, random.between(-0.9, 3.0));
         }
         for _ in 0..20 {
             let (one, other) = (random.below(5), random.below(5));

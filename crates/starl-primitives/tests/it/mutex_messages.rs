@@ -4,7 +4,7 @@
 
 use crate::harness::locker::{ALGORITHMS, Locker, acquire, asked, mutex, release};
 use crate::harness::{Wire, World};
-use starl_core::{Duration, Input, Port};
+use starl_core::{Duration, Input};
 use starl_primitives::mutex::Algorithm;
 
 const SIZES: [usize; 8] = [3, 4, 5, 9, 16, 25, 49, 100];
@@ -47,10 +47,9 @@ fn crowd(world: &mut World, count: usize) {
 
 /// Messages and datagrams for each entry.
 fn counted(world: &mut World, count: usize, run: fn(&mut World, usize)) -> (f64, f64) {
-    let lock = Port::named("lock");
-    let before = world.traffic[&lock];
+    let before = world.traffic_on("lock");
     run(world, count);
-    let after = world.traffic[&lock];
+    let after = world.traffic_on("lock");
     let share = |count_of: usize| count_of as f64 / count as f64;
     (share(after.1 - before.1), share(after.0 - before.0))
 }

@@ -18,10 +18,10 @@ fn idle(count: usize) -> World {
 fn sent(world: &mut World, robot: usize, command: impl starl_core::Timer) -> usize {
     // Heartbeats are sent by timers that fire at other times than this.
     world.run_for(Duration::from_millis(20));
-    let before = world.sent;
+    let before = world.sent_count();
     world.command(robot, command);
     world.run_for(Duration::from_millis(5));
-    world.sent - before
+    world.sent_count() - before
 }
 
 #[test]

@@ -93,13 +93,11 @@ fn garbage_is_survived() {
         let mut random = Random::keyed(seed, &[6]);
         let make = Registrar::boxed(false, Options::default());
         let mut world = World::new(4, seed, Wire::bad(), PERIOD, make);
-        world.keep_payloads = true;
         (0..4).for_each(|robot| world.command(robot, register()));
         world.run_for(SECOND * 5);
         world.command(3, unregister());
         world.run_for(SECOND * 5);
-        let real = std::mem::take(&mut world.payloads);
-        world.keep_payloads = false;
+        let real = world.payloads();
         for round in 0..2000 {
             let mut bytes = real[random.below(real.len() as u32) as usize].clone();
             for _ in 0..1 + random.below(4) {

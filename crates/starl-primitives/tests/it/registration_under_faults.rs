@@ -201,7 +201,7 @@ fn clocks_that_are_off() {
         let mut world = world(4, seed, Wire::bad(), true);
         for robot in 0..4 {
             let ahead = i64::from(random.below(7200)) * 1_000_000_000;
-            world.clocks_ahead.insert(robot, ahead);
+            world.set_clock_ahead(robot as usize, ahead);
         }
         world.run_for(SECOND * 60);
         checked(&world, &[]);

@@ -7,13 +7,16 @@ use crate::harness::{Wire, World};
 use starl_core::{Duration, Time};
 use starl_primitives::shared_memory::Options;
 
+/// Until a write has been sent, 1 ms, and has arrived everywhere.
+const DATAGRAM: Duration = Duration::from_millis(2);
 const HOUR: i64 = 3_600_000_000_000;
 
 fn world(seed: u64, wire: Wire, ahead: [i64; 3]) -> World {
     let mut world = World::new(0, seed, wire, None, Sharer::boxed(Options::default()));
-    for (robot, nanos) in ahead.into_iter().enumerate() {
-        world.clocks_ahead.insert(robot as u32, nanos);
-        world.join();
+    for nanos in ahead {
+        let robot = world.add();
+        world.set_clock_ahead(robot, nanos);
+        world.begin(robot);
     }
     world
 }
@@ -50,7 +53,7 @@ fn what_a_robot_did_not_know_of_may_win_over_what_it_writes() {
     }
     // Now that it knows it, it does not.
     world.command(0, write(0, 3));
-    world.run_for(Duration::from_millis(1));
+    world.run_for(DATAGRAM);
     for robot in 0..3 {
         assert_eq!(read(&world, robot, 0), Some(3));
     }
@@ -64,7 +67,7 @@ fn of_writes_at_the_same_time_that_of_the_greatest_number_wins() {
         for robot in order {
             world.command(robot, write(0, robot as u32));
         }
-        world.run_for(Duration::from_millis(1));
+        world.run_for(DATAGRAM);
         for robot in 0..3 {
             assert_eq!(read(&world, robot, 0), Some(2));
         }
@@ -86,7 +89,7 @@ fn the_clock_goes_no_further_ahead_than_the_fastest() {
 #[test]
 fn clocks_beyond_all_reason_do_no_harm() {
     let mut world = world(1, Wire::perfect(), [0, i64::MAX, 0]);
-    world.clocks_ahead.insert(1, i64::MAX);
+    world.set_clock_ahead(1, i64::MAX);
     for round in 0..30 {
         let robot = round % 3;
         world.command(robot, write(0, round as u32));

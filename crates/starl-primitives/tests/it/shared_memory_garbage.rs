@@ -44,15 +44,13 @@ fn damaged_datagrams_break_nothing() {
         ..Options::default()
     };
     let mut world = world(3, options);
-    world.keep_payloads = true;
     world.command(0, write_many(200));
     world.run_for(Duration::from_seconds(5));
     world.crash(2);
     world.start(2);
     world.command(1, write(3, 9));
     world.run_for(Duration::from_seconds(5));
-    let real = std::mem::take(&mut world.payloads);
-    world.keep_payloads = false;
+    let real = world.payloads();
     assert!(real.len() > 10);
     let mut random = Random::keyed(2, &[]);
     for round in 0..20_000 {
@@ -84,10 +82,9 @@ fn damaged_datagrams_break_nothing() {
 #[test]
 fn strangers_and_oneself_are_not_heard() {
     let mut world = world(2, Options::default());
-    world.keep_payloads = true;
     world.command(0, write(0, 7));
-    world.run_for(Duration::ZERO);
-    let datagram = world.payloads.pop().unwrap();
+    world.run_for(Duration::from_millis(1));
+    let datagram = world.payloads().pop().unwrap();
     let mut fresh = self::world(2, Options::default());
     fresh.input(1, &arrives(2, datagram.clone()));
     fresh.input(1, &arrives(1, datagram.clone()));
@@ -100,19 +97,18 @@ fn strangers_and_oneself_are_not_heard() {
 #[test]
 fn no_datagram_brings_about_a_flood() {
     let mut world = world(2, Options::default());
-    world.keep_payloads = true;
     world.command(0, write_many(5000));
     world.run_for(Duration::from_seconds(60));
     world.crash(1);
-    world.payloads.clear();
+    let before = world.records.len();
     world.start(1);
     world.run_for(Duration::from_seconds(2));
-    let asked = std::mem::take(&mut world.payloads);
+    let asked = world.payloads_from(before);
     world.run_for(Duration::from_seconds(60));
     for datagram in asked {
-        let sent = world.sent;
+        let sent = world.sent_count();
         world.input(0, &arrives(1, datagram));
-        assert!(world.sent - sent <= 32);
+        assert!(world.sent_count() - sent <= 32);
     }
 }
 
@@ -133,12 +129,10 @@ fn a_memory_takes_no_more_than_it_holds() {
         ..Options::default()
     };
     let mut world = world(2, options);
-    world.keep_payloads = true;
     let mut large = self::world(2, Options::default());
-    large.keep_payloads = true;
     large.command(0, write_many(20));
-    large.run_for(Duration::ZERO);
-    for payload in std::mem::take(&mut large.payloads) {
+    large.run_for(Duration::from_millis(1));
+    for payload in large.payloads() {
         world.input(1, &arrives(0, payload));
     }
     assert_eq!(memory(&world, 1).elements(), 10);
@@ -150,10 +144,9 @@ fn of_two_values_with_the_same_stamp_all_take_the_same() {
     for swapped in [false, true] {
         let mut world = world(3, Options::default());
         world.wire.loss = 1.0;
-        world.keep_payloads = true;
         world.command(0, write(0, 7));
-        world.run_for(Duration::ZERO);
-        let one = world.payloads.pop().unwrap();
+        world.run_for(Duration::from_millis(1));
+        let one = world.payloads().pop().unwrap();
         let mut other = one.clone();
         // The value comes last.
         let place = other.len() - 4;

@@ -38,7 +38,7 @@ fn what_it_writes_after_a_restart_wins_though_its_clock_begins_again() {
             world.command(0, write(0, 2));
             world.run_for(Duration::from_seconds(20));
             world.crash(0);
-            world.clocks_ahead.insert(0, -(world.now.0 as i64));
+            world.set_clock_ahead(0, -(world.now.0 as i64));
             world.start(0);
             world.command(0, write_own(0, 11));
             world.command(0, write(0, 12));
@@ -114,7 +114,7 @@ fn writing_again_what_it_reads_after_a_restart_is_a_write() {
     world.crash(0);
     world.wire.cut.clear();
     world.wire.cut.extend([(0, 2), (2, 0), (1, 2), (2, 1)]);
-    world.clocks_ahead.insert(0, -(world.now.0 as i64));
+    world.set_clock_ahead(0, -(world.now.0 as i64));
     world.start(0);
     world.run_for(Duration::from_seconds(5));
     assert_eq!(read_of(&world, 0, 0, 0), Some(1));
@@ -133,7 +133,7 @@ fn writing_again_what_it_reads_after_a_restart_is_a_write() {
 #[test]
 fn two_lives_that_go_on_from_one_reading_give_their_writes_two_stamps() {
     let mut world = world(1, Wire::perfect());
-    world.clocks_ahead.insert(1, 3_600_000_000_000);
+    world.set_clock_ahead(1, 3_600_000_000_000);
     world.command(1, write(0, 1));
     world.run_for(Duration::from_seconds(5));
     world.crash(1);

@@ -6,6 +6,9 @@ use crate::harness::{Wire, World};
 use starl_core::{Duration, Random};
 use starl_primitives::shared_memory::Options;
 
+/// Until a write has been sent, 1 ms, and has arrived everywhere, if nothing delays it.
+const DATAGRAM: Duration = Duration::from_millis(2);
+
 fn world(robots: usize, seed: u64, wire: Wire) -> World {
     World::new(robots, seed, wire, None, Sharer::boxed(Options::default()))
 }
@@ -16,11 +19,11 @@ fn a_write_is_read_at_once_here_and_after_one_delay_elsewhere() {
     assert_eq!(read(&world, 0, 0), None);
     world.command(0, write(0, 7));
     assert_eq!(read(&world, 0, 0), Some(7));
-    world.run_for(Duration::from_millis(1));
+    world.run_for(DATAGRAM);
     for robot in 1..4 {
         assert_eq!(read(&world, robot, 0), Some(7));
     }
-    assert_eq!(world.sent, 1, "one datagram told all");
+    assert_eq!(world.sent_count(), 1, "one datagram told all");
 }
 
 #[test]
@@ -47,13 +50,13 @@ fn writes_of_one_activation_share_a_datagram() {
         world.command(0, write(variable, 5));
         world.command(0, write_own(variable, 6));
     }
-    world.run_for(Duration::from_millis(1));
+    world.run_for(DATAGRAM);
     // Each command flushes what the one before wrote.
-    let before = world.sent;
+    let before = world.sent_count();
     assert!(before <= 20);
     world.command(0, sharer::write_many(20));
-    world.run_for(Duration::from_millis(1));
-    assert_eq!(world.sent, before + 1);
+    world.run_for(DATAGRAM);
+    assert_eq!(world.sent_count(), before + 1);
     for variable in 0..20 {
         assert_eq!(read(&world, 1, variable), Some(u32::from(variable)));
     }
@@ -65,12 +68,12 @@ fn writing_ones_element_again_with_the_same_value_costs_nothing() {
     world.command(0, write_own(0, 5));
     world.run_for(Duration::from_millis(10));
     let (sent, stamp) = (
-        world.sent,
+        world.sent_count(),
         sharer::memory(&world, 0).stamp_of("x0", starl_core::RobotId(0)),
     );
     world.command(0, write_own(0, 5));
     world.run_for(Duration::from_millis(10));
-    assert_eq!(world.sent, sent);
+    assert_eq!(world.sent_count(), sent);
     assert_eq!(
         sharer::memory(&world, 0).stamp_of("x0", starl_core::RobotId(0)),
         stamp
@@ -116,7 +119,7 @@ fn a_write_that_nobody_heard_is_repaired() {
         world.run_for(Duration::from_seconds(60));
         world.wire.loss = 1.0;
         world.command(0, write(0, 7));
-        world.run_for(Duration::from_millis(1));
+        world.run_for(DATAGRAM);
         world.wire.loss = 0.0;
         world.run_for(Duration::from_millis(1050));
         for robot in 1..3 {

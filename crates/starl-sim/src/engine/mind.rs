@@ -36,7 +36,6 @@ impl Mind {
     /// A crashed robot keeps its body, its clock and its history, and nothing else.
     pub fn crash(&mut self) {
         self.node.crash();
-        self.account.plans.clear();
         self.account.orders.clear();
         self.motor_stuck = false;
         self.senses.knowledge = None;

@@ -93,8 +93,9 @@ fn mind(scenario: &Scenario, id: RobotId, group: usize, kind: &Kind, at: Time) -
     let random = stream(scenario.seed, Stream::Program, &key);
     let bounds = &scenario.fleet.groups[group].clock;
     let mut draw = stream(scenario.seed, Stream::Clock, &key);
+    let offset = Duration::from_seconds_f64(draw.between(0.0, bounds.offset.seconds()));
     let clock = Clock {
-        offset: Duration::from_seconds_f64(draw.between(0.0, bounds.offset.seconds())),
+        offset: i64::try_from(offset.0).unwrap_or(i64::MAX),
         rate: 1.0 + draw.between(-bounds.drift_ppm, bounds.drift_ppm) * 1e-6,
     };
     Mind {

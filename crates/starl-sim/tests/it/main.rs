@@ -1,6 +1,7 @@
 //! The tests of `starl-sim`, in one binary so that they link once.
 
 mod broken;
+mod conforms;
 mod engine_bodies;
 mod engine_determinism;
 mod engine_faults;

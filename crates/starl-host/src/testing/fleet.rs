@@ -1,0 +1,285 @@
+//! The fleet of the test host, and its virtual time.
+
+use super::desk::Desk;
+use super::unit::Unit;
+use super::wire::{Mail, Wire};
+use crate::{Happening, Node, PlanJob, Snapshot, Workspace};
+use alloc::collections::{BTreeMap, VecDeque};
+use alloc::vec;
+use alloc::vec::Vec;
+use starl_core::event::{Fault, Name};
+use starl_core::motion::{Obstacles, Path};
+use starl_core::{Agent, Duration, Event, Input, Point, Random, RobotId, Sensors, Time, WayPoint};
+
+/// Robots in virtual time. A clone goes on exactly as the original would.
+#[derive(Clone)]
+pub struct Fleet {
+    /// What time it is.
+    pub now: Time,
+    /// What the network does.
+    pub wire: Wire,
+    /// The robots, by number.
+    pub robots: Vec<Unit>,
+    /// The application's way-points.
+    pub way_points: Vec<WayPoint>,
+    /// The names of the things, by number.
+    pub thing_names: Vec<Name>,
+    /// The obstacles that all robots know.
+    pub obstacles: Obstacles,
+    /// All that has happened: when, on which robot, and what.
+    pub records: Vec<(Time, RobotId, Event)>,
+    /// How often robots hear where they are, from their start on; when they arrive, where none is given.
+    pub positioning: Option<Duration>,
+    /// How long it takes to find a path, which is the straight line. At 0 a robot has it before anything
+    /// else happens.
+    pub planning: Duration,
+    /// Decides what the network does.
+    pub random: Random,
+    fleet: Vec<RobotId>,
+    mail: Mail,
+    plans: BTreeMap<(Time, usize, u32), Path>,
+    workspace: Workspace,
+}
+
+/// What happens next; of what happens at one moment, what is less happens first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Due {
+    Start(usize),
+    Plan,
+    Location(usize),
+    Datagram,
+    Timeout(usize),
+}
+
+impl Fleet {
+    /// A fleet without robots.
+    pub fn new(seed: u64, wire: Wire) -> Fleet {
+        Fleet {
+            now: Time::ZERO,
+            wire,
+            robots: Vec::new(),
+            way_points: Vec::new(),
+            thing_names: Vec::new(),
+            obstacles: [].into(),
+            records: Vec::new(),
+            positioning: None,
+            planning: Duration::ZERO,
+            random: Random::keyed(seed, &[0]),
+            fleet: Vec::new(),
+            mail: Mail::default(),
+            plans: BTreeMap::new(),
+            workspace: Workspace::default(),
+        }
+    }
+
+    /// A robot joins the fleet; its number is that of its place. It starts when time goes on, or by
+    /// [`Fleet::start`].
+    pub fn add(&mut self, unit: Unit) -> usize {
+        let robot = self.robots.len();
+        assert_eq!(unit.node.id().index(), robot, "robots join in order");
+        self.fleet.push(unit.node.id());
+        self.robots.push(unit);
+        robot
+    }
+
+    /// Starts a robot now.
+    pub fn start(&mut self, robot: usize) {
+        self.robots[robot].next_location = self.now;
+        self.locate(robot);
+        self.handle(robot, Happening::Start);
+    }
+
+    /// A robot crashes and stops where it is.
+    pub fn crash(&mut self, robot: usize) {
+        self.record(robot, Event::Fault(Fault::Crash));
+        let here = self.position(robot);
+        self.robots[robot].node.crash();
+        self.robots[robot].travel.place(self.now, here);
+    }
+
+    /// A robot starts again now, with fresh software.
+    pub fn restart(&mut self, robot: usize, agent: Agent) {
+        self.record(robot, Event::Fault(Fault::Restart));
+        self.robots[robot].node.restart(self.now, agent);
+        self.start(robot);
+    }
+
+    /// Overwrites the state of a robot's program.
+    pub fn corrupt(&mut self, robot: usize, random: &mut Random) {
+        self.record(robot, Event::Fault(Fault::CorruptState));
+        self.call(robot, |node, now, _, desk| node.corrupt(now, random, desk));
+    }
+
+    /// A robot stands somewhere from now on, and hears of it.
+    pub fn place(&mut self, robot: usize, position: Point) {
+        self.robots[robot].travel.place(self.now, position);
+        self.locate(robot);
+        self.handle(robot, Happening::Located);
+    }
+
+    /// Where a robot is.
+    pub fn position(&self, robot: usize) -> Point {
+        self.robots[robot].travel.position(self.now)
+    }
+
+    /// Hands an input to a robot now.
+    pub fn input(&mut self, robot: usize, input: &Input) {
+        self.handle(robot, Happening::Input(input.clone()));
+    }
+
+    /// Lets something happen to a robot now.
+    pub fn handle(&mut self, robot: usize, happening: Happening) {
+        if self.positioning.is_none() && self.robots[robot].travel.is_under_way() {
+            self.locate(robot);
+        }
+        let mut happenings = VecDeque::from([happening]);
+        while let Some(happening) = happenings.pop_front() {
+            let jobs = self.call(robot, |node, now, snapshot, desk| {
+                node.handle(now, happening, snapshot, desk);
+            });
+            for PlanJob { job, request, .. } in jobs {
+                let path = vec![request.target];
+                if self.planning.is_zero() {
+                    let path = Some(path);
+                    happenings.push_back(Happening::Planned { job, path });
+                } else {
+                    let key = (self.now + self.planning, robot, job);
+                    self.plans.insert(key, path);
+                }
+            }
+        }
+    }
+
+    /// Time goes on by this span; what happens at its end is part of it.
+    pub fn run_for(&mut self, span: Duration) {
+        let end = self.now + span;
+        self.advance(end + Duration(1));
+        self.now = end;
+    }
+
+    /// Time goes on until `end`; what happens then is not part of it.
+    pub fn run_before(&mut self, end: Time) {
+        self.advance(end);
+        self.now = self.now.max(end);
+    }
+
+    /// When something happens next; [`Time::NEVER`] if nothing does.
+    pub fn next_moment(&self) -> Time {
+        self.next().0
+    }
+
+    /// The host does nothing for a while: what is due is late.
+    pub fn stall(&mut self, span: Duration) {
+        self.now += span;
+    }
+
+    fn advance(&mut self, end: Time) {
+        loop {
+            let (at, due) = self.next();
+            if at >= end {
+                return;
+            }
+            self.now = self.now.max(at);
+            self.happen(due);
+        }
+    }
+
+    /// What is due next, and when.
+    fn next(&self) -> (Time, Due) {
+        let plan = self.plans.first_key_value();
+        let plan = plan.map_or(Time::NEVER, |((at, ..), _)| *at);
+        let mut next = (plan, Due::Plan).min((self.mail.next(), Due::Datagram));
+        for (robot, unit) in self.robots.iter().enumerate() {
+            let condition = unit.node.condition();
+            let call = unit.node.next_timeout();
+            let call = match condition.started {
+                true => (call, Due::Timeout(robot)),
+                false => (call, Due::Start(robot)),
+            };
+            let location = match self.positioning {
+                Some(_) if condition.started => unit.next_location,
+                Some(_) => Time::NEVER,
+                None => unit.travel.arrival(),
+            };
+            next = next.min(call).min((location, Due::Location(robot)));
+        }
+        next
+    }
+
+    fn happen(&mut self, due: Due) {
+        match due {
+            Due::Start(robot) => self.start(robot),
+            Due::Plan => {
+                if let Some(((_, robot, job), path)) = self.plans.pop_first() {
+                    let path = Some(path);
+                    self.handle(robot, Happening::Planned { job, path });
+                }
+            }
+            Due::Location(robot) => {
+                let unit = &mut self.robots[robot];
+                match self.positioning {
+                    Some(period) => unit.next_location += period,
+                    None => unit.travel.arrive(self.now),
+                }
+                self.locate(robot);
+                self.handle(robot, Happening::Located);
+            }
+            Due::Datagram => {
+                if let Some((to, datagram)) = self.mail.take() {
+                    let (sequence, message) = (datagram.sequence, datagram.message);
+                    self.handle(to.index(), Happening::Datagram { sequence, message });
+                }
+            }
+            Due::Timeout(robot) => self.handle(robot, Happening::Timeout),
+        }
+    }
+
+    fn record(&mut self, robot: usize, event: Event) {
+        self.records.push((self.now, self.fleet[robot], event));
+    }
+
+    /// The positioning system tells a robot that is up where it is.
+    fn locate(&mut self, robot: usize) {
+        let unit = &self.robots[robot];
+        if !unit.node.condition().down {
+            let estimate = unit.estimate(self.now);
+            self.call(robot, |node, now, _, desk| node.locate(now, estimate, desk));
+        }
+    }
+
+    /// Calls the node of a robot; gives the paths that it wants.
+    fn call(
+        &mut self,
+        robot: usize,
+        call: impl FnOnce(&mut Node, Time, &Snapshot<'_>, &mut Desk<'_>),
+    ) -> Vec<PlanJob> {
+        let unit = &mut self.robots[robot];
+        let snapshot = Snapshot {
+            hardware: &unit.hardware,
+            sensors: Sensors {
+                bumper: unit.bumper,
+                proximity: &unit.rays,
+                detections: &unit.detections,
+                holding: unit.holding,
+                thing_names: &self.thing_names,
+            },
+            fleet: &self.fleet,
+            way_points: &self.way_points,
+            obstacles: &self.obstacles,
+        };
+        let mut desk = Desk {
+            robot: self.fleet[robot],
+            fleet: &self.fleet,
+            wire: &self.wire,
+            mail: &mut self.mail,
+            random: &mut self.random,
+            travel: &mut unit.travel,
+            holding: &mut unit.holding,
+            plans: Vec::new(),
+            records: &mut self.records,
+            workspace: &mut self.workspace,
+        };
+        call(&mut unit.node, self.now, &snapshot, &mut desk);
+        desk.plans
+    }
+}
