@@ -185,7 +185,7 @@ impl RobotReport {
             way_points_reached: simulation.way_points(robot),
             clock: ClockReport {
                 now: clock.read(simulation.now()).seconds(),
-                offset: clock.offset.seconds(),
+                offset: clock.offset as f64 / 1e9,
                 rate: clock.rate,
             },
             next_activation: node.runs().then(|| node.next_activation().seconds()),

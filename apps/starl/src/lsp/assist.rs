@@ -141,8 +141,7 @@ fn kind(item: &Completion) -> CompletionItemKind {
             | Symbol::Binding(_)
             | Symbol::Local(_)
             | Symbol::Argument(..)
-            | Symbol::Property(_)
-            | Symbol::Input(_) => CompletionItemKind::VARIABLE,
+            | Symbol::Property(_) => CompletionItemKind::VARIABLE,
         },
     }
 }

@@ -57,7 +57,10 @@ pub enum Observed<'a> {
 }
 
 /// [`Observed`] as it is encoded.
-#[expect(clippy::large_enum_variant, reason = "one at a time is made, on the stack")]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "one at a time is made, on the stack"
+)]
 #[derive(Serialize, Deserialize)]
 enum Entry<'a> {
     Started {
