@@ -78,7 +78,7 @@ test("poses are those of the robots, also when memory has grown", async () => {
 test("what is wrong with files has a place", async () => {
   const starl = await load(module);
   assert.deepEqual(starl.check({ "counter.starl": COUNTER }), []);
-  const broken = { "counter.starl": COUNTER.replace("count + 1", "cound + 1") };
+  const broken = { "counter.starl": COUNTER.replace("count + 1", "tally + 1") };
   const [found] = starl.check(broken);
   assert.equal(found.file, "counter.starl");
   assert.equal(found.line, 11);

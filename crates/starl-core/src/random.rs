@@ -10,7 +10,33 @@ use serde::{Deserialize, Serialize};
 /// PCG XSH RR 64/32 (O'Neill 2014, "PCG: A Family of Simple Fast Space-Efficient Statistically Good
 /// Algorithms for Random Number Generation"). A stream that was stored goes on where it was.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Random(Pcg32);
+#[serde(into = "Place", from = "Place")]
+pub struct Random {
+    generator: Pcg32,
+    place: Place,
+}
+
+/// Where a stream is: enough to go on from there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct Place {
+    seed: u64,
+    /// Words of 32 bits that were drawn.
+    drawn: u64,
+}
+
+impl From<Random> for Place {
+    fn from(random: Random) -> Place {
+        random.place
+    }
+}
+
+impl From<Place> for Random {
+    fn from(place: Place) -> Random {
+        let mut generator = Pcg32::seed_from_u64(place.seed);
+        generator.advance(place.drawn);
+        Random { generator, place }
+    }
+}
 
 impl Random {
     /// The stream of `seed` for the purpose that `key` names, independent of streams of other keys.
@@ -18,12 +44,14 @@ impl Random {
     /// A key is a few numbers, e.g. `[purpose, robot]` or `[purpose, sender, receiver, sequence]`:
     /// a draw that is keyed by what it decides does not depend on the order of other draws.
     pub fn keyed(seed: u64, key: &[u64]) -> Random {
-        Random(Pcg32::seed_from_u64(hash_key(seed, key)))
+        let (seed, drawn) = (hash_key(seed, key), 0);
+        Random::from(Place { seed, drawn })
     }
 
     /// The next 32 random bits.
     pub fn bits(&mut self) -> u32 {
-        self.0.next_u32()
+        self.place.drawn = self.place.drawn.wrapping_add(1);
+        self.generator.next_u32()
     }
 
     /// The next 128 bits, which stay to be drawn: they tell streams apart, since those that begin alike
@@ -35,7 +63,8 @@ impl Random {
 
     /// Uniform in [0, 1).
     pub fn uniform(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+        self.place.drawn = self.place.drawn.wrapping_add(2);
+        (self.generator.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
     }
 
     /// Uniform in [low, high).
@@ -45,7 +74,7 @@ impl Random {
 
     /// Uniform in 0..bound; 0 if `bound` is 0.
     pub fn below(&mut self, bound: u32) -> u32 {
-        ((u64::from(self.0.next_u32()) * u64::from(bound)) >> 32) as u32
+        ((u64::from(self.bits()) * u64::from(bound)) >> 32) as u32
     }
 
     /// True with the given probability; at 0 and below never, at 1 and above always.

@@ -32,7 +32,7 @@ fn files_find_each_other_by_relative_paths() {
 
 #[test]
 fn a_problem_of_a_program_has_a_place_and_a_code() {
-    let broken = PROGRAM.replace("tools.twice(count) + 1", "cound + 1");
+    let broken = PROGRAM.replace("tools.twice(count) + 1", "tally + 1");
     let found = check(files(&broken, SCENARIO));
     assert_eq!(found.len(), 1, "{found:?}");
     let found = &found[0];

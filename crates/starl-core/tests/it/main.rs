@@ -5,5 +5,6 @@ mod geometry_index;
 mod geometry_obstacle;
 mod geometry_path;
 mod geometry_polygon;
+mod random_streams;
 mod timers;
 mod typed_events;
