@@ -80,7 +80,7 @@ fn the_index_of_the_file_agrees_with_its_content() {
     assert_eq!(statistics.message_end_time, u64::MAX);
     assert_eq!(
         (statistics.metadata_count, statistics.attachment_count),
-        (1, 3)
+        (1, 4)
     );
     let names: Vec<&str> = summary
         .attachment_indexes

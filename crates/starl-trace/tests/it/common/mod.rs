@@ -210,6 +210,13 @@ fn every_event() -> Vec<Event> {
         property: "no_collision".into(),
         text: "0 met 1".into(),
     });
+    events.push(Event::Took(2));
+    events.push(Event::PutDown {
+        thing: 2,
+        position: starl_core::Point::new(0.1, 0.2, 0.3),
+    });
+    let heal = starl_core::Intervention::Fault(starl_core::FaultKind::Heal);
+    events.push(Event::Intervention(Box::new(heal)));
     events
 }
 
