@@ -83,7 +83,9 @@ export class Starl {
     return this.#guarded((exports) => {
       const count = exports.poses(simulation);
       if (count < 0) throw new StarlError(`there is no simulation ${simulation}; it may have been closed`);
-      return new Float64Array(exports.memory.buffer, exports.poses_at(), count);
+      // Asked first: the call may let the memory grow, which detaches its buffer.
+      const place = exports.poses_at();
+      return new Float64Array(exports.memory.buffer, place, count);
     });
   }
 

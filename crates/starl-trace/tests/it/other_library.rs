@@ -92,6 +92,7 @@ fn the_index_of_the_file_agrees_with_its_content() {
         [
             "starl/scenario.toml",
             "starl/files/world.wpt",
+            "starl/setting.json",
             "starl/world.json"
         ]
     );
