@@ -65,7 +65,7 @@ test("poses are those of the robots, also when memory has grown", async () => {
   const before = simulation.poses().slice();
   const snapshots = Array.from({ length: 200 }, () => simulation.snapshot());
   assert.equal(snapshots.length, 200);
-  const poses = simulation.poses();
+  const poses = simulation.poses().slice();
   assert.deepEqual(poses, before);
   const fleet = simulation.fleet();
   assert.equal(poses.length, fleet.length * POSE_NUMBERS);
