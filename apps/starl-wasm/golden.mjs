@@ -47,7 +47,7 @@ function* visit(example) {
   const about = { simulation: 0 };
   const at = { x: 1.5, y: 1.0, z: 0 };
   const pose = { position: { x: -4, y: -4, z: 0 }, yaw: 1, pitch: 0, roll: 0 };
-  const circle = { shape: { Circle: { center: { x: 0.5, y: 0.5, z: 0 }, radius: 0.2, height: null } } };
+  const circle = { Circle: { center: { x: 0.5, y: 0.5, z: 0 }, radius: 0.2, height: null } };
   const look = () => [{ robot: { ...about, robot: 0 } }, { report: about }, { world: about }, { fleet: about }];
   const apply = (intervention, time) => ({ apply: { ...about, at: time, intervention } });
   yield { open: { options: { scenario: example, seed: "21", robots: "create=3" } } };
