@@ -5,6 +5,7 @@ mod conforms;
 mod elections_are_safe;
 mod permission_mutex_is_safe;
 mod registrations_agree;
+mod steps_in_files;
 mod support;
 mod ties_that_nobody_breaks_are_caught;
 mod what_can_go_wrong_is_told_apart;
