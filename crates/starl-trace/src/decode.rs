@@ -298,12 +298,14 @@ fn intervention(text: &[u8]) -> Decoded {
     #[derive(Deserialize)]
     struct Message {
         robot: Option<RobotId>,
-        intervention: Box<Intervention>,
+        intervention: String,
     }
     let Message {
         robot,
         intervention,
     } = parse(text)?;
+    let intervention: Box<Intervention> =
+        serde_json::from_str(&intervention).map_err(|error| error.to_string())?;
     if !intervention.is_valid() {
         return Err("the intervention has a place or shape that no world can have".into());
     }

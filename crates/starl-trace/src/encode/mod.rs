@@ -102,7 +102,7 @@ pub(crate) fn event(json: &mut Json, robot: Option<RobotId>, event: &Event) {
             // Interventions are rare, so that their JSON need not be made in place.
             let text = serde_json::to_string(what);
             let text = text.unwrap_or_else(|error| unreachable!("plain data: {error}"));
-            json.key("intervention").raw(&text);
+            json.key("intervention").string(&text);
         }
         Event::Violated { property, text } => {
             json.key("property").string(property);

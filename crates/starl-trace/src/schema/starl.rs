@@ -163,7 +163,7 @@ fn own_members(topic: Topic) -> Vec<Member<'static>> {
         ],
         Topic::Intervention => vec![always(
             "intervention",
-            described("object", "the kind of intervention, with its details"),
+            "{\"type\":\"string\",\"contentMediaType\":\"application/json\",\"description\":\"the kind of intervention, with its details\"}",
         )],
         Topic::Summary => vec![
             always("outcome", string("how the run ended")),

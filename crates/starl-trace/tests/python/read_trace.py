@@ -30,6 +30,8 @@ RECORDS = {
     "discovered": "Discovered",
     "status": "Status",
     "violation": "Violation",
+    "thing": "Thing",
+    "intervention": "Intervention",
     "summary": "Summary",
 }
 VIEWS = {
@@ -118,6 +120,8 @@ def check(path):
             counts[kind] += 1
             if "robot" in content and content["robot"] not in robots:
                 yield f"{where}: robot {content['robot']} is not in the fleet"
+            if kind == "intervention":
+                json.loads(content["intervention"])
             if kind == "sent":
                 base64.b64decode(content["payload"], validate=True)
                 sent.add((content["robot"], content["sequence"]))
