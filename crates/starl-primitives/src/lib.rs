@@ -2,8 +2,8 @@
 //!
 //! Communication: [`Broadcast`], [`Geocast`] and [`Unicast`], all built on one acknowledged protocol,
 //! [`reliable::Reliable`]; [`SharedMemory`] and [`Register`]. Motion: [`ReachAvoid`]. Agreement: [`Mutex`],
-//! [`Registration`], [`LeaderElection`], [`Barrier`]. A program keeps primitives as fields, shows them in
-//! [`starl_core::Program::primitives`], calls their methods with its [`starl_core::Robot`] and reads their
+//! [`Registration`], [`LeaderElection`], [`Barrier`]. A program keeps primitives as fields, derives
+//! [`starl_core::Primitives`], calls their methods with its [`starl_core::Robot`] and reads their
 //! flags. No primitive waits for ever on a robot that is gone.
 
 #![no_std]
