@@ -96,6 +96,7 @@ fn tell(program: &mut dyn Program, robot: &mut Robot<'_>) {
 }
 
 /// Hands what primitives have delivered to the program, and whatever that brings about.
+#[inline]
 fn deliver(program: &mut dyn Program, robot: &mut Robot<'_>) {
     while robot.has_upcalls() {
         for message in mem::take(robot.upcalls()) {

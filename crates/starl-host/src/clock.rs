@@ -24,6 +24,7 @@ impl Default for Clock {
 
 impl Clock {
     /// The time that the clock shows at a moment of the host's.
+    #[inline]
     pub fn read(&self, now: Time) -> Time {
         let elapsed = match self.rate {
             1.0 => now.0,
@@ -33,6 +34,7 @@ impl Clock {
     }
 
     /// How long a span of this clock takes by the host's.
+    #[inline]
     pub fn real(&self, span: Duration) -> Duration {
         if self.rate == 1.0 {
             return span;

@@ -110,11 +110,13 @@ impl Node {
     }
 
     /// The robot's number.
+    #[inline]
     pub fn id(&self) -> RobotId {
         self.id
     }
 
     /// The robot's clock.
+    #[inline]
     pub fn clock(&self) -> Clock {
         self.clock
     }
@@ -126,11 +128,13 @@ impl Node {
     }
 
     /// Whether the robot's software runs.
+    #[inline]
     pub fn condition(&self) -> Condition {
         self.condition
     }
 
     /// Whether the robot is up and its program can go on.
+    #[inline]
     pub fn runs(&self) -> bool {
         !self.condition.down && !self.condition.failed
     }
@@ -146,22 +150,26 @@ impl Node {
     }
 
     /// The latest estimate, in the robot's own time.
+    #[inline]
     pub fn estimate(&self) -> &Estimate {
         &self.estimate
     }
 
     /// The command that the robot's model is to follow until the next call.
+    #[inline]
     pub fn command(&self) -> Command {
         self.command
     }
 
     /// The armed timers.
+    #[inline]
     pub fn timers(&self) -> &Timers {
         &self.timers
     }
 
     /// When the node wants to be called next: with [`Happening::Start`] if it has not started in this life,
     /// else with [`Happening::Timeout`]. [`Time::NEVER`] if the robot is down or its program has failed.
+    #[inline]
     pub fn next_timeout(&self) -> Time {
         if !self.runs() {
             Time::NEVER
@@ -173,6 +181,7 @@ impl Node {
     }
 
     /// When the program is activated next; [`Time::NEVER`] if it does not run.
+    #[inline]
     pub fn next_activation(&self) -> Time {
         if self.runs() {
             self.next_activation
@@ -223,6 +232,7 @@ impl Node {
 
     /// Gives the robot a new estimate of where it is; its time is that of the robot's own clock. The
     /// software hears of it by [`Happening::Located`] or [`Happening::Start`].
+    #[inline]
     pub fn locate(&mut self, at: Time, estimate: Estimate, outlet: &mut impl Outlet) {
         self.estimate = Estimate {
             at: self.clock.read(at),
@@ -233,6 +243,7 @@ impl Node {
 
     /// Lets the robot's software take part in what happens at `at`. Calls come in the order of their times; of
     /// those at one time a start comes first, then plans, locations, datagrams, timers and the activation.
+    #[inline(always)]
     pub fn handle(
         &mut self,
         at: Time,
@@ -250,7 +261,9 @@ impl Node {
             }
             Happening::Located => {
                 self.feed(at, &Input::Estimate, snapshot, outlet);
-                self.steer(at, snapshot, outlet);
+                if self.pilot.is_some() {
+                    self.steer(at, snapshot, outlet);
+                }
             }
             Happening::Datagram { sequence, message } => {
                 self.receive(at, sequence, message, snapshot, outlet);
@@ -329,16 +342,22 @@ impl Node {
             way_points: snapshot.way_points,
             obstacles: snapshot.obstacles,
         };
-        let mut effects = mem::take(&mut outlet.workspace().effects);
-        self.agent.handle(input, &view, &mut effects);
+        let effects = &mut outlet.workspace().effects;
+        self.agent.handle(input, &view, effects);
+        // Most inputs ask for nothing, so that no list is moved for them.
+        let mut list = match effects.list.is_empty() {
+            true => Vec::new(),
+            false => mem::take(&mut effects.list),
+        };
         let observed = Observed::Input {
             input,
             view: &view,
-            effects: &effects.list,
+            effects: &list,
         };
         outlet.observe(at, observed);
-        let mut list = mem::take(&mut effects.list);
-        outlet.workspace().effects = effects;
+        if list.is_empty() {
+            return;
+        }
         for effect in list.drain(..) {
             self.carry_out(at, effect, snapshot, outlet);
         }

@@ -26,11 +26,13 @@ impl Timers {
     }
 
     /// When the next one is due; [`Time::NEVER`] if none is armed.
+    #[inline]
     pub fn next(&self) -> Time {
         self.0.last().map_or(Time::NEVER, |&(at, _)| at)
     }
 
     /// Takes the one that is due next: of those due at one moment, the one with the smallest key.
+    #[inline]
     pub fn take(&mut self) -> Option<TimerKey> {
         self.0.pop().map(|(_, key)| key)
     }

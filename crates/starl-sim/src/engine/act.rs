@@ -1,10 +1,10 @@
 //! One robot's turn in a step: its node is called for all that happens to it, in the order of time.
 
-use super::inbox::Delivery;
+use super::inbox::{Delivery, Transmission};
 use super::mind::{Frozen, Senses};
 use super::outlet::Desk;
 use super::sense::Readings;
-use super::shared::Window;
+use super::shared::{Kind, Shared, Window};
 use super::{discover, position};
 use starl_core::{Event, Input, Message, Payload, Sensors, Time};
 use starl_host::{Happening, Node, Outlet, Snapshot};
@@ -43,8 +43,10 @@ impl Turn<'_> {
             self.locate(from);
             self.handle(from, Happening::Start);
         }
-        for (job, path) in std::mem::take(&mut self.desk.account.plans) {
-            self.handle(from, Happening::Planned { job, path });
+        if !self.desk.account.plans.is_empty() {
+            for (job, path) in std::mem::take(&mut self.desk.account.plans) {
+                self.handle(from, Happening::Planned { job, path });
+            }
         }
         if self.node.next_activation() < self.window.to {
             self.sense();
@@ -54,39 +56,50 @@ impl Turn<'_> {
 
     /// What happens, by time; at equal times estimates come before messages, then orders, then what the
     /// node waits for.
-    fn take_in_order(&mut self, arrivals: &[Delivery]) {
+    fn take_in_order(&mut self, mut arrivals: &[Delivery]) {
         let is_down = self.node.condition().down;
-        let mut arrivals = arrivals.iter().peekable();
         loop {
             let estimate = if is_down {
                 Time::NEVER
             } else {
                 *self.next_estimate
             };
-            let message = arrivals.peek().map_or(Time::NEVER, |delivery| delivery.at);
-            let order = self.desk.account.orders.first();
-            let order = order.map_or(Time::NEVER, |order| order.0);
-            let at = estimate
-                .min(message)
-                .min(order)
-                .min(self.node.next_timeout());
-            if at >= self.window.to {
+            let end = estimate.min(self.window.to);
+            if due(self.node, &self.desk, arrivals).min() < end {
+                self.take_until(end, &mut arrivals);
+            }
+            if estimate >= self.window.to {
                 return;
             }
-            if at == estimate {
-                *self.next_estimate += self.desk.shared.scenario.positioning.period;
-                self.locate(at);
-                self.handle(at, Happening::Located);
-            } else if at == message {
-                if let Some(delivery) = arrivals.next() {
-                    self.receive(delivery);
-                }
-            } else if at == order {
-                let (_, order) = self.desk.account.orders.remove(0);
-                self.handle(at, Happening::Input(Input::Order(order)));
-            } else {
-                self.handle(at, Happening::Timeout);
+            *self.next_estimate += self.desk.shared.scenario.positioning.period;
+            self.locate(estimate);
+            self.handle(estimate, Happening::Located);
+        }
+    }
+
+    /// What happens before `end`, while the robot senses nothing new.
+    fn take_until(&mut self, end: Time, arrivals: &mut &[Delivery]) {
+        let readings = self.sensed.then_some(&*self.readings);
+        let snapshot = snapshot(self.desk.shared, self.desk.kind, self.senses, readings);
+        loop {
+            let due = due(self.node, &self.desk, arrivals);
+            let at = due.min();
+            if at >= end {
+                return;
             }
+            let happening = if at == due.message {
+                let Some((delivery, rest)) = arrivals.split_first() else {
+                    return;
+                };
+                *arrivals = rest;
+                datagram(self.desk.shared.inboxes.transmission(delivery))
+            } else if at == due.order {
+                let (_, order) = self.desk.account.orders.remove(0);
+                Happening::Input(Input::Order(order))
+            } else {
+                Happening::Timeout
+            };
+            self.node.handle(at, happening, &snapshot, &mut self.desk);
         }
     }
 
@@ -140,42 +153,72 @@ impl Turn<'_> {
         }
     }
 
-    fn receive(&mut self, delivery: &Delivery) {
-        let transmission = self.desk.shared.inboxes.transmission(delivery);
-        let message = Message {
+    fn handle(&mut self, at: Time, happening: Happening) {
+        let Turn { node, desk, .. } = self;
+        let readings = self.sensed.then_some(&*self.readings);
+        let snapshot = snapshot(desk.shared, desk.kind, self.senses, readings);
+        node.handle(at, happening, &snapshot, desk);
+    }
+}
+
+/// When the next of each is due.
+struct Due {
+    message: Time,
+    order: Time,
+    timeout: Time,
+}
+
+impl Due {
+    fn min(&self) -> Time {
+        self.message.min(self.order).min(self.timeout)
+    }
+}
+
+#[inline]
+fn due(node: &Node, desk: &Desk<'_>, arrivals: &[Delivery]) -> Due {
+    let order = desk.account.orders.first();
+    Due {
+        message: arrivals.first().map_or(Time::NEVER, |delivery| delivery.at),
+        order: order.map_or(Time::NEVER, |order| order.0),
+        timeout: node.next_timeout(),
+    }
+}
+
+fn datagram(transmission: &Transmission) -> Happening {
+    Happening::Datagram {
+        sequence: transmission.sequence,
+        message: Message {
             from: transmission.from,
             port: transmission.port,
             payload: Payload::from_slice(&transmission.payload),
-        };
-        let sequence = transmission.sequence;
-        self.handle(delivery.at, Happening::Datagram { sequence, message });
+        },
     }
+}
 
-    fn handle(&mut self, at: Time, happening: Happening) {
-        let Desk { shared, kind, .. } = self.desk;
-        let mut sensors = Sensors {
-            bumper: match &self.senses.frozen {
+/// What a robot knows at the moment; it has no readings but its bumper's where none were taken.
+fn snapshot<'a>(
+    shared: &'a Shared,
+    kind: &'a Kind,
+    senses: &'a Senses,
+    readings: Option<&'a Readings>,
+) -> Snapshot<'a> {
+    Snapshot {
+        hardware: &kind.hardware,
+        sensors: Sensors {
+            bumper: match &senses.frozen {
                 Some(frozen) => frozen.bumper,
-                None => self.senses.contact.filter(|_| kind.sensors.bumper),
+                None => senses.contact.filter(|_| kind.sensors.bumper),
             },
-            holding: self.senses.holding,
+            proximity: readings.map_or(&[], |readings| &readings.proximity),
+            detections: readings.map_or(&[], |readings| &readings.detections),
+            holding: senses.holding,
             thing_names: &shared.things.names,
-            ..Sensors::default()
-        };
-        if self.sensed {
-            sensors.proximity = &self.readings.proximity;
-            sensors.detections = &self.readings.detections;
-        }
-        let snapshot = Snapshot {
-            hardware: &kind.hardware,
-            sensors,
-            fleet: &shared.fleet,
-            way_points: &shared.way_points,
-            obstacles: match &self.senses.knowledge {
-                Some(knowledge) => &knowledge.obstacles,
-                None => &shared.known,
-            },
-        };
-        self.node.handle(at, happening, &snapshot, &mut self.desk);
+        },
+        fleet: &shared.fleet,
+        way_points: &shared.way_points,
+        obstacles: match &senses.knowledge {
+            Some(knowledge) => &knowledge.obstacles,
+            None => &shared.known,
+        },
     }
 }

@@ -13,6 +13,7 @@ use starl_core::{Point, RobotId};
 
 /// What a robot's predicted motion meets, the deepest overlap first. No body moves farther than
 /// `reach` in the step.
+#[inline]
 pub fn first_hit(shared: &Shared, robot: RobotId, next: &[Point], reach: f64) -> Option<Hit> {
     let body = &shared.bodies[robot.index()];
     let (now, then) = (body.position, next[robot.index()]);

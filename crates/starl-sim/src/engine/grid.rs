@@ -129,6 +129,7 @@ impl Grid {
 
     /// Visits at least the robots whose centres are within `reach` of `center` in the plane; some
     /// farther ones may be among them.
+    #[inline]
     pub fn for_each_near(&self, center: Point, reach: f64, mut visit: impl FnMut(&Entry)) {
         if self.entries.is_empty() {
             return;
@@ -143,6 +144,7 @@ impl Grid {
     }
 
     /// Visits the robots whose centres are within `reach` of `center` in the plane.
+    #[inline]
     pub fn for_each_within(&self, center: Point, reach: f64, mut visit: impl FnMut(&Entry)) {
         let reach_squared = reach * reach;
         self.for_each_near(center, reach, |entry| {

@@ -33,6 +33,7 @@ impl Outlet for Desk<'_> {
         self.workspace
     }
 
+    #[inline(always)]
     fn record(&mut self, at: Time, event: Event) {
         if let Event::Primitive {
             event: PrimitiveEvent::ReachAvoid(ReachAvoidEvent::Done { .. }),

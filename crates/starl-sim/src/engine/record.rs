@@ -61,6 +61,7 @@ pub struct Log {
 
 impl Log {
     /// Takes note of an event of a robot whose digest is given.
+    #[inline(always)]
     pub fn record(&mut self, digest: &mut Digest, robot: RobotId, at: Time, event: Event) {
         digest.event(at, &event);
         self.tally.count(&event);
