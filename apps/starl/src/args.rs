@@ -157,6 +157,9 @@ pub struct TestArguments {
     /// commas [default: all but corruption]
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     pub profile: Vec<String>,
+    /// Take a run that does not reach its goal for a failure also where robots crash or state is corrupted
+    #[arg(long)]
+    pub demand_goal: bool,
     /// Threads to run on [default: all cores]
     #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
     pub threads: Option<u32>,

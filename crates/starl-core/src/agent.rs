@@ -1,8 +1,9 @@
 //! A robot's software: its program with its primitives, as one state machine for hosts to run.
 
 use crate::effect::Effects;
-use crate::{Input, Port, Primitive, Program, Random, Robot, View};
+use crate::{Input, Port, Primitive, Program, Random, Robot, Saved, View};
 use alloc::boxed::Box;
+use alloc::sync::Arc;
 use core::{fmt, mem};
 
 /// The program of one robot and its random stream. Every host runs this same machine.
@@ -10,17 +11,33 @@ use core::{fmt, mem};
 pub struct Agent {
     program: Box<dyn Program>,
     random: Random,
+    saved: Option<Arc<Saved>>,
 }
 
 impl Agent {
     /// A robot's software, not yet started.
     pub fn new(program: Box<dyn Program>, random: Random) -> Agent {
-        Agent { program, random }
+        Agent {
+            program,
+            random,
+            saved: None,
+        }
+    }
+
+    /// The same on a robot with storage, and what it holds.
+    pub fn with_saved(self, saved: Option<Arc<Saved>>) -> Agent {
+        Agent { saved, ..self }
+    }
+
+    /// What storage held when this software was started; none on a robot without.
+    pub fn saved(&self) -> Option<&Saved> {
+        self.saved.as_deref()
     }
 
     /// Takes one input; what the robot asks for is appended to `effects`.
     pub fn handle(&mut self, input: &Input, view: &View<'_>, effects: &mut Effects) {
-        let mut robot = Robot::new(view, effects, &mut self.random);
+        let mut robot =
+            Robot::new(view, effects, &mut self.random).with_saved(self.saved.as_deref());
         let program = &mut *self.program;
         let owner = match input {
             Input::Message(message) => Some(message.port),
@@ -47,6 +64,10 @@ impl Agent {
             _ => {}
         }
         deliver(program, &mut robot);
+        if robot.has_storage() {
+            program.primitives(&mut |primitive| primitive.save(&mut robot));
+            program.save(&mut robot);
+        }
     }
 
     /// Overwrites the program's state at random: see [`Program::corrupt`].
@@ -74,10 +95,8 @@ impl Agent {
     ) -> T {
         let mut effects = Effects::default();
         let mut random = self.random.clone();
-        run(
-            &*self.program,
-            &mut Robot::new(view, &mut effects, &mut random),
-        )
+        let mut robot = Robot::new(view, &mut effects, &mut random).with_saved(self.saved());
+        run(&*self.program, &mut robot)
     }
 
     /// Shows the program, e.g. to a test.

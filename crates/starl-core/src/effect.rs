@@ -1,7 +1,7 @@
 //! What a state machine asks of its host.
 
 use crate::event::{Event, Name};
-use crate::{MotionRequest, Payload, Port, RobotId, TimerKey, time::Duration};
+use crate::{MotionRequest, Payload, Port, RobotId, Save, TimerKey, time::Duration};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::any::Any;
@@ -47,6 +47,8 @@ pub enum Effect {
     Take(u32),
     /// Put down what the robot holds.
     PutDown,
+    /// Write a value to storage. All effects of this input and of later ones take place only after that.
+    Save(Save),
     /// The program has reached its goal. It still answers messages.
     Finish,
     /// The program cannot go on; the text says why. It is not called again.

@@ -28,6 +28,7 @@ pub mod program;
 pub mod random;
 pub mod robot;
 pub mod sensor;
+pub mod storage;
 pub mod time;
 pub mod timer;
 
@@ -46,5 +47,6 @@ pub use program::{Program, Status};
 pub use random::Random;
 pub use robot::{Robot, View, WayPoint};
 pub use sensor::Sensors;
+pub use storage::{Save, Saved};
 pub use time::{Duration, Time};
 pub use timer::{Timer, TimerKey};

@@ -48,4 +48,10 @@ pub trait Primitive {
 
     /// Takes an input and pushes effects through the handle.
     fn handle(&mut self, robot: &mut Robot<'_>, input: &Input);
+
+    /// Saves what is to outlast a crash ([`Robot::save`]), if it has changed. Called after each input on robots
+    /// with storage, and on no others. What was saved is there at [`Input::Start`].
+    fn save(&mut self, robot: &mut Robot<'_>) {
+        let _ = robot;
+    }
 }

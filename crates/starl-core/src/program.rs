@@ -51,6 +51,12 @@ pub trait Program: Primitives + DynClone + Send + Sync {
         let _ = (robot, order);
     }
 
+    /// Saves what is to outlast a crash ([`Robot::save`] under [`crate::Port::PROGRAM`]), if it has changed. Called
+    /// after each input on robots with storage, and on no others. What was saved is there at [`Program::start`].
+    fn save(&mut self, robot: &mut Robot<'_>) {
+        let _ = robot;
+    }
+
     /// Overwrites the program's variables at random, within their types, as a transient fault would
     /// (self-stabilisation, Dijkstra 1974).
     fn corrupt(&mut self, random: &mut Random) {

@@ -6,7 +6,7 @@ use crate::message::{self, Message, Payload};
 use crate::motion::{Body, Obstacles, PlanRequest};
 use crate::{
     Command, Destination, Duration, Effect, Estimate, Event, Input, MotionRequest, Point, Port,
-    Random, RobotId, Sensors, Time, TimerKey,
+    Random, RobotId, Save, Saved, Sensors, Time, TimerKey,
 };
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -50,6 +50,7 @@ pub struct Robot<'a> {
     view: &'a View<'a>,
     effects: &'a mut Effects,
     random: &'a mut Random,
+    saved: Option<&'a Saved>,
 }
 
 impl<'a> Robot<'a> {
@@ -59,7 +60,13 @@ impl<'a> Robot<'a> {
             view,
             effects,
             random,
+            saved: None,
         }
+    }
+
+    /// The same of a robot whose storage held this when its software started; none if it has no storage.
+    pub fn with_saved(self, saved: Option<&'a Saved>) -> Robot<'a> {
+        Robot { saved, ..self }
     }
 
     /// This robot's number.
@@ -234,6 +241,30 @@ impl<'a> Robot<'a> {
         self.push(Effect::PutDown);
     }
 
+    /// Whether what is saved outlasts a crash.
+    pub fn has_storage(&self) -> bool {
+        self.saved.is_some()
+    }
+
+    /// Saves a value of a primitive or, under [`Port::PROGRAM`], of the program: see the module [`crate::storage`].
+    /// Nothing happens where there is no storage.
+    pub fn save<T: Serialize>(&mut self, port: Port, key: impl Into<Name>, value: &T) {
+        self.save_bytes(port, key.into(), || Some(message::encode(value)));
+    }
+
+    /// [`Robot::save`] of bytes that are made only where there is storage; none takes away what was saved.
+    pub fn save_bytes(&mut self, port: Port, key: Name, value: impl FnOnce() -> Option<Payload>) {
+        if self.has_storage() {
+            let value = value();
+            self.push(Effect::Save(Save { port, key, value }));
+        }
+    }
+
+    /// What storage held when this robot's software started; none if it has no storage.
+    pub fn saved(&self) -> Option<&'a Saved> {
+        self.saved
+    }
+
     /// Says that the program has reached its goal.
     pub fn finish(&mut self) {
         self.push(Effect::Finish);
@@ -265,6 +296,7 @@ impl<'a> Robot<'a> {
             view: self.view,
             effects: &mut effects,
             random: self.random,
+            saved: self.saved,
         })
     }
 

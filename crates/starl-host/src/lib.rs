@@ -15,6 +15,7 @@ pub mod journal;
 pub mod node;
 pub mod outlet;
 pub mod replayer;
+pub mod store;
 #[cfg(feature = "testing")]
 pub mod testing;
 pub mod timers;
@@ -23,6 +24,7 @@ pub use clock::Clock;
 pub use hardware::{Hardware, Snapshot};
 pub use journal::Observed;
 pub use node::{Condition, Happening, Node};
-pub use outlet::{Datagram, Outlet, PlanJob, Workspace};
+pub use outlet::{Datagram, Outlet, PlanJob, StoreJob, Workspace};
 pub use replayer::{Departure, Difference, Replayer};
+pub use store::Store;
 pub use timers::Timers;

@@ -11,8 +11,10 @@ use starl_core::{
     Time, View,
 };
 use starl_motion::Pilot;
+use storing::Waiting;
 
 mod driving;
+mod storing;
 
 /// Timers are never shorter, so that a moment holds only so many of them.
 const SHORTEST_TIMER: Duration = Duration::from_millis(1);
@@ -38,6 +40,10 @@ pub struct Node {
     next_job: u32,
     /// Counts datagrams.
     sequence: u32,
+    /// What waits for storage; none where nothing does.
+    waiting: Option<Box<Waiting>>,
+    /// Counts writes to storage.
+    writes: u32,
 }
 
 /// Whether a robot's software runs, and how far it is.
@@ -81,6 +87,11 @@ pub enum Happening {
         /// Way-points from the robot to the target; none where no path was found.
         path: Option<Path>,
     },
+    /// A [`crate::StoreJob`] is done: what it was to write is on storage for good.
+    Stored {
+        /// Which one. A job of an earlier life is ignored.
+        job: u32,
+    },
     /// The time that [`Node::next_timeout`] gave has come.
     Timeout,
     /// An input that the host chooses itself, for hosts that try out orders: a timer fires early, the
@@ -106,6 +117,8 @@ impl Node {
             plans: Vec::new(),
             next_job: 0,
             sequence: 0,
+            waiting: None,
+            writes: 0,
         }
     }
 
@@ -200,6 +213,7 @@ impl Node {
         self.command = Command::Stop;
         self.timers.clear();
         self.plans.clear();
+        self.waiting = None;
     }
 
     /// A robot that is down comes up again with fresh software, which is to start at `at`.
@@ -225,8 +239,8 @@ impl Node {
     /// Shows the host fresh software before anything is done to it.
     fn show_fresh(&mut self, at: Time, outlet: &mut impl Outlet) {
         if !mem::replace(&mut self.is_observed, true) {
-            let random = self.agent.random();
-            outlet.observe(at, Observed::Started { random });
+            let (random, saved) = (self.agent.random(), self.agent.saved());
+            outlet.observe(at, Observed::Started { random, saved });
         }
     }
 
@@ -242,7 +256,7 @@ impl Node {
     }
 
     /// Lets the robot's software take part in what happens at `at`. Calls come in the order of their times; of
-    /// those at one time a start comes first, then plans, locations, datagrams, timers and the activation.
+    /// those at one time a start comes first, then plans, locations, what was stored, datagrams, timers and the activation.
     #[inline(always)]
     pub fn handle(
         &mut self,
@@ -274,6 +288,7 @@ impl Node {
                     self.feed(at, &Input::Planned { ticket, path }, snapshot, outlet);
                 }
             }
+            Happening::Stored { job } => self.stored(at, job, snapshot, outlet),
             Happening::Timeout => self.time_out(at, snapshot, outlet),
             Happening::Input(input) => {
                 if let Input::Timer(key) = input {
@@ -358,6 +373,9 @@ impl Node {
         if list.is_empty() {
             return;
         }
+        if self.agent.saved().is_some() {
+            self.commit(at, &mut list, outlet);
+        }
         for effect in list.drain(..) {
             self.carry_out(at, effect, snapshot, outlet);
         }
@@ -405,6 +423,8 @@ impl Node {
             Effect::CancelTimer(key) => self.timers.cancel(key),
             Effect::Move(request) => self.request_motion(at, request, snapshot, outlet),
             Effect::Record(event) => outlet.record(at, event),
+            // Storage was asked already, or there is none.
+            Effect::Save(_) => {}
             Effect::Take(thing) => outlet.take(at, thing),
             Effect::PutDown => outlet.put_down(at),
             Effect::Finish => {

@@ -4,7 +4,7 @@ use crate::{Hardware, Observed};
 use alloc::vec::Vec;
 use starl_core::effect::Effects;
 use starl_core::motion::{Path, PlanRequest};
-use starl_core::{Destination, Estimate, Event, Message, MotionRequest, Time};
+use starl_core::{Destination, Estimate, Event, Message, MotionRequest, Save, Time};
 use starl_motion::{Neighbour, planning};
 
 /// A datagram that a robot hands to the network.
@@ -28,6 +28,16 @@ pub struct PlanJob {
     pub request: PlanRequest,
     /// Where the robot is.
     pub estimate: Estimate,
+}
+
+/// A write that a node wants. It is done whole or not at all. The host says that it is on storage for good by
+/// [`crate::Happening::Stored`]; a node asks for one at a time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StoreJob {
+    /// Names the job among all jobs of this node.
+    pub job: u32,
+    /// What is to be written, in this order: see [`starl_core::Saved::apply`].
+    pub saves: Vec<Save>,
 }
 
 /// Planners that are to go round robots see those this near, metres.
@@ -88,6 +98,11 @@ pub trait Outlet {
     /// [`Outlet::plan`].
     fn request_motion(&mut self, at: Time, request: &MotionRequest) {
         let _ = (at, request);
+    }
+
+    /// Writes to the robot's storage. A host whose agents have no storage is never asked.
+    fn store(&mut self, at: Time, job: StoreJob) {
+        let _ = (at, job);
     }
 
     /// Takes hold of a thing within the robot's reach, if there is one of this index and nobody holds it.

@@ -2,6 +2,7 @@
 
 use crate::journal::{Observed, encode};
 use alloc::boxed::Box;
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::fmt;
 use starl_core::effect::Effects;
@@ -63,8 +64,10 @@ impl Replayer {
     /// inputs after are answers to what it asked for.
     pub fn observe(&mut self, at: Time, observed: Observed<'_>) -> Result<(), Departure> {
         match observed {
-            Observed::Started { random } => {
-                self.agent = Some(Agent::new(self.fresh.clone(), random.clone()));
+            Observed::Started { random, saved } => {
+                let saved = saved.cloned().map(Arc::new);
+                let agent = Agent::new(self.fresh.clone(), random.clone());
+                self.agent = Some(agent.with_saved(saved));
                 self.lives += 1;
             }
             Observed::Corrupted { random } => {

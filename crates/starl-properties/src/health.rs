@@ -48,7 +48,9 @@ impl Change<'_> {
             Change::Fault(Fault::StuckMotor) => Some(Excuse::Motors),
             Change::Fault(Fault::CorruptState) => Some(Excuse::Corruption),
             Change::Fault(Fault::Partition) => Some(Excuse::Partition),
-            Change::Fault(Fault::Restart | Fault::Heal | Fault::Repair | Fault::Other(_)) => None,
+            Change::Fault(
+                Fault::StorageLost | Fault::Restart | Fault::Heal | Fault::Repair | Fault::Other(_),
+            ) => None,
         }
     }
 
@@ -184,7 +186,9 @@ impl Health {
                 (condition.sensors_frozen, condition.motor_stuck) = (false, false);
             }
             Change::Fault(Fault::CorruptState) => for_a_moment = true,
-            Change::Fault(Fault::Partition | Fault::Heal | Fault::Other(_)) => {}
+            Change::Fault(
+                Fault::StorageLost | Fault::Partition | Fault::Heal | Fault::Other(_),
+            ) => {}
         }
         if condition.is_unwell(needs) {
             condition.unwell = Some(Time::NEVER);

@@ -207,6 +207,9 @@ fn again(subject: &Subject, case: &Case, arguments: &TestArguments) -> String {
             words.push(format!("{option} {}", quoted(&value)));
         }
     }
+    if subject.demands_goal {
+        words.push("--demand-goal".to_string());
+    }
     words.join(" ")
 }
 

@@ -22,6 +22,8 @@ pub struct Subject {
     /// How long it is in trouble at most: twice what it takes when nothing is wrong, or as long as it
     /// lasts if it has no other end.
     pub span: Duration,
+    /// Whether its goal is to be reached whatever the trouble.
+    pub demands_goal: bool,
 }
 
 impl Subject {
@@ -55,6 +57,7 @@ impl Subject {
             application,
             origin,
             span,
+            demands_goal: arguments.demand_goal,
         })
     }
 
@@ -68,6 +71,6 @@ impl Subject {
         let run = self.application.run_of(self.scenario(profile, seed));
         // Profiles change neither programs nor parameters.
         let mut run = run.unwrap_or_else(|error| unreachable!("it ran before: {error:?}"));
-        Trial::of(&mut run, profile.demands_goal())
+        Trial::of(&mut run, self.demands_goal || profile.demands_goal())
     }
 }

@@ -9,7 +9,9 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 pub enum Fault {
     /// The robot is down.
     Crash,
-    /// The robot starts again, and knows nothing of what was before.
+    /// The robot's storage lost all that it held, at a crash.
+    StorageLost,
+    /// The robot starts again, and knows of what was before only what its storage holds.
     Restart,
     /// The network falls into parts, which may have been others before.
     Partition,
@@ -29,8 +31,9 @@ pub enum Fault {
 
 impl Fault {
     /// All that have a name of their own.
-    const KNOWN: [Fault; 8] = [
+    const KNOWN: [Fault; 9] = [
         Fault::Crash,
+        Fault::StorageLost,
         Fault::Restart,
         Fault::Partition,
         Fault::Heal,
@@ -44,6 +47,7 @@ impl Fault {
     pub fn name(&self) -> &str {
         match self {
             Fault::Crash => "crash",
+            Fault::StorageLost => "storage lost",
             Fault::Restart => "restart",
             Fault::Partition => "partition",
             Fault::Heal => "heal",

@@ -26,7 +26,7 @@ pub(crate) use bytes::encode;
 use alloc::borrow::Cow;
 use change::Change;
 use serde::{Deserialize, Serialize};
-use starl_core::{Effect, Input, Random, View};
+use starl_core::{Effect, Input, Random, Saved, View};
 
 /// The version of the encoding. It counts every change of what a journal's bytes mean, changes of the
 /// types of `starl-core` that it holds among them.
@@ -39,6 +39,8 @@ pub enum Observed<'a> {
     Started {
         /// The stream that the software draws from.
         random: &'a Random,
+        /// What its storage holds; none if the robot has none.
+        saved: Option<&'a Saved>,
     },
     /// The program's state is overwritten at random: [`starl_core::Program::corrupt`].
     Corrupted {
@@ -65,6 +67,7 @@ pub enum Observed<'a> {
 enum Entry<'a> {
     Started {
         random: Cow<'a, Random>,
+        saved: Option<Cow<'a, Saved>>,
     },
     Corrupted {
         random: Cow<'a, Random>,

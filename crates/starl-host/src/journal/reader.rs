@@ -78,7 +78,10 @@ impl Reader {
         see: &mut dyn FnMut(Time, Observed<'_>),
     ) -> Result<(), Damaged> {
         match &entry {
-            Entry::Started { random } => see(at, Observed::Started { random }),
+            Entry::Started { random, saved } => {
+                let saved = saved.as_deref();
+                see(at, Observed::Started { random, saved });
+            }
             Entry::Corrupted { random } => see(at, Observed::Corrupted { random }),
             Entry::Input {
                 input,

@@ -48,8 +48,9 @@ impl Journal {
     pub fn observe(&mut self, robot: RobotId, at: Time, observed: Observed<'_>) {
         let writer = &mut self.writers[(robot.0 - self.first.0) as usize];
         let entry = match observed {
-            Observed::Started { random } => Entry::Started {
+            Observed::Started { random, saved } => Entry::Started {
                 random: Cow::Borrowed(random),
+                saved: saved.map(Cow::Borrowed),
             },
             Observed::Corrupted { random } => Entry::Corrupted {
                 random: Cow::Borrowed(random),

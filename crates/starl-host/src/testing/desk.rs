@@ -2,9 +2,9 @@
 
 use super::unit::Travel;
 use super::wire::{Mail, Wire};
-use crate::{Datagram, Outlet, PlanJob, Workspace};
+use crate::{Datagram, Outlet, PlanJob, Store, StoreJob, Workspace};
 use alloc::vec::Vec;
-use starl_core::{Event, MotionRequest, Random, RobotId, Time};
+use starl_core::{Duration, Event, MotionRequest, Random, RobotId, Time};
 use starl_motion::Neighbour;
 
 pub(super) struct Desk<'a> {
@@ -15,6 +15,9 @@ pub(super) struct Desk<'a> {
     pub random: &'a mut Random,
     pub travel: &'a mut Travel,
     pub holding: &'a mut Option<u32>,
+    pub store: &'a mut Option<Store>,
+    /// How long a write takes.
+    pub write_time: Duration,
     /// The paths that it wants.
     pub plans: Vec<PlanJob>,
     pub records: &'a mut Vec<(Time, RobotId, Event)>,
@@ -42,6 +45,12 @@ impl Outlet for Desk<'_> {
                 reason,
             };
             self.record(at, event);
+        }
+    }
+
+    fn store(&mut self, at: Time, job: StoreJob) {
+        if let Some(store) = &mut self.store {
+            store.begin(at, job, self.write_time);
         }
     }
 

@@ -3,7 +3,7 @@
 use super::desk::Desk;
 use super::unit::Unit;
 use super::wire::{Mail, Wire};
-use crate::{Happening, Node, PlanJob, Snapshot, Workspace};
+use crate::{Happening, Node, PlanJob, Snapshot, Store, Workspace};
 use alloc::collections::{BTreeMap, VecDeque};
 use alloc::vec;
 use alloc::vec::Vec;
@@ -33,6 +33,8 @@ pub struct Fleet {
     /// How long it takes to find a path, which is the straight line. At 0 a robot has it before anything
     /// else happens.
     pub planning: Duration,
+    /// How long a write to storage takes.
+    pub write_time: Duration,
     /// Decides what the network does.
     pub random: Random,
     fleet: Vec<RobotId>,
@@ -47,6 +49,7 @@ enum Due {
     Start(usize),
     Plan,
     Location(usize),
+    Stored(usize),
     Datagram,
     Timeout(usize),
 }
@@ -64,6 +67,7 @@ impl Fleet {
             records: Vec::new(),
             positioning: None,
             planning: Duration::ZERO,
+            write_time: Duration::ZERO,
             random: Random::keyed(seed, &[0]),
             fleet: Vec::new(),
             mail: Mail::default(),
@@ -94,12 +98,17 @@ impl Fleet {
         self.record(robot, Event::Fault(Fault::Crash));
         let here = self.position(robot);
         self.robots[robot].node.crash();
+        if let Some(store) = &mut self.robots[robot].store {
+            store.crash(false);
+        }
         self.robots[robot].travel.place(self.now, here);
     }
 
-    /// A robot starts again now, with fresh software.
+    /// A robot starts again now, with fresh software and with what its storage holds.
     pub fn restart(&mut self, robot: usize, agent: Agent) {
         self.record(robot, Event::Fault(Fault::Restart));
+        let saved = self.robots[robot].store.as_ref().map(Store::saved);
+        let agent = agent.with_saved(saved);
         self.robots[robot].node.restart(self.now, agent);
         self.start(robot);
     }
@@ -201,7 +210,11 @@ impl Fleet {
                 Some(_) => Time::NEVER,
                 None => unit.travel.arrival(),
             };
-            next = next.min(call).min((location, Due::Location(robot)));
+            let stored = unit.store.as_ref().map_or(Time::NEVER, Store::due);
+            next = next
+                .min(call)
+                .min((stored, Due::Stored(robot)))
+                .min((location, Due::Location(robot)));
         }
         next
     }
@@ -223,6 +236,12 @@ impl Fleet {
                 }
                 self.locate(robot);
                 self.handle(robot, Happening::Located);
+            }
+            Due::Stored(robot) => {
+                let store = self.robots[robot].store.as_mut();
+                if let Some(job) = store.and_then(Store::finish) {
+                    self.handle(robot, Happening::Stored { job });
+                }
             }
             Due::Datagram => {
                 if let Some((to, datagram)) = self.mail.take() {
@@ -275,6 +294,8 @@ impl Fleet {
             random: &mut self.random,
             travel: &mut unit.travel,
             holding: &mut unit.holding,
+            store: &mut unit.store,
+            write_time: self.write_time,
             plans: Vec::new(),
             records: &mut self.records,
             workspace: &mut self.workspace,

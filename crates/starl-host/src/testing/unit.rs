@@ -1,6 +1,6 @@
 //! One robot of the test host: its node, its senses, and a body that goes along straight lines.
 
-use crate::{Clock, Hardware, Node};
+use crate::{Clock, Hardware, Node, Store};
 use alloc::vec::Vec;
 use starl_core::motion::{Body, Workspace};
 use starl_core::sensor::{Contact, Detection, Ray};
@@ -23,6 +23,8 @@ pub struct Unit {
     pub bumper: Option<Contact>,
     /// The thing that it holds. It takes whatever it is told to take, unless it holds something.
     pub holding: Option<u32>,
+    /// Its storage; none if it keeps nothing over a crash.
+    pub store: Option<Store>,
     /// When it hears next where it is, if it does so periodically.
     pub(super) next_location: Time,
 }
@@ -65,6 +67,7 @@ impl Unit {
             detections: Vec::new(),
             bumper: None,
             holding: None,
+            store: None,
             next_location: Time::ZERO,
         }
     }

@@ -1,7 +1,8 @@
 //! The host in memory passes the suite of all hosts.
 
 use starl_core::{Agent, Program, Random, Record, RobotId, Time};
-use starl_host::testing::conformance::{DELAY, Fleet, Host, Need, PERIOD, TICK};
+use starl_host::Store;
+use starl_host::testing::conformance::{DELAY, Fleet, Host, Need, PERIOD, TICK, WRITE_TIME};
 use starl_host::testing::{self, Unit, Wire};
 
 struct Memory {
@@ -21,14 +22,24 @@ impl Memory {
 impl Host for Memory {
     const LACKS: &'static [(Need, &'static str)] = &[];
 
-    fn start(Fleet { robots, clock }: Fleet) -> Memory {
+    fn start(wanted: Fleet) -> Memory {
+        let Fleet {
+            robots,
+            clock,
+            has_storage,
+        } = wanted;
         let mut fleet = testing::Fleet::new(1, Wire::delayed(DELAY.0 / 1_000_000));
         fleet.positioning = Some(PERIOD);
         fleet.planning = TICK;
+        fleet.write_time = WRITE_TIME;
         let programs = robots.into_iter().map(|probe| probe.boxed()).collect();
         let mut host = Memory { fleet, programs };
         for robot in 0..host.programs.len() {
-            let unit = Unit::new(RobotId(robot as u32), host.agent(robot));
+            let store = has_storage.then(Store::default);
+            let saved = store.as_ref().map(Store::saved);
+            let agent = host.agent(robot).with_saved(saved);
+            let mut unit = Unit::new(RobotId(robot as u32), agent);
+            unit.store = store;
             host.fleet.add(unit.with_period(PERIOD).with_clock(clock));
         }
         host

@@ -32,7 +32,7 @@ impl Outlet for Host {
     fn neighbours(&mut self, _: f64, _: &mut Vec<starl_motion::Neighbour>) {}
     fn observe(&mut self, at: Time, observed: Observed<'_>) {
         let text = match observed {
-            Observed::Started { random } => format!("started {:x}", random.preview()),
+            Observed::Started { random, .. } => format!("started {:x}", random.preview()),
             Observed::Corrupted { random } => format!("corrupted {:x}", random.preview()),
             Observed::Input { input, .. } => format!("{input:?}"),
         };

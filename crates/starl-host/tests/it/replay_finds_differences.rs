@@ -36,10 +36,16 @@ const NEVER: Counter = Counter {
     changes_at: u32::MAX,
 };
 
+/// Fresh software on a robot without storage.
+fn started(random: &Random) -> Observed<'_> {
+    let saved = None;
+    Observed::Started { random, saved }
+}
+
 /// Feeds a replayer with what a robot did that runs [`NEVER`].
 fn feed(replayer: &mut Replayer, activations: u64) -> Result<(), Departure> {
     let random = Random::keyed(3, &[]);
-    replayer.observe(Time(0), Observed::Started { random: &random })?;
+    replayer.observe(Time(0), started(&random))?;
     let mut agent = Agent::new(Box::new(NEVER), random.clone());
     for step in 1..=activations {
         let world = World {
@@ -91,7 +97,7 @@ fn so_are_an_effect_more_or_less_and_another_state() {
     let random = Random::keyed(3, &[]);
     for effects in [vec![], vec![said("more"); 4]] {
         let mut replayer = Replayer::new(Box::new(NEVER));
-        let started = Observed::Started { random: &random };
+        let started = started(&random);
         assert_eq!(replayer.observe(Time(0), started), Ok(()));
         let observed = Observed::Input {
             input: &Input::Activate,
@@ -120,10 +126,7 @@ fn corruption_is_done_again() {
         let mut agent = Agent::new(Box::new(NEVER), random.clone());
         let mut effects = Effects::default();
         agent.handle(&Input::Activate, &world.view(), &mut effects);
-        let deeds = [
-            Observed::Started { random: &random },
-            Observed::Corrupted { random: &stream },
-        ];
+        let deeds = [started(&random), Observed::Corrupted { random: &stream }];
         for deed in deeds {
             assert_eq!(replayer.observe(Time(0), deed), Ok(()));
         }

@@ -4,8 +4,8 @@ use starl_core::event::{Level, Name};
 use starl_core::motion::{Body, Obstacles, Workspace};
 use starl_core::sensor::{Contact, Detected, Detection, Ray};
 use starl_core::{
-    ConvexPolygon, Effect, Estimate, Event, Input, Obstacle, Point, Pose, Random, RobotId, Sensors,
-    Time, Twist, View, WayPoint,
+    ConvexPolygon, Effect, Estimate, Event, Input, Obstacle, Point, Port, Pose, Random, RobotId,
+    Save, Saved, Sensors, Time, Twist, View, WayPoint, message,
 };
 use starl_host::Observed;
 use starl_host::journal::{Batch, Damaged, Journal, Packer, Reader};
@@ -159,7 +159,7 @@ pub fn said(text: impl Into<String>) -> Effect {
 /// Something that is done to a robot's software, owned.
 #[derive(Clone, Debug)]
 pub enum Deed {
-    Started(Random),
+    Started(Random, Option<Saved>),
     Corrupted(Random),
     Input(Box<World>, Input, Vec<Effect>),
 }
@@ -167,7 +167,10 @@ pub enum Deed {
 impl Deed {
     pub fn show(&self, at: Time, see: &mut dyn FnMut(Time, Observed<'_>)) {
         match self {
-            Deed::Started(random) => see(at, Observed::Started { random }),
+            Deed::Started(random, saved) => {
+                let saved = saved.as_ref();
+                see(at, Observed::Started { random, saved });
+            }
             Deed::Corrupted(random) => see(at, Observed::Corrupted { random }),
             Deed::Input(world, input, effects) => {
                 let view = &world.view();
@@ -218,15 +221,33 @@ pub fn read(messages: &[(Time, Vec<u8>)]) -> Result<Vec<String>, Damaged> {
     Ok(seen)
 }
 
+/// Storage that holds two values.
+pub fn saved() -> Saved {
+    let mut saved = Saved::default();
+    for save in saves() {
+        saved.apply(save);
+    }
+    saved
+}
+
+/// Two values of an owner.
+pub fn saves() -> [Save; 2] {
+    ["", "life"].map(|key| Save {
+        port: Port(3),
+        key: key.into(),
+        value: Some(message::encode(&key)),
+    })
+}
+
 /// A run of a robot whose knowledge changes at random.
 pub fn random_deeds(seed: u64, count: usize) -> Vec<(Time, Deed)> {
     let mut random = Random::keyed(seed, &[]);
     let mut world = World::default();
-    let mut deeds = vec![(Time(10), Deed::Started(random.clone()))];
+    let mut deeds = vec![(Time(10), Deed::Started(random.clone(), None))];
     while deeds.len() < count {
         let at = Time(deeds.len() as u64 * 1_000);
         let deed = match random.below(20) {
-            0 => Deed::Started(random.clone()),
+            0 => Deed::Started(random.clone(), random.chance(0.5).then(saved)),
             1 => Deed::Corrupted(random.clone()),
             _ => {
                 for _ in 0..random.below(4) {

@@ -51,4 +51,8 @@ impl Primitive for Disturbing<'_> {
         self.primitive.handle(robot, input);
         *self.rests &= matches!(input, Input::Activate) && robot.asked() == before;
     }
+
+    fn save(&mut self, robot: &mut Robot<'_>) {
+        self.primitive.save(robot);
+    }
 }

@@ -7,6 +7,7 @@
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use starl_core::RobotId;
+use starl_core::random::hash_key;
 
 /// Numbers go no further: a greater one comes from a corruption.
 const GREATEST: u64 = 1 << 62;
@@ -29,6 +30,15 @@ impl Lives {
         if life > self.of(robot) && life <= GREATEST {
             self.0.insert(robot, life);
         }
+    }
+
+    /// Stands for all, and for a robot's own life.
+    pub fn fingerprint(&self, own: u64) -> u64 {
+        let words = self
+            .0
+            .iter()
+            .map(|(robot, life)| hash_key(*life, &[robot.0.into()]));
+        hash_key(own, &words.collect::<Vec<u64>>())
     }
 
     /// All that are not the first.

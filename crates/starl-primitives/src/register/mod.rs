@@ -51,6 +51,7 @@ mod packet;
 mod recovery;
 mod replica;
 mod report;
+mod saving;
 mod serving;
 mod tag;
 mod version;
@@ -104,6 +105,8 @@ pub struct Register {
     standing: Standing,
     /// Crash vector: the latest life of each robot that is known.
     lives: Lives,
+    /// Stands for the lives that are on storage; none if none are.
+    saved_lives: Option<u64>,
     replica: Replica,
     /// Counts operations.
     last_number: u32,
@@ -182,6 +185,7 @@ impl Register {
             incarnation: Incarnation::default(),
             standing: Standing::default(),
             lives: Lives::default(),
+            saved_lives: None,
             replica: Replica::default(),
             last_number: 0,
             operations: BTreeMap::new(),
@@ -340,6 +344,7 @@ impl Primitive for Register {
 
     fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
         match input {
+            Input::Start => self.recall(robot),
             Input::Message(message) if message.port == self.port => self.receive(robot, message),
             Input::Timer(key) if key.port == self.port => match key.read() {
                 Some(Alarm::Operation(number)) => self.ask_again(robot, number),
@@ -352,5 +357,9 @@ impl Primitive for Register {
             _ => {}
         }
         self.keep_time(robot);
+    }
+
+    fn save(&mut self, robot: &mut Robot<'_>) {
+        self.save_changes(robot);
     }
 }

@@ -159,8 +159,7 @@ impl Register {
                     self.standing = Standing::Up(life);
                     self.lives.learn(me, life);
                     robot.cancel_timer(self.timer(Alarm::Enter));
-                    let life = life.min(i64::MAX as u64) as i64;
-                    robot.report(self.port, RegisterEvent::Up { life });
+                    self.report_up(robot, life);
                     return self.answer_all_own(robot);
                 }
                 Some(_) => entering.next_stage(None),
@@ -171,6 +170,12 @@ impl Register {
             }
             self.say_hello(robot);
         }
+    }
+
+    /// Says that this robot answers others from now on.
+    pub(super) fn report_up(&self, robot: &mut Robot<'_>, life: u64) {
+        let life = life.min(i64::MAX as u64) as i64;
+        robot.report(self.port, RegisterEvent::Up { life });
     }
 
     /// This robot's own answers to what it has begun already.

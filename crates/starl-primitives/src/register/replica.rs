@@ -12,29 +12,36 @@ use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::ops::Bound;
+use serde::{Deserialize, Serialize};
 use starl_core::Digest;
 use starl_core::random::hash_key;
 
 /// The copies, by name.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Replica(BTreeMap<Box<str>, Copy>);
+pub(super) struct Replica {
+    copies: BTreeMap<Box<str>, Copy>,
+    /// Whether there is one that has changed since it was saved.
+    has_changed: bool,
+}
 
 /// One register's.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Copy {
     /// Nothing is stored under a lower ballot.
     pub promised: Option<Tag>,
     pub version: Option<Version>,
+    #[serde(skip)]
+    has_changed: bool,
 }
 
 impl Replica {
     pub fn get(&self, register: &str) -> Option<&Version> {
-        self.0.get(register)?.version.as_ref()
+        self.copies.get(register)?.version.as_ref()
     }
 
     /// What is promised about a register.
     pub fn promised(&self, register: &str) -> Option<Tag> {
-        self.0.get(register)?.promised
+        self.copies.get(register)?.promised
     }
 
     /// Takes in a copy unless the present one is later or there is no room; whether it changed anything.
@@ -45,6 +52,8 @@ impl Replica {
         let is_later = copy.version.as_ref() < Some(&entry.version);
         if is_later {
             copy.version = Some(entry.version.clone());
+            copy.has_changed = true;
+            self.has_changed = true;
         }
         is_later
     }
@@ -54,16 +63,37 @@ impl Replica {
         let Some(copy) = self.copy_mut(register, most) else {
             return false;
         };
-        copy.promised = copy.promised.max(Some(ballot));
+        if copy.promised < Some(ballot) {
+            copy.promised = Some(ballot);
+            copy.has_changed = true;
+            self.has_changed = true;
+            return true;
+        }
         copy.promised == Some(ballot)
     }
 
     /// None if it is a new one and there is no room.
     fn copy_mut(&mut self, register: &str, most: usize) -> Option<&mut Copy> {
-        if !self.0.contains_key(register) && self.0.len() < most {
-            self.0.insert(register.into(), Copy::default());
+        if !self.copies.contains_key(register) && self.copies.len() < most {
+            self.copies.insert(register.into(), Copy::default());
         }
-        self.0.get_mut(register)
+        self.copies.get_mut(register)
+    }
+
+    /// Takes up a copy from storage.
+    pub fn restore(&mut self, register: &str, copy: Copy) {
+        self.copies.insert(register.into(), copy);
+    }
+
+    /// Shows each copy that has changed since it was shown last.
+    pub fn save_changed(&mut self, mut save: impl FnMut(&str, &Copy)) {
+        if core::mem::take(&mut self.has_changed) {
+            for (register, copy) in &mut self.copies {
+                if core::mem::take(&mut copy.has_changed) {
+                    save(register, copy);
+                }
+            }
+        }
     }
 
     /// A copy, to be sent.
@@ -144,13 +174,13 @@ impl Replica {
 
     fn after(&self, after: Option<&str>) -> impl Iterator<Item = (&str, &Copy)> {
         let from = after.map_or(Bound::Unbounded, Bound::Excluded);
-        let later = self.0.range::<str, _>((from, Bound::Unbounded));
+        let later = self.copies.range::<str, _>((from, Bound::Unbounded));
         later.map(|(name, copy)| (&**name, copy))
     }
 
     /// Stands for all copies.
     pub fn fingerprint(&self) -> u64 {
-        let copies = self.0.iter();
+        let copies = self.copies.iter();
         let copies = copies.filter_map(|(name, copy)| Some((name, copy.version.as_ref()?)));
         copies.fold(0, |sum, (name, version)| {
             let mut digest = Digest::default();
@@ -167,7 +197,7 @@ impl Replica {
 
     /// Forgets what no writes can have led to.
     pub fn refresh(&mut self) {
-        self.0.retain(|_, copy| {
+        self.copies.retain(|_, copy| {
             copy.promised = copy.promised.filter(|ballot| ballot.is_valid());
             copy.version = copy.version.take().filter(Version::is_valid);
             copy.promised.is_some() || copy.version.is_some()
@@ -176,7 +206,7 @@ impl Replica {
 
     /// To be overwritten.
     pub fn all_mut(&mut self) -> impl Iterator<Item = &mut Copy> {
-        self.0.values_mut()
+        self.copies.values_mut()
     }
 }
 

@@ -54,8 +54,8 @@ impl Turn<'_> {
         }
     }
 
-    /// What happens, by time; at equal times estimates come before messages, then orders, then what the
-    /// node waits for.
+    /// What happens, by time; at equal times estimates come before what was stored, then messages, then
+    /// orders, then what the node waits for.
     fn take_in_order(&mut self, mut arrivals: &[Delivery]) {
         let is_down = self.node.condition().down;
         loop {
@@ -87,7 +87,13 @@ impl Turn<'_> {
             if at >= end {
                 return;
             }
-            let happening = if at == due.message {
+            let happening = if at == due.stored {
+                let store = self.desk.account.store.as_mut();
+                let Some(job) = store.and_then(|store| store.finish()) else {
+                    return;
+                };
+                Happening::Stored { job }
+            } else if at == due.message {
                 let Some((delivery, rest)) = arrivals.split_first() else {
                     return;
                 };
@@ -163,6 +169,7 @@ impl Turn<'_> {
 
 /// When the next of each is due.
 struct Due {
+    stored: Time,
     message: Time,
     order: Time,
     timeout: Time,
@@ -170,14 +177,17 @@ struct Due {
 
 impl Due {
     fn min(&self) -> Time {
-        self.message.min(self.order).min(self.timeout)
+        let heard = self.message.min(self.order);
+        self.stored.min(heard).min(self.timeout)
     }
 }
 
 #[inline]
 fn due(node: &Node, desk: &Desk<'_>, arrivals: &[Delivery]) -> Due {
     let order = desk.account.orders.first();
+    let store = desk.account.store.as_ref();
     Due {
+        stored: store.map_or(Time::NEVER, |store| store.due()),
         message: arrivals.first().map_or(Time::NEVER, |delivery| delivery.at),
         order: order.map_or(Time::NEVER, |order| order.0),
         timeout: node.next_timeout(),

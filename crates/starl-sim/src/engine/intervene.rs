@@ -6,7 +6,7 @@ use super::shard::SIZE;
 use super::shared::Window;
 use super::{Simulation, Stream, fault, populate, stream};
 use crate::scenario::{Group, Network, Occasion, Scenario, ScenarioEvent};
-use starl_core::event::Level;
+use starl_core::event::{Fault, Level};
 use starl_core::intervention::NetworkKnob;
 use starl_core::{
     Agent, Event, FaultKind, Intervention, Order, Point, Pose, Record, RobotId, Time, WayPoint,
@@ -217,12 +217,23 @@ impl Simulation {
             shard.log.record(&mut mind.account.digest, robot, at, event);
             self.impaired -= usize::from(mind.is_impaired());
             match kind {
-                FaultKind::Crash(_) => mind.crash(),
+                FaultKind::Crash(_) => {
+                    let key = [u64::from(robot.0), at.0];
+                    let loss = self.shared.scenario.storage.loss;
+                    let is_lost = mind.account.store.is_some()
+                        && stream(seed, Stream::Storage, &key).chance(loss);
+                    mind.crash(is_lost);
+                    if is_lost {
+                        let event = Event::Fault(Fault::StorageLost);
+                        shard.log.record(&mut mind.account.digest, robot, at, event);
+                    }
+                }
                 FaultKind::Restart(_) if mind.node.condition().down => {
                     let program = self.shared.kinds[mind.group as usize].program.clone();
                     let key = [u64::from(robot.0), at.0];
                     let agent = Agent::new(program, stream(seed, Stream::Program, &key));
-                    mind.node.restart(at, agent);
+                    let saved = mind.account.store.as_ref().map(|store| store.saved());
+                    mind.node.restart(at, agent.with_saved(saved));
                     mind.next_estimate = at;
                 }
                 FaultKind::StuckMotor(_) => mind.motor_stuck = true,

@@ -4,7 +4,7 @@ use starl_core::event::Hit;
 use starl_core::motion::{Obstacles, Path};
 use starl_core::sensor::Contact;
 use starl_core::{Digest, Order, RobotId, Time};
-use starl_host::{Datagram, Node};
+use starl_host::{Datagram, Node, Store};
 use starl_motion::Neighbour;
 
 /// One robot's software and what is around it.
@@ -33,9 +33,13 @@ impl Mind {
         self.motor_stuck || self.senses.are_frozen
     }
 
-    /// A crashed robot keeps its body, its clock and its history, and nothing else.
-    pub fn crash(&mut self) {
+    /// A crashed robot keeps its body, its clock and its history, and what its storage holds, unless that is
+    /// lost.
+    pub fn crash(&mut self, is_storage_lost: bool) {
         self.node.crash();
+        if let Some(store) = &mut self.account.store {
+            store.crash(is_storage_lost);
+        }
         self.account.orders.clear();
         self.motor_stuck = false;
         self.senses.knowledge = None;
@@ -86,6 +90,8 @@ pub struct Account {
     pub radio_free: Time,
     /// Jobs of planning that are done, to be handed over at the next step.
     pub plans: Vec<(u32, Option<Path>)>,
+    /// What the robot keeps over a crash; none if it keeps nothing.
+    pub store: Option<Box<Store>>,
     /// What operators have told it and it has not heard yet, by time.
     pub orders: Vec<(Time, Order)>,
     /// How many way-points ReachAvoid has reached.

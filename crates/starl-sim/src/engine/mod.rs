@@ -42,6 +42,7 @@ enum Stream {
     Faults,
     Corruption,
     Events,
+    Storage,
 }
 
 fn stream(seed: u64, purpose: Stream, key: &[u64]) -> Random {

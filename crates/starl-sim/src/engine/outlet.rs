@@ -7,7 +7,7 @@ use super::things::Grip;
 use starl_core::event::{DropReason, PrimitiveEvent, ReachAvoidEvent};
 use starl_core::{Duration, Event, RobotId, Time};
 use starl_host::journal::Journal;
-use starl_host::{Datagram, Observed, Outlet, PlanJob, Workspace};
+use starl_host::{Datagram, Observed, Outlet, PlanJob, StoreJob, Workspace};
 use starl_motion::{Neighbour, State};
 
 /// Bytes that travel with a payload: addresses, port, sequence number and checksum, as in UDP over
@@ -58,6 +58,12 @@ impl Outlet for Desk<'_> {
                     reason,
                 },
             ),
+        }
+    }
+
+    fn store(&mut self, at: Time, job: StoreJob) {
+        if let Some(store) = &mut self.account.store {
+            store.begin(at, job, self.shared.scenario.storage.write_time);
         }
     }
 

@@ -8,7 +8,7 @@ use super::{Stream, stream};
 use crate::scenario::{Group, Scenario};
 use starl_core::{Agent, Command, Duration, Point, Pose, RobotId, Time, random};
 use starl_host::hardware::Drive;
-use starl_host::{Clock, Hardware, Node};
+use starl_host::{Clock, Hardware, Node, Store};
 use starl_motion::Neighbour;
 
 /// What the robots of each group have in common.
@@ -98,10 +98,16 @@ fn mind(scenario: &Scenario, id: RobotId, group: usize, kind: &Kind, at: Time) -
         offset: i64::try_from(offset.0).unwrap_or(i64::MAX),
         rate: 1.0 + draw.between(-bounds.drift_ppm, bounds.drift_ppm) * 1e-6,
     };
+    let store = scenario.storage.kept.then(Box::<Store>::default);
+    let agent = Agent::new(kind.program.clone(), random);
+    let agent = agent.with_saved(store.as_ref().map(|store| store.saved()));
     Mind {
-        node: Node::new(id, clock, Agent::new(kind.program.clone(), random), at),
+        node: Node::new(id, clock, agent, at),
         senses: Senses::default(),
-        account: Account::default(),
+        account: Account {
+            store,
+            ..Account::default()
+        },
         group: group as u32,
         next_estimate: at + scenario.positioning.period,
         next_pose_record: at + scenario.trace.pose_period,

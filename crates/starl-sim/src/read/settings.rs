@@ -21,6 +21,7 @@ pub(super) fn read(root: Section<'_>, request: &Request, files: &Recorder<'_>) -
     };
     let physics = root.table("physics", physics);
     let positioning = root.table("positioning", positioning);
+    let storage = root.table("storage", storage);
     let wind = root.table("wind", wind);
     let properties = root.table("properties", properties);
     let trace = root.table("trace", |table| Trace {
@@ -52,6 +53,7 @@ pub(super) fn read(root: Section<'_>, request: &Request, files: &Recorder<'_>) -
         physics,
         positioning,
         motion,
+        storage,
         wind,
         network,
         faults,
@@ -102,6 +104,14 @@ fn motion(table: Section<'_>, positioning: &Positioning, drafts: &[Draft]) -> Mo
         turn_noise: table.number("turn_noise"),
         noise_period: table.duration("noise_period"),
         avoidance,
+    }
+}
+
+fn storage(table: Section<'_>) -> Storage {
+    Storage {
+        kept: table.flag("kept"),
+        write_time: table.duration("write_time"),
+        loss: table.number("loss"),
     }
 }
 

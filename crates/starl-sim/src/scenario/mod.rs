@@ -43,6 +43,8 @@ pub struct Scenario {
     pub positioning: Positioning,
     /// How exactly robots move.
     pub motion: Motion,
+    /// What robots keep over a crash.
+    pub storage: Storage,
     /// Moving air.
     pub wind: Wind,
     /// How messages travel.
@@ -100,6 +102,27 @@ pub struct Motion {
     pub noise_period: Duration,
     /// Reciprocal avoidance; default on, none switches it off.
     pub avoidance: Option<avoidance::Options>,
+}
+
+/// What robots keep over a crash.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Storage {
+    /// Whether robots have storage that outlasts a crash; default false.
+    pub kept: bool,
+    /// How long a write takes; one that a crash cuts short has not begun; default 5 ms.
+    pub write_time: Duration,
+    /// The probability that a crash erases a robot's storage; default 0.
+    pub loss: f64,
+}
+
+impl Default for Storage {
+    fn default() -> Storage {
+        Storage {
+            kept: false,
+            write_time: Duration::from_millis(5),
+            loss: 0.0,
+        }
+    }
 }
 
 /// Moving air, the same everywhere: a steady part and a gust that swings as a sine.
@@ -172,6 +195,7 @@ impl Default for Scenario {
             physics: Physics::default(),
             positioning: Positioning::default(),
             motion: Motion::default(),
+            storage: Storage::default(),
             wind: Wind {
                 gust_period: Duration::from_seconds(10),
                 ..Wind::default()

@@ -95,6 +95,8 @@ const CHANGES: &[Change] = &[
     |scenario| {
         set(&mut scenario.motion.speed_noise, 0.0) | set(&mut scenario.motion.turn_noise, 0.0)
     },
+    |scenario| set(&mut scenario.storage.loss, 0.0),
+    |scenario| set(&mut scenario.storage.write_time, Duration::ZERO),
     |scenario| {
         let calm = Wind {
             gust_period: scenario.wind.gust_period,

@@ -34,6 +34,7 @@ pub fn scenario(scenario: &Scenario) -> String {
         physics,
         positioning,
         motion,
+        storage,
         wind,
         network,
         faults,
@@ -56,6 +57,7 @@ pub fn scenario(scenario: &Scenario) -> String {
     out += &settings::physics(physics);
     out += &settings::positioning(positioning);
     out += &settings::motion(motion);
+    out += &settings::storage(storage);
     out += &settings::wind(wind);
     out += &network::write(network, fleet);
     out += &faults::write(faults, fleet, *duration);

@@ -1,7 +1,7 @@
 //! Writes the tables that concern the run as a whole.
 
 use super::table::{Table, flag, metres, number, quantity, seconds, spatial, time};
-use crate::scenario::{Motion, Physics, Positioning, Properties, Scenario, Trace, Wind};
+use crate::scenario::{Motion, Physics, Positioning, Properties, Scenario, Storage, Trace, Wind};
 use starl_core::Duration;
 use starl_motion::avoidance;
 
@@ -30,6 +30,20 @@ pub(super) fn positioning(positioning: &Positioning) -> String {
     table.differing("velocity_noise", velocity_noise, 0.0, |noise| {
         quantity(noise, "m/s")
     });
+    table.finish()
+}
+
+pub(super) fn storage(storage: &Storage) -> String {
+    let Storage {
+        kept,
+        write_time,
+        loss,
+    } = *storage;
+    let default = Storage::default();
+    let mut table = Table::named("storage");
+    table.differing("kept", kept, default.kept, flag);
+    table.differing("write_time", write_time, default.write_time, time);
+    table.differing("loss", loss, default.loss, number);
     table.finish()
 }
 

@@ -3,7 +3,7 @@
 use crate::engine_support::{exact_delay, scenario};
 use starl_core::{Duration, FaultKind, Program, Record, RobotId, Time};
 use starl_host::Clock;
-use starl_host::testing::conformance::{DELAY, Fleet, Host, Need, PERIOD, Probe, TICK};
+use starl_host::testing::conformance::{DELAY, Fleet, Host, Need, PERIOD, Probe, TICK, WRITE_TIME};
 use starl_sim::scenario::{self, Fault, Group, Scenario};
 use starl_sim::{Simulation, scenario::Positioning};
 
@@ -12,6 +12,7 @@ use starl_sim::{Simulation, scenario::Positioning};
 struct Simulator {
     robots: Vec<Probe>,
     clock: Clock,
+    has_storage: bool,
     faults: Vec<Fault>,
     now: Time,
 }
@@ -45,6 +46,11 @@ impl Simulator {
             period: PERIOD,
             ..scenario.positioning
         };
+        scenario.storage = scenario::Storage {
+            kept: self.has_storage,
+            write_time: WRITE_TIME,
+            loss: 0.0,
+        };
         scenario.faults.schedule = self.faults.clone();
         scenario
     }
@@ -53,10 +59,16 @@ impl Simulator {
 impl Host for Simulator {
     const LACKS: &'static [(Need, &'static str)] = &[(Need::Stalls, "a simulator is never late")];
 
-    fn start(Fleet { robots, clock }: Fleet) -> Simulator {
+    fn start(fleet: Fleet) -> Simulator {
+        let Fleet {
+            robots,
+            clock,
+            has_storage,
+        } = fleet;
         Simulator {
             robots,
             clock,
+            has_storage,
             faults: Vec::new(),
             now: Time::ZERO,
         }

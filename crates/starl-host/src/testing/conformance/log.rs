@@ -76,6 +76,18 @@ impl Log {
         told.collect()
     }
 
+    /// The saved numbers that a robot has found, and when.
+    pub fn found(&self, robot: RobotId) -> Vec<(Time, i64)> {
+        let found = self.events(robot).filter_map(|(at, event)| match event {
+            Event::Program { name, fields } if name == "found" => match fields.first()?.1 {
+                Value::Int(number) => Some((at, number)),
+                _ => None,
+            },
+            _ => None,
+        });
+        found.collect()
+    }
+
     /// All that a robot was told, but where it is and that it is activated.
     pub fn heard(&self, robot: RobotId) -> Vec<Told> {
         let mut told = self.told(robot);

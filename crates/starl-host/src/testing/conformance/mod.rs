@@ -15,6 +15,7 @@ mod network;
 mod outcomes;
 mod probe;
 mod restarts;
+mod storage;
 mod times;
 
 pub use log::{Log, Told};
@@ -22,6 +23,7 @@ pub use network::*;
 pub use outcomes::*;
 pub use probe::{Act, Cue, Probe};
 pub use restarts::*;
+pub use storage::*;
 pub use times::*;
 
 use crate::Clock;
@@ -37,6 +39,9 @@ pub const PERIOD: Duration = Duration::from_millis(100);
 
 /// How long a datagram takes.
 pub const DELAY: Duration = Duration::from_millis(20);
+
+/// How long a write takes.
+pub const WRITE_TIME: Duration = Duration::from_millis(30);
 
 /// A host under test. What it does is called in the order of time.
 pub trait Host: Sized {
@@ -87,6 +92,8 @@ pub enum Need {
     Corruption,
     /// The host can be late.
     Stalls,
+    /// Robots have storage.
+    Storage,
 }
 
 /// The robots of a test.
@@ -95,6 +102,8 @@ pub struct Fleet {
     pub robots: Vec<Probe>,
     /// Their clocks. A host that draws clocks at random draws within these bounds.
     pub clock: Clock,
+    /// Whether they have storage, to which a write takes [`WRITE_TIME`].
+    pub has_storage: bool,
 }
 
 /// A behaviour that a host cannot show, and why.
@@ -118,6 +127,16 @@ fn start<H: Host>(robots: impl Into<Vec<Probe>>) -> H {
     H::start(Fleet {
         robots: robots.into(),
         clock: Clock::default(),
+        has_storage: false,
+    })
+}
+
+/// The same with storage.
+fn start_with_storage<H: Host>(robots: impl Into<Vec<Probe>>) -> H {
+    H::start(Fleet {
+        robots: robots.into(),
+        clock: Clock::default(),
+        has_storage: true,
     })
 }
 
@@ -214,6 +233,12 @@ macro_rules! for_each_behaviour {
         $with!(a_path_for_a_robot_that_is_down_is_ignored);
         $with!(a_failed_program_is_not_called_again);
         $with!(a_finished_program_still_answers);
+        // Storage.
+        $with!(what_was_saved_is_found_after_a_restart);
+        $with!(nothing_leaves_before_it_is_saved);
+        $with!(a_crash_undoes_a_write_and_all_that_rests_on_it);
+        $with!(one_write_takes_all_that_was_saved_during_the_one_before);
+        $with!(robots_without_storage_find_nothing);
         // The network.
         $with!(datagrams_to_a_robot_that_is_down_are_dropped);
         $with!(a_datagram_may_arrive_in_a_later_life);

@@ -13,9 +13,12 @@ use starl_core::{
 };
 
 /// The program. It emits an event `told` for each input: `what` it was, the time `now` by the robot's clock, and
-/// which input it was in this `count`.
+/// which input it was in this `count`. A robot that finds a saved number when it starts emits `found` with it.
 #[derive(Clone, Debug, Default, Primitives)]
 pub struct Probe(Ear);
+
+/// Under which a number is saved.
+const KEY: &str = "number";
 
 /// What answers, as a primitive: programs do not see all inputs.
 #[derive(Clone, Debug, Default)]
@@ -56,6 +59,8 @@ pub enum Act {
     Send(RobotId, u32),
     /// Ask for a path, by this ticket.
     Plan(u32),
+    /// Save a number in place of the one before.
+    Save(u32),
     /// Say that the goal is reached.
     Finish,
     /// Say that it cannot go on.
@@ -130,6 +135,12 @@ impl Primitive for Ear {
                 ("count", self.count.into()),
             ],
         );
+        let port = self.port();
+        if let (Input::Start, Some(saved)) = (input, robot.saved())
+            && let Some(number) = saved.get::<u32>(port, KEY)
+        {
+            robot.emit("found", [("number", number.into())]);
+        }
         for (_, acts) in self.rules.iter().filter(|(on, _)| *on == cue) {
             acts.iter().for_each(|act| self.act(robot, *act));
         }
@@ -158,6 +169,7 @@ impl Ear {
                 most_nodes: 1000,
                 seed: 1,
             }),
+            Act::Save(number) => robot.save(self.port(), KEY, &number),
             Act::Finish => robot.finish(),
             Act::Fail => robot.fail("told to"),
         }

@@ -112,6 +112,7 @@ pub fn clocks_run_wrong<H: Host>() -> Outcome {
     let mut host = H::start(Fleet {
         robots: vec![robot.clone(), robot],
         clock,
+        has_storage: false,
     });
     host.run_before(ms(12_000));
     let log = Log::of(&host);

@@ -347,6 +347,13 @@ impl Primitive for Half<'_> {
             robot.deliver(robot.id(), self.port(), Payload::new());
         }
     }
+
+    fn save(&mut self, robot: &mut Robot<'_>) {
+        match self.is_mutex {
+            true => self.atomic.mutex.save(robot),
+            false => self.atomic.register.save(robot),
+        }
+    }
 }
 
 /// Reads a group's register. What is none of ours is as if nothing was ever written.

@@ -90,4 +90,10 @@ impl Primitive for Attended<'_> {
             robot.deliver(robot.id(), self.port, Payload::new());
         }
     }
+
+    fn save(&mut self, robot: &mut Robot<'_>) {
+        if let Some(primitive) = self.seat.bound.primitive() {
+            primitive.save(robot);
+        }
+    }
 }

@@ -60,6 +60,7 @@ pub const SCENARIO: &[Field] = &[
         motion::MOTION,
         "How exactly robots move, and how they keep clear of each other.",
     ),
+    table("storage", STORAGE, "What robots keep over a crash."),
     table(
         "wind",
         WIND,
@@ -126,6 +127,29 @@ const POSITIONING: &[Field] = &[
         Kind::Quantity(Dimension::Speed, Range::NotNegative),
         Default::Value("0m/s"),
         "Standard deviation of each component of an estimated velocity.",
+    ),
+];
+
+const STORAGE: &[Field] = &[
+    field(
+        "kept",
+        Kind::Flag,
+        Default::Value("false"),
+        "Whether robots have storage that outlasts a crash. Without it, a robot that restarts knows \
+         nothing of its earlier lives.",
+    ),
+    field(
+        "write_time",
+        TIME,
+        Default::Value("5ms"),
+        "How long a write takes. A crash before its end undoes it. A robot sends nothing that rests on \
+         what is not written yet.",
+    ),
+    field(
+        "loss",
+        Kind::Probability,
+        Default::Value("0"),
+        "The probability that a crash erases a robot's storage.",
     ),
 ];
 

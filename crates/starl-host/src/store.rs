@@ -1,0 +1,46 @@
+//! Storage in memory, for hosts that simulate: what it holds, and the write that is under way.
+
+use crate::StoreJob;
+use alloc::sync::Arc;
+use starl_core::{Duration, Saved, Time};
+
+/// The storage of one robot.
+#[derive(Clone, Debug, Default)]
+pub struct Store {
+    saved: Arc<Saved>,
+    /// What is being written, and when it will be there.
+    writing: Option<(Time, StoreJob)>,
+}
+
+impl Store {
+    /// What it holds now.
+    pub fn saved(&self) -> Arc<Saved> {
+        self.saved.clone()
+    }
+
+    /// Begins a write; a node asks for one at a time.
+    pub fn begin(&mut self, at: Time, job: StoreJob, write_time: Duration) {
+        self.writing = Some((at + write_time, job));
+    }
+
+    /// When the write that is under way is done; [`Time::NEVER`] if none is.
+    pub fn due(&self) -> Time {
+        self.writing.as_ref().map_or(Time::NEVER, |(at, _)| *at)
+    }
+
+    /// The write that is under way is done; gives its number.
+    pub fn finish(&mut self) -> Option<u32> {
+        let (_, StoreJob { job, saves }) = self.writing.take()?;
+        let saved = Arc::make_mut(&mut self.saved);
+        saves.into_iter().for_each(|save| saved.apply(save));
+        Some(job)
+    }
+
+    /// A crash undoes the write that is under way, and may erase everything.
+    pub fn crash(&mut self, is_lost: bool) {
+        self.writing = None;
+        if is_lost {
+            self.saved = Arc::new(Saved::lost());
+        }
+    }
+}
