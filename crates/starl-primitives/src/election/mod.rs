@@ -208,6 +208,9 @@ impl Primitive for LeaderElection {
             _ => {}
         }
         self.begin(robot);
+        if *input == Input::Start {
+            self.run(robot, |rules, scene| rules.recall(scene));
+        }
         // What has run out by now must not be taken for valid.
         self.run(robot, |rules, scene| rules.settle(scene));
         match input {
@@ -230,5 +233,9 @@ impl Primitive for LeaderElection {
             _ => {}
         }
         self.settle(robot);
+    }
+
+    fn save(&mut self, robot: &mut Robot<'_>) {
+        self.rules.rules_mut().save(robot, self.port);
     }
 }

@@ -28,6 +28,14 @@ pub(super) trait Rules {
     fn due(&self, scene: &Scene<'_, '_>) -> Time;
     /// Who leads, as far as this robot knows.
     fn leadership(&self, me: RobotId) -> Option<Leadership>;
+    /// Takes up what storage holds, when the robot starts.
+    fn recall(&mut self, scene: &mut Scene<'_, '_>) {
+        let _ = scene;
+    }
+    /// Saves what is to outlast a restart, if it has changed.
+    fn save(&mut self, robot: &mut Robot<'_>, port: Port) {
+        let _ = (robot, port);
+    }
     /// Overwrites the state at random.
     fn corrupt(&mut self, random: &mut Random);
 }

@@ -245,4 +245,11 @@ impl Primitive for Mutex {
             _ => {}
         }
     }
+
+    fn save(&mut self, robot: &mut Robot<'_>) {
+        // With permissions a robot that restarts has nothing to remember: see `permission`.
+        if let Protocol::Arbitration(state) = &mut self.protocol {
+            state.save(&self.common, robot);
+        }
+    }
 }

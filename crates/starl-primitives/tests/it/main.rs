@@ -60,3 +60,4 @@ mod shared_memory_spreads;
 mod shared_memory_traffic;
 mod stabilisation_of_broadcast_orders;
 mod stabilisation_of_shared_memory;
+mod storage_outlasts_restarts;

@@ -19,6 +19,7 @@
 
 mod claim;
 mod recovery;
+mod saving;
 mod vote;
 
 use super::epoch::Epoch;
@@ -27,7 +28,7 @@ use super::packet::{Claim, Packet};
 use super::rules::{Leadership, Rules, Scene};
 use claim::Standing;
 use recovery::Stage;
-use starl_core::{Duration, Random, RobotId, Time};
+use starl_core::{Duration, Port, Random, Robot, RobotId, Time};
 
 /// See the [module](self).
 #[derive(Clone, Debug, Default)]
@@ -54,6 +55,8 @@ pub(super) struct Leases {
     stand_at: Time,
     /// Whether the robot stood for election when it last looked.
     stood: bool,
+    /// What is on storage: the promised epoch, and the latest heard of.
+    saved: (Epoch, Epoch),
 }
 
 /// What this robot has promised.
@@ -216,6 +219,14 @@ impl Rules for Leases {
             None => Time::NEVER,
         };
         shown.min(own).min(self.recovery_due(scene))
+    }
+
+    fn recall(&mut self, scene: &mut Scene<'_, '_>) {
+        self.take_up(scene);
+    }
+
+    fn save(&mut self, robot: &mut Robot<'_>, port: Port) {
+        self.save_epochs(robot, port);
     }
 
     fn leadership(&self, _: RobotId) -> Option<Leadership> {

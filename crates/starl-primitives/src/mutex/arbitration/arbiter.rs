@@ -14,6 +14,7 @@ use super::super::lease::Numbers;
 use super::Post;
 use super::entry::{Entry, Terms, inquire, is_later};
 use super::packet::{Behind, Packet, Wish};
+use super::saving::Kept;
 use super::standing::standings;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
@@ -124,6 +125,44 @@ impl Arbiter {
             ..Entry::new(wish, terms.until())
         };
         self.entries.insert(from, entry);
+    }
+
+    /// What is to outlast a restart; `list` stands for the participants.
+    pub fn kept(&self, list: u32) -> Kept {
+        let granted = self.entries.iter().filter(|(_, entry)| entry.is_granted);
+        let grants = granted.map(|(&robot, entry)| {
+            // Renewals do not count.
+            let round = 0;
+            let wish = Wish {
+                round,
+                ..entry.wish.clone()
+            };
+            (robot, wish, entry.number)
+        });
+        Kept {
+            grants: grants.collect(),
+            finished: self
+                .finished
+                .iter()
+                .map(|(&robot, &id)| (robot, id))
+                .collect(),
+            list,
+            numbers: self.numbers.clone(),
+        }
+    }
+
+    /// Takes up what was kept over a restart.
+    pub fn restore(&mut self, kept: Kept, terms: Terms) {
+        self.numbers = kept.numbers;
+        self.finished = kept.finished.into_iter().collect();
+        for (robot, wish, number) in kept.grants {
+            let entry = Entry {
+                is_granted: true,
+                number,
+                ..Entry::new(wish, terms.until())
+            };
+            self.entries.insert(robot, entry);
+        }
     }
 
     /// Grants what can be granted, and tells all others how it stands.

@@ -14,6 +14,7 @@ mod post;
 mod recalling;
 mod recovery;
 mod request;
+mod saving;
 mod standing;
 
 use super::Resources;
@@ -44,6 +45,8 @@ pub(super) struct Arbitration {
     /// All participants, this robot too, and their hash; empty before the first input.
     everyone: Vec<RobotId>,
     list: u32,
+    /// Stands for what is on storage; none if nothing is.
+    saved: Option<u64>,
 }
 
 impl Arbitration {

@@ -16,7 +16,8 @@ impl Arbitration {
             None => self.everyone == robot.fleet(),
             Some(participants) => self.everyone.iter().eq(participants),
         };
-        let is_change = !is_same && !self.everyone.is_empty();
+        let is_first = self.everyone.is_empty();
+        let is_change = !is_same && !is_first;
         if !is_same {
             self.everyone = common.everyone(robot);
             let ids: Vec<u64> = self.everyone.iter().map(|id| u64::from(id.0)).collect();
@@ -29,6 +30,8 @@ impl Arbitration {
         if self.everyone.binary_search(&robot.id()).is_err() {
             // Who takes no part is no arbiter.
             self.recovery.is_ready = true;
+        } else if is_first && self.restore(common, robot) {
+            // It goes on where it was.
         } else if !is_same || self.recovery.is_idle() {
             let nonce = robot.random().bits() ^ common.incarnation.of(robot);
             self.recovery.begin(nonce, robot.now(), is_change);

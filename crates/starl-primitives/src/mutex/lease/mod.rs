@@ -16,6 +16,7 @@
 use super::{Options, Resources};
 use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
+use serde::{Deserialize, Serialize};
 use starl_core::{Duration, Random, RobotId, Time};
 
 /// How many bits of a number are its robot's.
@@ -36,7 +37,7 @@ pub(super) fn belief(options: &Options) -> Duration {
 }
 
 /// The greatest numbers known, by resource.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Numbers {
     known: BTreeMap<Box<str>, u64>,
     /// At least this for every resource.

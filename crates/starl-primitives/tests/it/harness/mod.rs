@@ -19,9 +19,9 @@ use starl_core::{
     Agent, Destination, Duration, Effect, Estimate, Event, Input, Payload, Port, Program, Random,
     Robot, RobotId, Sensors, Time, Timer, TimerKey, View,
 };
-use starl_host::Clock;
 use starl_host::testing::Unit;
 pub use starl_host::testing::{Fleet, Wire};
+use starl_host::{Clock, Store};
 use std::ops::{Deref, DerefMut};
 
 /// A fleet of robots that run the same program and move along straight lines.
@@ -30,6 +30,7 @@ pub struct World {
     seed: u64,
     make: Box<dyn Fn() -> Box<dyn Program>>,
     period: Duration,
+    has_storage: bool,
 }
 
 impl Deref for World {
@@ -55,11 +56,36 @@ impl World {
         period: Option<Duration>,
         make: impl Fn() -> Box<dyn Program> + 'static,
     ) -> World {
+        World::made(count, seed, wire, period, Box::new(make), false)
+    }
+
+    /// The same with storage, which takes five milliseconds for a write.
+    pub fn with_storage(
+        count: usize,
+        seed: u64,
+        wire: Wire,
+        period: Option<Duration>,
+        make: impl Fn() -> Box<dyn Program> + 'static,
+    ) -> World {
+        let mut world = World::made(count, seed, wire, period, Box::new(make), true);
+        world.write_time = Duration::from_millis(5);
+        world
+    }
+
+    fn made(
+        count: usize,
+        seed: u64,
+        wire: Wire,
+        period: Option<Duration>,
+        make: Box<dyn Fn() -> Box<dyn Program>>,
+        has_storage: bool,
+    ) -> World {
         let mut world = World {
             fleet: Fleet::new(seed, wire),
             seed,
-            make: Box::new(make),
+            make,
             period: period.unwrap_or_default(),
+            has_storage,
         };
         for _ in 0..count {
             world.add();
@@ -76,7 +102,11 @@ impl World {
     /// One more robot joins the fleet.
     pub fn add(&mut self) -> usize {
         let robot = self.robots.len();
-        let unit = Unit::new(RobotId(robot as u32), self.agent(robot));
+        let store = self.has_storage.then(Store::default);
+        let saved = store.as_ref().map(Store::saved);
+        let agent = self.agent(robot).with_saved(saved);
+        let mut unit = Unit::new(RobotId(robot as u32), agent);
+        unit.store = store;
         let speed = 0.3 + 0.1 * robot as f64;
         self.fleet
             .add(unit.with_speed(speed).with_period(self.period))
@@ -97,6 +127,13 @@ impl World {
     pub fn start(&mut self, robot: usize) {
         let agent = self.agent(robot);
         self.fleet.restart(robot, agent);
+    }
+
+    /// The storage of a robot that is down loses all that it holds.
+    pub fn lose_storage(&mut self, robot: usize) {
+        if let Some(store) = &mut self.robots[robot].store {
+            store.crash(true);
+        }
     }
 
     /// A robot's clock is ahead by so many nanoseconds.

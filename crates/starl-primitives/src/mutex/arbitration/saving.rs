@@ -1,0 +1,68 @@
+//! What an arbiter keeps over a restart, on robots with storage: what it has granted, which requests are over, and
+//! the numbers that it has given.
+//!
+//! An arbiter that finds its grants on storage goes on at once, and so does one that finds nothing on storage that
+//! never lost anything. All others ask what they had granted: see [`super::recovery`]. A lease that was granted
+//! before the restart counts from the restart, which can only make it longer.
+//!
+//! Requests that wait are not kept: they are repeated.
+
+use super::super::common::{Common, RequestId};
+use super::super::lease::Numbers;
+use super::Arbitration;
+use super::packet::Wish;
+use alloc::vec::Vec;
+use serde::{Deserialize, Serialize};
+use starl_core::{Digest, Robot, RobotId, message};
+
+/// Under which it is saved.
+const GRANTS: &str = "grants";
+
+/// What is kept.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Kept {
+    /// Stands for the participants.
+    pub list: u32,
+    /// Who was granted what, under which number.
+    pub grants: Vec<(RobotId, Wish, u64)>,
+    /// The last request of each robot that is over.
+    pub finished: Vec<(RobotId, RequestId)>,
+    pub numbers: Numbers,
+}
+
+impl Arbitration {
+    /// Takes up what storage holds, when the robot starts; whether that is all that there was.
+    pub(super) fn restore(&mut self, common: &Common, robot: &Robot<'_>) -> bool {
+        let Some(saved) = robot.saved() else {
+            return false;
+        };
+        match saved.get::<Kept>(common.port, GRANTS) {
+            Some(kept) if kept.list == self.list => {
+                let terms = self.terms(common, robot);
+                self.arbiter.restore(kept, terms);
+            }
+            // Other participants may have been granted something else.
+            Some(_) => return false,
+            None if saved.is_whole() => {}
+            None => return false,
+        }
+        self.recovery.is_ready = true;
+        self.recovery.remembers = true;
+        true
+    }
+
+    /// Saves what has changed.
+    pub fn save(&mut self, common: &Common, robot: &mut Robot<'_>) {
+        if !self.recovery.is_ready || self.everyone.binary_search(&robot.id()).is_err() {
+            return;
+        }
+        let kept = message::encode(&self.arbiter.kept(self.list));
+        let mut digest = Digest::default();
+        digest.bytes(&kept);
+        let value = digest.value();
+        if self.saved != Some(value) {
+            self.saved = Some(value);
+            robot.save_bytes(common.port, GRANTS.into(), || Some(kept));
+        }
+    }
+}
