@@ -2,9 +2,9 @@
 //! the network does; without waiting they go on where they were. One whose storage is lost recovers as robots
 //! without storage do.
 
-use crate::harness::elector::{self, Elector, agreed, by};
+use crate::harness::elector::{self, Elector, agreed, by, election};
 use crate::harness::keeper::{self, Keeper, known, read, result, write};
-use crate::harness::locker::{self, Locker, acquire, entries, mutex};
+use crate::harness::locker::{self, Locker, acquire, entries, mutex, release};
 use crate::harness::{Wire, World};
 use starl_core::{Duration, Program, Random, Time};
 use starl_primitives::election::Algorithm as Election;
@@ -150,8 +150,11 @@ fn fencing_numbers_grow_though_a_clock_is_an_hour_ahead_and_all_restart() {
     let mut world = World::with_storage(3, 1, Wire::perfect(), Some(MILLISECOND * 100), make);
     world.set_clock_ahead(0, 3_600_000_000_000);
     world.run_for(SECOND * 5);
-    world.command(0, acquire(&["a"]));
-    world.run_for(SECOND * 5);
+    for _ in 0..5 {
+        world.command(0, release(&["a"]));
+        world.command(0, acquire(&["a"]));
+        world.run_for(SECOND * 5);
+    }
     let first = mutex(&world, 0).fencing();
     assert!(first.is_some());
     (0..3).for_each(|robot| world.crash(robot));
@@ -187,6 +190,24 @@ fn epochs_grow_though_all_voters_crash_at_once() {
     }
     println!("{led} epochs");
     assert!(led > 200, "{led}");
+}
+
+#[test]
+fn epochs_grow_though_a_clock_is_an_hour_ahead_and_all_restart() {
+    let make = Elector::boxed(by(Election::Leases), None, false, true);
+    let mut world = World::with_storage(3, 1, Wire::perfect(), None, make);
+    world.set_clock_ahead(0, 3_600_000_000_000);
+    world.command(0, elector::ELECT);
+    world.run_for(SECOND * 5);
+    let first = election(&world, 0).epoch();
+    assert!(first.is_some());
+    (0..3).for_each(|robot| world.crash(robot));
+    world.start(1);
+    world.start(2);
+    world.command(1, elector::ELECT);
+    world.run_for(SECOND * 10);
+    let second = election(&world, 1).epoch();
+    assert!(second > first, "{second:?} after {first:?}");
 }
 
 #[test]
