@@ -127,7 +127,7 @@ pub fn checkers(setting: &Setting) -> Vec<Box<dyn Checker>> {
         checkers.push(Box::new(election::Election::new(setting)));
     }
     if wanted.register {
-        checkers.push(Box::new(register::Register::default()));
+        checkers.push(Box::new(register::Register::new(setting)));
     }
     if wanted.mutex {
         checkers.push(Box::new(mutex::Mutex::new(setting)));

@@ -30,6 +30,8 @@ pub struct Setting {
     pub position_noise: f64,
     /// How much faster or slower than true time a robot's clock may run, as a share; default 0.
     pub clock_drift: f64,
+    /// Whether robots have storage that outlasts a crash, unless a fault says that it is lost; default false.
+    pub keeps_storage: bool,
 }
 
 impl Default for Setting {
@@ -46,6 +48,7 @@ impl Default for Setting {
             estimate_period: Duration::from_millis(50),
             position_noise: 0.0,
             clock_drift: 0.0,
+            keeps_storage: false,
         }
     }
 }

@@ -10,16 +10,16 @@
 //! A register can also be claimed, to read and write it as one step ([`Register::claim`],
 //! [`Register::write_claimed`]; the module `claiming`).
 //!
-//! Robots have no stable storage: one that starts again has lost its copies, and what it acknowledged before
-//! must not count any more. It answers nothing until it has the copies of a majority of all from the others
-//! (the module `recovery`), and answers of its earlier lives are told apart by crash vectors (Michael, Ports, Sharma,
+//! Without storage, a robot that starts again has lost its copies, and what it acknowledged before must not
+//! count any more. It answers nothing until it has the copies of a majority of all from the others (the module
+//! `recovery`), and answers of its earlier lives are told apart by crash vectors (Michael, Ports, Sharma,
 //! Szekeres 2017, "Recovering Shared Objects Without Stable Storage"; a nonce alone, as in Viewstamped
-//! Replication Revisited, does not do, as they show).
+//! Replication Revisited, does not do, as they show). With storage, it goes on where it was (the module `saving`).
 //!
 //! Properties, for robots that name the same participants:
 //! - linearizability: each operation takes effect at one moment between its call and its end, whatever the
-//!   network does, as long as at no time a majority of the participants is down or recovering. If that
-//!   happens the robots that are left block rather than forget, unless nobody that is heard has anything
+//!   network does, as long as at no time a majority of the participants has forgotten: is down or recovering
+//!   without storage, or has lost it. If that happens the robots that are left block rather than forget, unless nobody that is heard has anything
 //!   left;
 //! - no lost update: what is written to a claimed register takes the place of what the claim has read, or is
 //!   told as lost, under the same condition; no clock, lock or suspicion matters;

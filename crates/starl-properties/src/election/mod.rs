@@ -37,6 +37,8 @@ pub(super) struct Election {
     due: BTreeSet<(Time, Port, RobotId)>,
     /// When some state was corrupted last.
     corrupted: Option<Time>,
+    /// Whether a crash leaves voters what they have promised.
+    keeps_storage: bool,
     pending: Pending,
     excused: Excused,
 }
@@ -52,6 +54,7 @@ impl Election {
             instances: BTreeMap::new(),
             due: BTreeSet::new(),
             corrupted: None,
+            keeps_storage: setting.keeps_storage,
             pending: Pending::new(setting),
             excused: Excused::default(),
         }
@@ -112,12 +115,12 @@ impl Election {
         self.pending.settle(now, found);
     }
 
-    /// A robot has lost all it knew.
-    fn crash(&mut self, robot: RobotId) {
+    /// A robot is down, and has lost all it knew unless its storage holds it.
+    fn crash(&mut self, robot: RobotId, keeps: bool) {
         for instance in self.instances.values_mut() {
             instance.leading.remove(&robot);
             instance.members.remove(&robot);
-            if instance.note_forgotten() {
+            if !keeps && instance.note_forgotten() {
                 self.excused.note(ORDER, Excuse::NoMajority);
             }
         }
@@ -169,7 +172,8 @@ impl Checker for Election {
                 self.health.observe(record);
                 self.parts.observe(record);
                 match (record.robot, fault) {
-                    (Some(robot), Fault::Crash) => self.crash(robot),
+                    (Some(robot), Fault::Crash) => self.crash(robot, self.keeps_storage),
+                    (Some(robot), Fault::StorageLost) => self.crash(robot, false),
                     (Some(_), Fault::CorruptState) => self.corrupt(record.at),
                     _ => {}
                 }

@@ -6,7 +6,7 @@
 mod search;
 
 use super::report::Report;
-use super::{Checker, Excuse, Excused, Kinds, Violation};
+use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
 use search::{Content, Id, Search, Verdict};
 use starl_core::event::storing as event;
 use starl_core::event::{Event, Fault, RegisterEvent};
@@ -23,6 +23,8 @@ pub(super) struct Register {
     last: Id,
     /// Whether some state was corrupted, so that copies may hold what was never written.
     corrupted: bool,
+    /// Whether a crash leaves robots what they have stored.
+    keeps_storage: bool,
     excused: Excused,
 }
 
@@ -35,7 +37,7 @@ struct Instance {
     /// Who has kept copies at some time, and who does now.
     members: BTreeSet<RobotId>,
     up: BTreeSet<RobotId>,
-    /// Whether a majority has been down or recovering at once, so that values may be lost.
+    /// Whether a majority has been down or recovering at once, having forgotten all, so that values may be lost.
     is_lost: bool,
 }
 
@@ -74,6 +76,10 @@ impl Instance {
                 self.abandon(&operation);
             }
         }
+    }
+
+    /// A robot has lost its copies.
+    fn forgot(&mut self, robot: RobotId) {
         self.up.remove(&robot);
         if self.up.len() <= self.members.len() / 2 && self.members.contains(&robot) {
             self.is_lost = true;
@@ -109,6 +115,13 @@ impl Instance {
 }
 
 impl Register {
+    pub fn new(setting: &Setting) -> Register {
+        Register {
+            keeps_storage: setting.keeps_storage,
+            ..Register::default()
+        }
+    }
+
     fn reported(&mut self, report: &Report<'_, RegisterEvent>, found: &mut Vec<Violation>) {
         let instance = self.instances.entry(report.port).or_default();
         if let RegisterEvent::Up { .. } = report.event {
@@ -241,10 +254,14 @@ impl Checker for Register {
                 }
             }
             Event::Fault(fault) => match (record.robot, fault) {
-                (Some(robot), Fault::Crash) => {
+                (Some(robot), Fault::Crash | Fault::StorageLost) => {
+                    let keeps = self.keeps_storage && *fault == Fault::Crash;
                     for instance in self.instances.values_mut() {
                         let was_lost = instance.is_lost;
                         instance.crashed(robot);
+                        if !keeps {
+                            instance.forgot(robot);
+                        }
                         if instance.is_lost && !was_lost {
                             self.excused.note(LINEARIZABILITY, Excuse::NoMajority);
                         }

@@ -144,6 +144,22 @@ fn what_a_majority_forgets_is_excused_and_a_corruption_too() {
 }
 
 #[test]
+fn what_storage_holds_is_not_forgotten_until_storage_is_lost() {
+    let mut kept = story(&[(0, "write", 300, 400, 5), (1, "read", 4000, 4100, 0)]);
+    kept.setting.keeps_storage = true;
+    for robot in 0..3 {
+        kept.report(100, robot, ("register", "up"), [("life", Value::Int(1))]);
+        kept.fault(500, Some(robot), "crash");
+    }
+    assert_only(&kept.verdict(5000), "register.linearizability", 4100, &[1]);
+    let mut one = kept.clone();
+    one.fault(500, Some(0), "storage lost");
+    assert_only(&one.verdict(5000), "register.linearizability", 4100, &[1]);
+    one.fault(500, Some(1), "storage lost");
+    assert_none(&one.verdict(5000));
+}
+
+#[test]
 fn it_can_be_switched_off() {
     let mut story = story(&[(0, "write", 300, 400, 5), (1, "read", 4000, 4100, 0)]);
     story.setting.properties.register = false;

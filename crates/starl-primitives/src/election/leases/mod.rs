@@ -7,8 +7,8 @@
 //! of Paxos (Lamport 1998). Raft's pre-vote is not needed: a robot that stands against a leader is refused
 //! as long as the leader's lease runs, and its epoch counts for nobody who did not vote for it.
 //!
-//! Robots have no stable storage, so one that restarts has forgotten its promises. How it comes to vote again
-//! is told in `recovery.rs`.
+//! A robot without storage that restarts has forgotten its promises. How it comes to vote again is told in
+//! `recovery.rs`; what one with storage keeps, in `saving.rs`.
 //!
 //! What rests on what:
 //! - one leader in each epoch: on nothing but its number, which names the leader (`epoch.rs`);
