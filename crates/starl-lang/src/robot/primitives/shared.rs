@@ -76,7 +76,11 @@ fn written<T>(result: Result<T, WriteError>) -> Called {
 }
 
 /// Gives a value that was read, which is an optional: its scalars and objects.
-pub(in crate::robot) fn give(program: &Program, call: &mut HostCall<'_>, bytes: &[Option<&[u8]>]) -> Called {
+pub(in crate::robot) fn give(
+    program: &Program,
+    call: &mut HostCall<'_>,
+    bytes: &[Option<&[u8]>],
+) -> Called {
     let [Type::Optional(kind)] = &call.import.results[..] else {
         return Err("what may be missing is read as an optional".into());
     };
