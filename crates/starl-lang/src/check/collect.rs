@@ -87,6 +87,7 @@ impl Checker {
             initial: None,
             locals: Vec::new(),
             role: None,
+            is_stable: false,
             site,
             documentation: "The role that this robot has.".into(),
         });
@@ -159,6 +160,7 @@ impl Checker {
                     initial: None,
                     locals: Vec::new(),
                     role,
+                    is_stable: node.is_stable(),
                     site: self.site(name.span),
                     documentation,
                 });

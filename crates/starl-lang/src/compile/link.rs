@@ -139,6 +139,7 @@ fn variables(unit: &mut Unit<'_>) -> Compiled<Vec<Variable>> {
                 false => Parameter::No,
             },
             range: None,
+            is_stable: variable.is_stable,
         });
     }
     for parameter in &program.parameters {
@@ -151,6 +152,7 @@ fn variables(unit: &mut Unit<'_>) -> Compiled<Vec<Variable>> {
                 None => Parameter::Required,
             },
             range: range(unit, parameter)?,
+            is_stable: false,
         });
     }
     Ok(variables)

@@ -62,7 +62,8 @@ pub(super) fn describe(checked: &Checked, symbol: Symbol) -> Description {
         }
         Symbol::Variable(id) => {
             let found = &program[id];
-            let text = format!("{}: {}", found.name, typed(&found.ty));
+            let stable = if found.is_stable { "stable " } else { "" };
+            let text = format!("{stable}{}: {}", found.name, typed(&found.ty));
             let text = with_value(checked, text, found.site);
             Description::new(text, &*found.documentation)
         }

@@ -70,6 +70,11 @@ pub(super) const DECLARATIONS: &[Word] = &[
         "A shared variable that all robots write and read.",
     ),
     word(
+        "stable",
+        "stable name: Type = value",
+        "A variable that outlasts a crash where the robot has storage.",
+    ),
+    word(
         "function",
         "function name(a: Type) -> Type",
         "Something computed from arguments and constants alone.",

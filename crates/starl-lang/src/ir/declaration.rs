@@ -68,6 +68,8 @@ pub struct Variable {
     /// The role that it is declared in, by the role's variant: it gets its first value again whenever
     /// the robot enters the role, as part of [`Role::entry`]. None outside of roles.
     pub role: Option<u16>,
+    /// Whether it is saved where the robot has storage, and begins with what was saved.
+    pub is_stable: bool,
     /// Where it is declared.
     pub site: Site,
     /// What the comments above it say.

@@ -125,6 +125,8 @@ pub struct Variable {
     pub parameter: Parameter,
     /// What values the host may give it; none if any of its type will do.
     pub range: Option<Range>,
+    /// Whether the host saves it where the robot has storage; the start asks for what was saved.
+    pub is_stable: bool,
 }
 
 /// What an Int, a Float or a Duration may be: from the one to before the other, as scalars.

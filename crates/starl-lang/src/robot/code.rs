@@ -9,6 +9,7 @@ use super::primitives::{KINDS, Needs};
 use super::rest;
 use super::services::Services;
 use super::shape::Declared;
+use super::stable::Stable;
 use crate::machine::{Bytecode, Import, LoadError, Origin, Program, RuntimeError, State};
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -33,6 +34,7 @@ struct Inner {
     services: Services,
     inbox: Inbox,
     orders: Orders,
+    stable: Vec<Stable>,
     /// The parameters' defaults; or what went wrong when they were worked out.
     initial: Result<State, String>,
 }
@@ -68,6 +70,7 @@ impl Code {
             position: None,
             reason: "handlers of one input have different fields",
         })?;
+        let stable = Stable::of(program.bytecode(), joiner.declared());
         let initial = parameter::defaults(&program);
         let joints = joiner.finish();
         Ok(Code(Arc::new(Inner {
@@ -81,6 +84,7 @@ impl Code {
             instances,
             inbox,
             orders,
+            stable,
         })))
     }
 
@@ -145,6 +149,11 @@ impl Code {
     /// The inputs that the program handles.
     pub(super) fn orders(&self) -> &Orders {
         &self.0.orders
+    }
+
+    /// The stable variables, in the order of the variables.
+    pub(super) fn stable(&self) -> &[Stable] {
+        &self.0.stable
     }
 
     /// An error in words, with its place: `race.starl:12:5: index 5 is out of range 0..3`.

@@ -119,8 +119,8 @@ impl Inbox {
     }
 }
 
-/// The tag of a message.
-fn tag(types: &Declared, name: &str, fields: &[&Type]) -> u32 {
+/// The tag of something that has a name and values of these types, such as a message.
+pub(super) fn tag(types: &Declared, name: &str, fields: &[&Type]) -> u32 {
     let mut text = String::from(name);
     for field in fields {
         // Writing to a string does not fail.

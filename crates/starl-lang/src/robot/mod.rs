@@ -27,6 +27,7 @@ pub mod properties;
 mod rest;
 mod services;
 mod shape;
+mod stable;
 mod words;
 mod workbench;
 

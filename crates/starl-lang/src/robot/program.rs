@@ -10,6 +10,7 @@ use super::parameter::{self, ParameterError};
 use super::primitives::{Attended, Report, Slot};
 use super::rest::Disturbing;
 use super::services::Services;
+use super::stable::Kept;
 use super::workbench::Workbench;
 use crate::machine::{Limits, Machine, RuntimeError, State, Value};
 use alloc::boxed::Box;
@@ -38,6 +39,8 @@ pub struct RobotProgram {
     pub(super) waiting: VecDeque<Waiting>,
     /// See [`RobotProgram::version`].
     version: u64,
+    /// What storage holds of its stable variables.
+    kept: Option<Box<Kept>>,
     pub(super) phase: Phase,
     /// Whether it rests: see [`rest`](super::rest).
     rests: bool,
@@ -73,6 +76,7 @@ impl RobotProgram {
             reports: Vec::new(),
             waiting: VecDeque::new(),
             version: 0,
+            kept: None,
             phase: Phase::New,
             rests: false,
         })
@@ -269,6 +273,10 @@ impl Program for RobotProgram {
         self.rests = false;
         self.services = Services::start(&self.code, robot);
         self.run(robot, Part::Start);
+        // After a start that failed, variables may be without their values.
+        if self.phase == Phase::Running && self.kept.is_none() {
+            self.kept = Kept::at_start(&self.code, robot).map(Box::new);
+        }
     }
 
     fn activate(&mut self, robot: &mut Robot<'_>) {
@@ -313,6 +321,12 @@ impl Program for RobotProgram {
         self.follow(robot, order);
     }
 
+    fn save(&mut self, robot: &mut Robot<'_>) {
+        if let Some(kept) = &mut self.kept {
+            kept.save(&self.code, &self.state, self.version, robot);
+        }
+    }
+
     fn corrupt(&mut self, random: &mut Random) {
         self.version += 1;
         self.rests = false;
@@ -334,13 +348,16 @@ impl Program for RobotProgram {
             reports,
             waiting,
             version: _,
+            kept,
             phase,
             rests: _,
         } = self;
+        let kept = kept.iter().flat_map(|kept| kept.digests());
         write!(
             text,
             "{state:?}{bound:?}{services:?}{reports:?}{waiting:?}{phase:?}"
         )
+        .and_then(|()| { kept }.try_for_each(|digest| write!(text, "{digest:?}")))
         .is_ok()
     }
 

@@ -55,7 +55,7 @@ on input go_home(
     if fast then log(\"{}\", to)
 /// Never less.
 invariant rising: sum_of >= 0 and forall r: r.up
-sum_of: Int
+stable sum_of: Int = 2
 ";
 
 /// What is shown of the first `word` after `context`.
@@ -108,6 +108,13 @@ fn of_what_the_program_declares() {
     );
     shows("< limit", "limit", "const limit: Int = 3 * (2 + 1)", "");
     shows("pre loc", "loc", "loc: Location = init", "");
+    shows("rising:", "sum_of", "stable sum_of: Int = 2", "");
+    shows(
+        "stable sum_of",
+        "stable",
+        "stable name: Type = value",
+        "A variable that outlasts a crash where the robot has storage.",
+    );
     shows("pos[me] =", "pos", "allread pos[RobotId]: Point", "");
     shows("sum = index", "sum", "allwrite sum: Int = 0", "");
     shows(

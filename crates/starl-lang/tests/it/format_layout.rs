@@ -33,6 +33,14 @@ fn operators_stand_apart_and_brackets_do_not() {
 }
 
 #[test]
+fn stable_variables_begin_with_the_word() {
+    check(
+        "program P\n\nstable   left :Int=3\nstable loc:enum{a,b}\nstable:Bool\n",
+        "program P\n\nstable left: Int = 3\nstable loc: enum {a, b}\nstable: Bool\n",
+    );
+}
+
+#[test]
 fn maps_sets_and_optionals() {
     check(
         "program P\n\nconst a = { 1:2 , 3 : 4 }\nconst b = { : }\nconst c = x ! . y [ 0 ] !\n",

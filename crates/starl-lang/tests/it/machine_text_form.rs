@@ -9,7 +9,9 @@ fn what_is_written_is_read_back() {
     let inputs = "program P\nhandler go input f0 f1 speed\nhandler halt input f1\nfunction on.input.go \
                   procedure (Bool, Float) () registers 2 objects 0\n return #0 #0\nfunction on.input.halt \
                   procedure () () registers 1 objects 0\n return #0 #0\n";
-    for text in [RACE, EVERY, inputs] {
+    let stable =
+        "program P\nstable count Int\nvariable other Int\nparameter fixed Int in 0x0 0x5\n";
+    for text in [RACE, EVERY, inputs, stable] {
         let bytecode = assemble(text).expect("it is well written");
         let written = disassemble(&bytecode);
         assert_eq!(assemble(&written).as_ref(), Ok(&bytecode), "{written}");

@@ -63,6 +63,7 @@ mod robot_elects_a_leader;
 mod robot_handles_primitive_events;
 mod robot_hears_operators;
 mod robot_ignores_garbage;
+mod robot_keeps_stable_variables;
 mod robot_locks_resources;
 mod robot_moves;
 mod robot_offers_what_the_language_has;

@@ -1,5 +1,6 @@
 //! The start of a program: primitives are bound, variables get their first values.
 
+use alloc::boxed::Box;
 use alloc::format;
 use alloc::vec::Vec;
 
@@ -53,7 +54,11 @@ impl<'p> Unit<'p> {
             body.bind_shared(ir::SharedId(number as u32))?;
         }
         for number in 0..program.variables.len() {
-            body.initialize(ir::VariableId(number as u32), false)?;
+            let id = ir::VariableId(number as u32);
+            body.initialize(id, false)?;
+            if program[id].is_stable {
+                body.recall(id)?;
+            }
         }
         if program.init.is_some() {
             body.run(Routine::Init)?;
@@ -130,6 +135,23 @@ impl<'p> Body<'_, 'p> {
                 None => body.zeros(value, &variable.ty)?,
             }
             body.store(place, value, &variable.ty)
+        })
+    }
+
+    /// Gives a variable the value that was saved, if one was.
+    fn recall(&mut self, id: ir::VariableId) -> Compiled {
+        let variable: &'p ir::Variable = &self.unit.program[id];
+        let place = self.unit.variable(id);
+        self.part(&[], variable.site, |body| {
+            let optional = Type::Optional(Box::new(variable.ty.clone()));
+            let saved = body.take_for(&optional)?;
+            let import = HostFunction::query("saved");
+            body.host(import, &[Argument::Int(id.0)], &optional, saved, true)?;
+            let nothing = body.label();
+            body.jump_on(saved, false, nothing);
+            body.store(place, saved.at(Size::SCALAR), &variable.ty)?;
+            body.place(nothing);
+            Ok(())
         })
     }
 }

@@ -127,6 +127,7 @@ impl Assembler {
             "variable" => self.variable(&mut cursor, Parameter::No),
             "parameter" => self.variable(&mut cursor, Parameter::Optional),
             "required" => self.variable(&mut cursor, Parameter::Required),
+            "stable" => self.stable(&mut cursor),
             "import" => self.import(&mut cursor),
             "primitive" => self.primitive(&mut cursor),
             "defaults" => cursor
@@ -209,7 +210,14 @@ impl Assembler {
             kind,
             parameter,
             range,
+            is_stable: false,
         });
+        Some(())
+    }
+
+    fn stable(&mut self, cursor: &mut Cursor<'_>) -> Option<()> {
+        self.variable(cursor, Parameter::No)?;
+        self.bytecode.variables.last_mut()?.is_stable = true;
         Some(())
     }
 

@@ -49,6 +49,7 @@ fn declarations(out: &mut String, bytecode: &Bytecode) -> fmt::Result {
     }
     for variable in &bytecode.variables {
         let declared = match variable.parameter {
+            Parameter::No if variable.is_stable => "stable",
             Parameter::No => "variable",
             Parameter::Optional => "parameter",
             Parameter::Required => "required",

@@ -7,6 +7,7 @@ use crate::machine::value::state::State;
 use crate::machine::value::tree::Value;
 use alloc::vec::Vec;
 use core::ops::Range;
+use starl_core::Payload;
 
 /// Where a variable lies in the state.
 struct Place<'a> {
@@ -38,6 +39,17 @@ impl Program {
             let scalars = state.scalars.get(place.scalars)?;
             let objects = state.objects.get(place.objects)?;
             Some((name, Value::read(self, place.kind, scalars, objects)?))
+        })
+    }
+
+    /// The values of the stable variables of a state as bytes, in the order of the variables.
+    pub fn encode_stable<'a>(&'a self, state: &'a State) -> impl Iterator<Item = Payload> + 'a {
+        let variables = self.bytecode.variables.iter().zip(self.places());
+        let stable = variables.filter(|(variable, _)| variable.is_stable);
+        stable.filter_map(|(_, (_, place))| {
+            let scalars = state.scalars.get(place.scalars)?;
+            let objects = state.objects.get(place.objects)?;
+            self.encode(core::slice::from_ref(place.kind), scalars, objects)
         })
     }
 

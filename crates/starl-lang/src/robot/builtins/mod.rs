@@ -8,7 +8,9 @@ pub use sensing::{name_of, way_point, way_point_group};
 
 use super::arguments::{Arguments, Called};
 use super::host::RobotHost;
+use super::primitives::give;
 use super::shape::{Shape, Signature};
+use super::stable;
 use crate::machine::HostCall;
 
 /// A built-in function or name.
@@ -284,4 +286,17 @@ pub static BUILTINS: &[Builtin] = &[
         host.context.robot.halt();
         Ok(1)
     }),
+    // Not in the language's table: the start of a program asks this for each stable variable, by its number.
+    query(
+        "saved",
+        &[Shape::Int],
+        Shape::Optional(&Shape::Any),
+        |host, call| {
+            let variable = Arguments::of(call).int() as usize;
+            let code = host.context.code;
+            let saved = host.context.robot.saved();
+            let value = saved.and_then(|saved| stable::saved(code, saved, variable));
+            give(code.program(), call, &[value])
+        },
+    ),
 ];

@@ -17,6 +17,7 @@ mod shared;
 mod watch;
 
 pub use attended::{Attended, Seat};
+pub(super) use shared::give;
 
 use super::arguments::{Arguments, Called};
 use super::code::Instance;

@@ -76,9 +76,13 @@ fn written<T>(result: Result<T, WriteError>) -> Called {
 }
 
 /// Gives a value that was read, which is an optional: its scalars and objects.
-pub(super) fn give(program: &Program, call: &mut HostCall<'_>, bytes: &[Option<&[u8]>]) -> Called {
+pub(in crate::robot) fn give(
+    program: &Program,
+    call: &mut HostCall<'_>,
+    bytes: &[Option<&[u8]>],
+) -> Called {
     let [Type::Optional(kind)] = &call.import.results[..] else {
-        return Err("a shared variable is read as an optional".into());
+        return Err("what may be missing is read as an optional".into());
     };
     let kinds = core::slice::from_ref(&**kind);
     let mut candidates = bytes.iter().flatten();

@@ -21,7 +21,7 @@ nodes! {
     ParameterRange
     /// `const name = value`
     ConstantDeclaration
-    /// `name: Type = value`
+    /// `name: Type = value` or `stable name: Type = value`
     VariableDeclaration
     /// `allread name[RobotId]: Type` or `allwrite name: Type = value`
     SharedDeclaration
@@ -105,6 +105,14 @@ impl ParameterDeclaration {
     #[must_use]
     pub fn range(&self) -> Option<ParameterRange> {
         child(&self.0)
+    }
+}
+
+impl VariableDeclaration {
+    /// Whether it is declared `stable`.
+    #[must_use]
+    pub fn is_stable(&self) -> bool {
+        word(&self.0, "stable").is_some()
     }
 }
 

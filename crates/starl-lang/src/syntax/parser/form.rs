@@ -2,7 +2,7 @@
 
 use super::declaration::{self as declare, contextual};
 use super::{Parser, SyntaxKind, SyntaxKind::*};
-use super::{action, handler, property, record, shared, slips};
+use super::{action, handler, property, record, shared, slips, stable};
 
 /// What is being declared, and the function that parses it from its first word.
 pub(super) type Form = (SyntaxKind, fn(&mut Parser<'_>));
@@ -48,6 +48,7 @@ fn by_word(parser: &Parser<'_>, word: &str) -> Option<Form> {
         "invariant" | "always" | "eventually" => {
             property::is_next(parser).then_some((PropertyDeclaration, property::property))
         }
+        "stable" => stable::form(parser),
         "init" => declare::is_init(parser).then_some((InitDeclaration, declare::init)),
         _ => by_meaning(word).filter(|_| contextual(parser)),
     }
@@ -81,6 +82,7 @@ pub(super) fn by_meaning(word: &str) -> Option<Form> {
         "message" => (MessageDeclaration, record::message),
         "param" => (ParameterDeclaration, declare::parameter),
         "const" => (ConstantDeclaration, declare::constant),
+        "stable" => (VariableDeclaration, stable::variable),
         "function" => (FunctionDeclaration, declare::function),
         "role" => (RoleDeclaration, declare::role),
         "allread" => (SharedDeclaration, shared::all_read),

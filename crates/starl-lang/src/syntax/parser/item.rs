@@ -6,7 +6,7 @@ use rowan::Checkpoint;
 
 use super::form::form;
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*};
-use super::{block, slips, statement};
+use super::{block, slips, stable, statement};
 
 /// Where a declaration stands.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -98,6 +98,9 @@ fn item(parser: &mut Parser<'_>, place: Place) {
     let at = parser.span();
     if let Some((kind, parse)) = form(parser) {
         check_place(parser, kind, place, first, at);
+        if kind == VariableDeclaration {
+            stable::check_place(parser, place);
+        }
         parse(parser);
         parser.start_at(start, kind);
         parser.finish();

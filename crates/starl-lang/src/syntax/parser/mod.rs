@@ -20,6 +20,7 @@ mod recovery;
 mod report;
 mod shared;
 mod slips;
+mod stable;
 mod statement;
 mod tree;
 mod types;

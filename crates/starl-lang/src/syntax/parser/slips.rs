@@ -42,6 +42,7 @@ pub(super) const DECLARATIONS: &[&str] = &[
     "const",
     "allread",
     "allwrite",
+    "stable",
     "function",
     "role",
     "invariant",
@@ -61,6 +62,7 @@ pub(super) fn foreign_declaration(word: &str) -> Option<&'static str> {
         "sharedmw" | "shared" => "allwrite",
         "constant" | "final" => "const",
         "parameter" => "param",
+        "persistent" | "durable" => "stable",
         _ => return closest(word, DECLARATIONS.iter().copied()),
     })
 }

@@ -3,8 +3,11 @@
 
 pub mod race;
 
-use starl_core::{Agent, Duration, Event, Point, Random, RobotId, Value, WayPoint};
+use starl_core::{
+    Agent, Duration, Event, Point, Port, Random, RobotId, Save, Saved, Time, Value, WayPoint,
+};
 use starl_host::testing::{Fleet, Unit, Wire};
+use starl_host::{Store, StoreJob};
 use starl_lang::machine::{self, assemble};
 use starl_lang::robot::{Code, RobotProgram};
 use std::ops::{Deref, DerefMut};
@@ -60,12 +63,36 @@ impl World {
         world
     }
 
+    /// One robot that runs this code, with storage that holds this. A write takes 1 ms.
+    pub fn on_storage(code: &Code, saved: Saved) -> World {
+        let mut store = Store::default();
+        let saves = saved.of(Port::PROGRAM).map(|(key, value)| Save {
+            port: Port::PROGRAM,
+            key: key.to_string().into(),
+            value: Some(value.into()),
+        });
+        let saves = saves.collect();
+        store.begin(Time::ZERO, StoreJob { job: 0, saves }, Duration::ZERO);
+        store.finish();
+        let mut world = World::with(vec![program(code)], Some(store));
+        world.write_time = Duration::from_millis(1);
+        world.start();
+        world
+    }
+
     pub fn unstarted(programs: Vec<RobotProgram>) -> World {
+        World::with(programs, None)
+    }
+
+    fn with(programs: Vec<RobotProgram>, store: Option<Store>) -> World {
         let mut fleet = Fleet::new(1, Wire::perfect());
         fleet.positioning = Some(PERIOD);
         for (program, id) in programs.into_iter().zip((0..).map(RobotId)) {
-            let unit = Unit::new(id, agent(program, id.index()));
-            fleet.add(unit.with_period(PERIOD));
+            let saved = store.as_ref().map(Store::saved);
+            let agent = agent(program, id.index()).with_saved(saved);
+            let mut unit = Unit::new(id, agent).with_period(PERIOD);
+            unit.store.clone_from(&store);
+            fleet.add(unit);
         }
         World(fleet)
     }
