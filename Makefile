@@ -68,6 +68,7 @@ APPLICATIONS = race formation formation-space line intersection search flocking 
 # `make examples` runs the applications in calm.
 faults: $(STARL)
 	tools/workloads.sh $(STARL) --seeds 25 --out target/faults
+	tools/storage.sh $(STARL) --seeds 25 --out target/faults
 	$(STARL) test $(APPLICATIONS) --seeds 3 --profile lossy,partitions,crashes,clocks,chaos \
 		--out target/faults
 	$(STARL) test search-building intersection-stream --seeds 1 --profile partitions,chaos --out target/faults
@@ -77,6 +78,7 @@ nightly: setup $(RELEASE)
 	cargo test --locked --release --workspace -- --ignored
 	tools/examples.sh $(RELEASE) 50
 	tools/workloads.sh $(RELEASE) --seeds 500 --out target/nightly
+	tools/storage.sh $(RELEASE) --seeds 500 --out target/nightly
 	$(RELEASE) test $(APPLICATIONS) --seeds 30 --out target/nightly
 	$(RELEASE) test search-building intersection-stream --seeds 10 --profile partitions,chaos --out target/nightly
 
