@@ -113,7 +113,7 @@ export class Simulation {
   readonly duration: number;
   /** The length of a physics step. */
   readonly step_length: number;
-  /** What the compiler warns of. */
+  /** The warnings of the compiler. */
   readonly warnings: Diagnostic[];
 
   /** Frees its memory and that of its snapshots. */

@@ -97,7 +97,7 @@ impl Application {
         &self.registry
     }
 
-    /// What the compiler warns of.
+    /// The warnings of the compiler.
     pub fn warnings(&self) -> &[Findings] {
         &self.warnings
     }

@@ -1,6 +1,7 @@
 //! What there is to say of a run that has ended, for people and for programs alike.
 
 use serde::{Serialize, Serializer};
+use starl_catalog::session::{Messages, Progress};
 use starl_core::RobotId;
 use starl_core::event::Name;
 use starl_properties::{Excuse, Violation};
@@ -36,25 +37,6 @@ pub enum Ending {
     Over(Outcome),
     /// Someone stopped it.
     Interrupted,
-}
-
-/// How many robots are where.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Progress {
-    pub robots: usize,
-    pub up: usize,
-    pub finished: usize,
-    pub failed: usize,
-}
-
-/// What became of datagrams.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Messages {
-    pub sent: u64,
-    pub delivered: u64,
-    pub lost: u64,
-    pub dropped: u64,
-    pub retransmitted: u64,
 }
 
 /// A property that was checked.
@@ -143,7 +125,6 @@ impl Report {
     pub fn of(run: &Run, circumstances: Circumstances) -> Report {
         let simulation = run.simulation();
         let scenario = simulation.scenario();
-        let (tally, progress) = (simulation.tally(), simulation.progress());
         let sim_seconds = simulation.now().seconds();
         let Circumstances {
             target,
@@ -164,20 +145,9 @@ impl Report {
             wall_seconds,
             speed_factor: sim_seconds / wall_seconds.max(1e-9),
             threads,
-            progress: Progress {
-                robots: simulation.robots().len(),
-                up: progress.up,
-                finished: progress.finished,
-                failed: progress.failed,
-            },
-            messages: Messages {
-                sent: tally.sent,
-                delivered: tally.delivered,
-                lost: tally.lost,
-                dropped: tally.dropped,
-                retransmitted: tally.retransmitted,
-            },
-            collisions: tally.collisions,
+            progress: Progress::of(simulation),
+            messages: Messages::of(simulation),
+            collisions: simulation.tally().collisions,
             properties: properties(run, scenario),
             failures: failures(run, scenario),
             robots: robots(run, scenario),

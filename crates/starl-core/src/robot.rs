@@ -249,13 +249,15 @@ impl<'a> Robot<'a> {
     /// Saves a value of a primitive or, under [`Port::PROGRAM`], of the program: see the module [`crate::storage`].
     /// Nothing happens where there is no storage.
     pub fn save<T: Serialize>(&mut self, port: Port, key: impl Into<Name>, value: &T) {
-        self.save_bytes(port, key.into(), || Some(message::encode(value)));
+        if self.has_storage() {
+            self.save_bytes(port, key, message::encode(value));
+        }
     }
 
-    /// [`Robot::save`] of bytes that are made only where there is storage; none takes away what was saved.
-    pub fn save_bytes(&mut self, port: Port, key: Name, value: impl FnOnce() -> Option<Payload>) {
+    /// [`Robot::save`] of bytes that are encoded already.
+    pub fn save_bytes(&mut self, port: Port, key: impl Into<Name>, value: Payload) {
         if self.has_storage() {
-            let value = value();
+            let (key, value) = (key.into(), Some(value));
             self.push(Effect::Save(Save { port, key, value }));
         }
     }

@@ -52,6 +52,22 @@ pub struct Violation {
     pub text: String,
 }
 
+impl Violation {
+    fn new(
+        property: &'static str,
+        at: Time,
+        robots: impl Into<Vec<RobotId>>,
+        text: String,
+    ) -> Violation {
+        Violation {
+            property: property.into(),
+            at,
+            robots: robots.into(),
+            text,
+        }
+    }
+}
+
 /// Watches one primitive's properties, or one property of the world. What `Debug` shows of it is all
 /// that it goes by, so that an explorer can tell when two have seen the same.
 pub trait Checker: dyn_clone::DynClone + fmt::Debug + Send + Sync {

@@ -116,7 +116,7 @@ impl Diagnostic {
         })
     }
 
-    /// What the compiler has found in a program that a scenario names.
+    /// The compiler has found this in a program that a scenario names.
     pub(super) fn of_program(findings: &Findings, beside: &Beside<'_>) -> Vec<Diagnostic> {
         let path = beside.resolve(&findings.path);
         Diagnostic::of_findings(&path, &findings.source, &findings.diagnostics).collect()
@@ -163,7 +163,7 @@ fn program(files: &Files, path: &str, text: &str) -> Vec<Diagnostic> {
     Diagnostic::of_findings(path, text, &diagnostics).collect()
 }
 
-/// What is wrong with a scenario. The programs among the files are checked by themselves.
+/// Everything that is wrong with a scenario. The programs among the files are checked by themselves.
 fn scenario(files: &Files, path: &str, text: &str, registry: &Registry) -> Vec<Diagnostic> {
     let beside = Beside::new(files, path);
     let request = Request::new(Source::new(path, text));

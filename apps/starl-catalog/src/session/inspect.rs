@@ -30,9 +30,9 @@ pub struct RobotReport {
     pub pose: Pose,
     /// Its true velocity.
     pub twist: Twist,
-    /// What it believes of its pose and velocity; `at` is in nanoseconds of its own clock.
+    /// Its own belief of its pose and velocity; `at` is in nanoseconds of its own clock.
     pub estimate: Estimate,
-    /// What its model is told to do.
+    /// The command to its model.
     pub command: Command,
     /// The name of the thing in its gripper.
     pub holding: Option<String>,
@@ -135,7 +135,7 @@ pub struct PrimitiveReport {
     pub kind: String,
     /// Where it listens.
     pub port: Option<u32>,
-    /// What it goes by, as text for people; none before it is bound.
+    /// Its state, as text for people; none before it is bound.
     pub state: Option<String>,
 }
 

@@ -55,7 +55,7 @@ struct Live {
 /// Records that were taken.
 #[derive(Clone, Debug, Default)]
 pub struct Batch {
-    /// What happened, in order.
+    /// All that happened, in order.
     pub records: Vec<Record>,
     /// How many more there are to be taken.
     pub left: usize,
@@ -104,7 +104,7 @@ impl Session {
         Ok(())
     }
 
-    /// What the compiler warns of.
+    /// The warnings of the compiler.
     pub fn warnings(&self) -> &[Diagnostic] {
         &self.warnings
     }

@@ -62,7 +62,7 @@ pub(super) struct Opened {
     pub application: Application,
     /// The names that programs have everywhere, by those that they have here.
     pub global_names: BTreeMap<String, String>,
-    /// What the compiler warns of.
+    /// The warnings of the compiler.
     pub warnings: Vec<Diagnostic>,
 }
 

@@ -4,7 +4,7 @@ use super::inspect::condition;
 use serde::Serialize;
 use starl_core::{Obstacle, Point, RobotId, WayPoint};
 use starl_properties::Verdict;
-use starl_sim::Run;
+use starl_sim::{Run, Simulation};
 
 /// How far a run is.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -188,6 +188,33 @@ impl Status {
     }
 }
 
+impl Progress {
+    /// How many robots of a simulation are where now.
+    pub fn of(simulation: &Simulation) -> Progress {
+        let progress = simulation.progress();
+        Progress {
+            robots: simulation.robots().len(),
+            up: progress.up,
+            finished: progress.finished,
+            failed: progress.failed,
+        }
+    }
+}
+
+impl Messages {
+    /// What has become of the datagrams of a simulation by now.
+    pub fn of(simulation: &Simulation) -> Messages {
+        let tally = simulation.tally();
+        Messages {
+            sent: tally.sent,
+            delivered: tally.delivered,
+            lost: tally.lost,
+            dropped: tally.dropped,
+            retransmitted: tally.retransmitted,
+        }
+    }
+}
+
 impl Report {
     /// What has come of a run so far. Takes time in proportion to the fleet.
     pub fn of(run: &Run) -> Report {
@@ -195,26 +222,14 @@ impl Report {
         let Status {
             now, over, outcome, ..
         } = Status::of(run, 0);
-        let (progress, tally) = (simulation.progress(), simulation.tally());
         Report {
             now,
             over,
             outcome,
             digest: simulation.digest().to_string(),
-            progress: Progress {
-                robots: simulation.robots().len(),
-                up: progress.up,
-                finished: progress.finished,
-                failed: progress.failed,
-            },
-            messages: Messages {
-                sent: tally.sent,
-                delivered: tally.delivered,
-                lost: tally.lost,
-                dropped: tally.dropped,
-                retransmitted: tally.retransmitted,
-            },
-            collisions: tally.collisions,
+            progress: Progress::of(simulation),
+            messages: Messages::of(simulation),
+            collisions: simulation.tally().collisions,
             properties: run.verdicts().into_iter().map(Property::of).collect(),
             violations: (run.violations().iter())
                 .map(|violation| Violation {

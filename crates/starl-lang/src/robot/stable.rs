@@ -82,7 +82,7 @@ impl Kept {
             let digest = Some(digest(&bytes));
             if *kept != digest {
                 *kept = digest;
-                robot.save_bytes(Port::PROGRAM, stable.name.clone().into(), || Some(bytes));
+                robot.save_bytes(Port::PROGRAM, stable.name.clone(), bytes);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! What is on record of one election: who takes part, who shows whom, who leads in which epoch.
 
-use super::{EXCLUSION, ORDER, SOUNDNESS, UNIQUENESS, violation};
+use super::{EXCLUSION, ORDER, SOUNDNESS, UNIQUENESS};
 use crate::Violation;
 use starl_core::{RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
@@ -88,13 +88,13 @@ impl Instance {
             let known = *self.leaders.entry(epoch).or_insert(leader);
             if known != leader {
                 let text = format!("epoch {epoch} has two leaders, robots {known} and {leader}");
-                found.push(violation(UNIQUENESS, at, [known, leader], text));
+                found.push(Violation::new(UNIQUENESS, at, [known, leader], text));
             }
         }
         if !self.participants.contains(&leader) {
             let text =
                 format!("robot {robot} shows robot {leader}, which takes no part, as leader");
-            found.push(violation(SOUNDNESS, at, [leader, robot], text));
+            found.push(Violation::new(SOUNDNESS, at, [leader, robot], text));
         }
         if robot == leader {
             self.leads(robot, epoch, at, is_disturbed, found);
@@ -124,12 +124,12 @@ impl Instance {
             .is_some_and(|member| member.called.is_some());
         if !has_called {
             let text = format!("robot {robot} leads without having called for an election");
-            found.push(violation(SOUNDNESS, at, [robot], text));
+            found.push(Violation::new(SOUNDNESS, at, [robot], text));
         }
         if let Some(epoch) = epoch {
             if !self.led.insert(epoch) {
                 let text = format!("robot {robot} leads twice in epoch {epoch}");
-                found.push(violation(UNIQUENESS, at, [robot], text));
+                found.push(Violation::new(UNIQUENESS, at, [robot], text));
             }
             let highest = self.highest.filter(|_| !is_disturbed);
             if let Some(highest) = highest.filter(|&highest| highest >= epoch) {
@@ -137,7 +137,7 @@ impl Instance {
                 let text = format!(
                     "robot {robot} leads in epoch {epoch} after robot {before} did in epoch {highest}"
                 );
-                found.push(violation(ORDER, at, [robot, before], text));
+                found.push(Violation::new(ORDER, at, [robot, before], text));
             }
             self.highest = self.highest.max(Some(epoch)).filter(|_| !is_disturbed);
         }
@@ -145,7 +145,7 @@ impl Instance {
             && let Some(&other) = self.leading.keys().next()
         {
             let text = format!("robots {other} and {robot} lead at the same time");
-            found.push(violation(EXCLUSION, at, [other, robot], text));
+            found.push(Violation::new(EXCLUSION, at, [other, robot], text));
         }
         self.leading.insert(robot, epoch);
     }

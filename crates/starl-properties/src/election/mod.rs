@@ -195,17 +195,3 @@ impl Checker for Election {
 fn is_shared_epoch(found: &Violation) -> bool {
     found.property == UNIQUENESS && found.robots.len() > 1
 }
-
-fn violation(
-    property: &'static str,
-    at: Time,
-    robots: impl Into<Vec<RobotId>>,
-    text: String,
-) -> Violation {
-    Violation {
-        property: property.into(),
-        at,
-        robots: robots.into(),
-        text,
-    }
-}

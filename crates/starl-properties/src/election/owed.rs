@@ -1,6 +1,6 @@
 //! Agreement and progress, once robots have had the time that the bound gives them.
 
-use super::{AGREEMENT, Election, Instance, Member, PROGRESS, Shown, violation};
+use super::{AGREEMENT, Election, Instance, Member, PROGRESS, Shown};
 use crate::{Excuse, Violation, robot_list};
 use starl_core::{Duration, Port, RobotId, Time};
 
@@ -103,7 +103,7 @@ impl Election {
             self.bound
         );
         let robots: Vec<RobotId> = [robot].into_iter().chain(linked).collect();
-        found.push(violation(AGREEMENT, now, robots, text));
+        found.push(Violation::new(AGREEMENT, now, robots, text));
         false
     }
 
@@ -142,7 +142,7 @@ impl Election {
                 "robot {robot} stands for election and has no leader for {}",
                 self.bound
             );
-            found.push(violation(PROGRESS, now, [robot], text));
+            found.push(Violation::new(PROGRESS, now, [robot], text));
         }
         !owes
     }

@@ -1,6 +1,6 @@
 //! One registration: who takes part and shows what, and which lists there were.
 
-use super::{AGREEMENT, EXCLUSION, SOUNDNESS, violation};
+use super::{AGREEMENT, EXCLUSION, SOUNDNESS};
 use crate::Violation;
 use starl_core::event::agreement::ListId;
 use starl_core::{Duration, RobotId, Time};
@@ -89,7 +89,7 @@ impl Instance {
         self.shows_none(robot, at);
         let life = self.life(robot);
         if life.registered.is_none() {
-            found.push(violation(
+            found.push(Violation::new(
                 SOUNDNESS,
                 at,
                 [robot],
@@ -104,7 +104,7 @@ impl Instance {
                 "robot {robot} accepts the list of {} after that of {}, less than {} before",
                 id.time, promised.time, life.apart
             );
-            found.push(violation(AGREEMENT, at, [robot], text));
+            found.push(Violation::new(AGREEMENT, at, [robot], text));
         }
         let number = life.number;
         let list = self.lists.entry(id).or_default();
@@ -139,24 +139,24 @@ impl Instance {
                 "robot {robot} shows another list of {} than others, by the same coordinator",
                 id.time
             );
-            found.push(violation(AGREEMENT, at, [robot, id.coordinator], text));
+            found.push(Violation::new(AGREEMENT, at, [robot, id.coordinator], text));
         }
         let missing = members.iter().filter(|m| !list.accepted.contains_key(m));
         for &member in missing {
             let text = format!(
                 "robot {robot} shows a list with robot {member}, which has not accepted it"
             );
-            found.push(violation(SOUNDNESS, at, [robot, member], text));
+            found.push(Violation::new(SOUNDNESS, at, [robot, member], text));
         }
         if !members.contains(&robot) {
             let text = format!("robot {robot} shows a list without itself");
-            found.push(violation(SOUNDNESS, at, [robot], text));
+            found.push(Violation::new(SOUNDNESS, at, [robot], text));
         }
         for &other in members.iter().filter(|other| **other != robot) {
             if self.exclude_each_other(robot, id, other) {
                 let text =
                     format!("robots {robot} and {other} list each other, and show different lists");
-                found.push(violation(EXCLUSION, at, [robot, other], text));
+                found.push(Violation::new(EXCLUSION, at, [robot, other], text));
             }
         }
         is_doubtful

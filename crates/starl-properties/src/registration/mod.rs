@@ -140,7 +140,7 @@ impl Registration {
                     "{} did not come to show a list within {bound}",
                     robot_list(&late)
                 );
-                found.push(violation(PROGRESS, due, late, text));
+                found.push(Violation::new(PROGRESS, due, late, text));
             }
             let Some(apart_since) = instance.apart_since else {
                 continue;
@@ -162,7 +162,7 @@ impl Registration {
                     "{} did not come to show the list of the others within {bound}",
                     robot_list(&apart)
                 );
-                found.push(violation(CONVERGENCE, due, apart, text));
+                found.push(Violation::new(CONVERGENCE, due, apart, text));
             }
         }
     }
@@ -209,19 +209,5 @@ impl Checker for Registration {
 
     fn advance(&mut self, now: Time, violations: &mut Vec<Violation>) {
         self.pass(now, violations);
-    }
-}
-
-fn violation(
-    property: &'static str,
-    at: Time,
-    robots: impl Into<Vec<RobotId>>,
-    text: String,
-) -> Violation {
-    Violation {
-        property: property.into(),
-        at,
-        robots: robots.into(),
-        text,
     }
 }

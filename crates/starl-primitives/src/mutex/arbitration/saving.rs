@@ -62,7 +62,7 @@ impl Arbitration {
         let value = digest.value();
         if self.saved != Some(value) {
             self.saved = Some(value);
-            robot.save_bytes(common.port, GRANTS.into(), || Some(kept));
+            robot.save_bytes(common.port, GRANTS, kept);
         }
     }
 }
