@@ -12,12 +12,12 @@
     reason = "exported names are unsafe attributes; no pointer is followed here"
 )]
 
-use crate::Host;
+use starl_catalog::service::Service;
 use std::sync::{LazyLock, Mutex, MutexGuard, Once, PoisonError};
 use std::{mem, panic};
 
 static BUFFER: Mutex<Vec<u8>> = Mutex::new(Vec::new());
-static HOST: LazyLock<Mutex<Host>> = LazyLock::new(Mutex::default);
+static SERVICE: LazyLock<Mutex<Service>> = LazyLock::new(Mutex::default);
 static POSES: Mutex<Vec<f64>> = Mutex::new(Vec::new());
 static HOOK: Once = Once::new();
 
@@ -50,7 +50,7 @@ pub extern "C" fn answer() -> *const u8 {
 pub extern "C" fn call() -> usize {
     // Not locked meanwhile: the message of a panic goes there.
     let request = mem::take(&mut *locked(&BUFFER));
-    let answer = locked(&HOST).answer(&request);
+    let answer = locked(&SERVICE).answer(&request);
     let mut buffer = locked(&BUFFER);
     *buffer = answer;
     buffer.len()
@@ -62,12 +62,12 @@ pub extern "C" fn failure() -> usize {
     locked(&BUFFER).len()
 }
 
-/// Writes the poses of a simulation's robots, see [`Host::poses`]; returns how many numbers there are, or -1 if
+/// Writes the poses of a simulation's robots, see [`Service::poses`]; returns how many numbers there are, or -1 if
 /// there is no such simulation.
 #[unsafe(no_mangle)]
 pub extern "C" fn poses(simulation: u32) -> isize {
     let mut poses = locked(&POSES);
-    match locked(&HOST).poses(simulation, &mut poses) {
+    match locked(&SERVICE).poses(simulation, &mut poses) {
         true => poses.len() as isize,
         false => -1,
     }

@@ -2,12 +2,12 @@
 
 use crate::support::ask;
 use serde_json::{Value, json};
+use starl_catalog::service::Service;
 use starl_core::Random;
-use starl_wasm::Host;
 
 #[test]
 fn bytes_that_are_no_request_are_refused() {
-    let mut host = Host::default();
+    let mut host = Service::default();
     let cases: [&[u8]; 7] = [
         b"",
         b"{",
@@ -123,7 +123,7 @@ fn damaged_requests_never_panic() {
     for seed in 0..6 {
         println!("seed {seed}");
         let mut random = Random::keyed(seed, &[]);
-        let mut host = Host::default();
+        let mut host = Service::default();
         let example = ["race", "search", "mutex"][seed as usize % 3];
         let open = json!({"open": {"options": {"scenario": example, "robots": "create=3"}}});
         ask(&mut host, &open).unwrap_or_else(|error| panic!("{error}"));

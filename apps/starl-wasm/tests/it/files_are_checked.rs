@@ -2,7 +2,7 @@
 
 use crate::support::{Client, ask};
 use serde_json::{Value, json};
-use starl_wasm::Host;
+use starl_catalog::service::Service;
 
 const LIBRARY: &str = "library tools\n\nfunction twice(n: Int) -> Int\n    return n + n\n";
 const PROGRAM: &str = "program Counter\n\nimport tools\n\ncount: Int = 0\n\ntick()\n    pre count < 8\n    eff count = tools.twice(count) + 1\n\nstop()\n    pre count >= 8\n    eff finish()\n";
@@ -17,7 +17,7 @@ fn files(program: &str, scenario: &str) -> Value {
 }
 
 fn check(files: Value) -> Vec<Value> {
-    let found = ask(&mut Host::default(), &json!({"check": {"files": files}}));
+    let found = ask(&mut Service::default(), &json!({"check": {"files": files}}));
     let found = found.unwrap_or_else(|error| panic!("{error}"));
     found.as_array().expect("a list").clone()
 }
@@ -49,7 +49,7 @@ fn a_problem_of_a_program_has_a_place_and_a_code() {
             .is_some_and(|code| code.starts_with('E'))
     );
     let opened = ask(
-        &mut Host::default(),
+        &mut Service::default(),
         &json!({"open": {"files": files(&broken, SCENARIO)}}),
     );
     let refused = opened.expect_err("the program is broken");
@@ -92,7 +92,7 @@ fn options_are_refused_where_they_lead_nowhere() {
     ];
     for (options, words) in cases {
         let request = json!({"open": {"files": files(PROGRAM, SCENARIO), "options": options}});
-        let error = ask(&mut Host::default(), &request).expect_err("it leads nowhere");
+        let error = ask(&mut Service::default(), &request).expect_err("it leads nowhere");
         let message = error["message"].as_str().expect("a text");
         assert!(message.contains(words), "{message}");
     }
@@ -100,7 +100,7 @@ fn options_are_refused_where_they_lead_nowhere() {
 
 #[test]
 fn an_examples_program_can_be_edited() {
-    let mut host = Host::default();
+    let mut host = Service::default();
     let examples = ask(&mut host, &json!({"examples": {}})).expect("there are examples");
     let examples = examples.as_array().expect("a list");
     let line = examples

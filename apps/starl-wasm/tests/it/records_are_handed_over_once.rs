@@ -56,7 +56,7 @@ fn topics_can_be_chosen() {
     let request = json!({"open": {
         "options": {"scenario": "broadcast"}, "topics": ["/starl/action"],
     }});
-    let mut host = starl_wasm::Host::default();
+    let mut host = starl_catalog::service::Service::default();
     let opened = crate::support::ask(&mut host, &request).expect("an example");
     let simulation = opened["simulation"].clone();
     let mut client = Client { host, simulation };

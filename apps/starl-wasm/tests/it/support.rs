@@ -1,16 +1,16 @@
 //! A host that is asked as JavaScript asks it.
 
 use serde_json::{Value, json};
-use starl_wasm::Host;
+use starl_catalog::service::Service;
 
 /// A host with one simulation.
 pub struct Client {
-    pub host: Host,
+    pub host: Service,
     pub simulation: Value,
 }
 
 /// The answer to a request, or the error.
-pub fn ask(host: &mut Host, request: &Value) -> Result<Value, Value> {
+pub fn ask(host: &mut Service, request: &Value) -> Result<Value, Value> {
     let answer = host.answer(request.to_string().as_bytes());
     let mut answer: Value = serde_json::from_slice(&answer).expect("answers are JSON");
     match answer.get("error") {
@@ -22,7 +22,7 @@ pub fn ask(host: &mut Host, request: &Value) -> Result<Value, Value> {
 impl Client {
     /// Opens what a request says.
     pub fn open(files: Value, options: Value) -> Client {
-        let mut host = Host::default();
+        let mut host = Service::default();
         let request = json!({"open": {"files": files, "options": options}});
         let opened = ask(&mut host, &request).unwrap_or_else(|error| panic!("{error}"));
         Client {

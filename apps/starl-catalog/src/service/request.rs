@@ -1,7 +1,7 @@
-//! What can be asked of a host, as JSON: an object whose only member is the name of the request.
+//! What can be asked of the service, as JSON: an object whose only member is the name of the request.
 
+use crate::session::{Files, Options};
 use serde::Deserialize;
-use starl_catalog::session::{Files, Options};
 use starl_core::{Duration, Intervention, RobotId, Time};
 use std::collections::BTreeMap;
 

@@ -1,23 +1,26 @@
-//! Holds simulations and answers requests. Bad requests of any kind get an answer that says why.
+//! Simulations behind requests and answers in JSON: what the WebAssembly module, and the server of `starl run --open`,
+//! offer to a page. A bad request of any kind gets an answer that says why.
 
-use crate::request::Request;
+mod request;
+
+use crate::examples::{self, EXAMPLES};
+use crate::programs::Registry;
+use crate::session::{Refused, Session, Status, World, check, fleet};
+use request::Request;
 use serde::Serialize;
 use serde_json::{Value, json};
-use starl_catalog::examples::{self, EXAMPLES};
-use starl_catalog::programs::Registry;
-use starl_catalog::session::{Refused, Session, Status, World, check, fleet};
 use starl_core::Time;
 use std::collections::BTreeMap;
 
 /// Simulations by number, of programs in the StarL language and those in Rust that ship with StarL.
 #[derive(Default)]
-pub struct Host {
+pub struct Service {
     registry: Registry,
     sessions: BTreeMap<u32, Session>,
     next: u32,
 }
 
-impl Host {
+impl Service {
     /// The answer to a request, both in JSON: `{"ok": ...}`, or `{"error": {"message": ..., "diagnostics": ...}}`.
     pub fn answer(&mut self, request: &[u8]) -> Vec<u8> {
         let answered = serde_json::from_slice(request)
@@ -30,7 +33,7 @@ impl Host {
         }
     }
 
-    /// Writes the poses of a simulation's robots, [`starl_catalog::session::POSE_NUMBERS`] each, see
+    /// Writes the poses of a simulation's robots, [`crate::session::POSE_NUMBERS`] each, see
     /// [`Session::poses`]. False if there is no such simulation.
     pub fn poses(&self, simulation: u32, poses: &mut Vec<f64>) -> bool {
         let session = self.sessions.get(&simulation);
