@@ -65,7 +65,7 @@ fn sound() -> Vec<Value> {
         .map(|name| json!({ name: about })),
     );
     sound.extend([
-        json!({"run": {"simulation": 0, "until": 2.0, "steps": 20}}),
+        json!({"run": {"simulation": 0, "until": 2.0, "steps": 20, "sample": 0.1}}),
         json!({"records": {"simulation": 0, "max": 7}}),
         json!({"robot": {"simulation": 0, "robot": 1}}),
         json!({"restore": {"simulation": 0, "snapshot": 0}}),
