@@ -152,6 +152,12 @@ export class Simulation {
   world(): World;
   /** All robots in the order of their numbers, those that have joined and left too. */
   fleet(): Member[];
+  /**
+   * Where the program of each robot is, in the order of their numbers, for a label beside its name: the value of the
+   * first variable of an enum of a program in the StarL language, such as `wait`, or its role. Null where there is no
+   * such variable, for programs in Rust, and before the program has started.
+   */
+  states(): (string | null)[];
   /** All there is to see of a robot now. */
   robot(robot: number): Robot;
   /** What has come of the run so far. */

@@ -191,6 +191,10 @@ export class Simulation {
     return this.#request("fleet");
   }
 
+  states() {
+    return this.#request("states");
+  }
+
   robot(robot) {
     return this.#request("robot", { robot });
   }
