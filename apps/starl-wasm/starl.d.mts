@@ -31,10 +31,25 @@ export class Starl {
   /** Opens a scenario with its programs. Throws a StarlError with diagnostics if something is wrong with them. */
   open(files: Files, options?: Options): Simulation;
   /**
+   * Opens the run that a trace records, at its start; it is steered as it was. Throws a StarlError if the trace does
+   * not hold what that takes.
+   */
+  openRecorded(recorded: Recorded, options?: Pick<Options, "topics">): Simulation;
+  /**
    * Answers a request of the JSON service (apps/starl-catalog/src/service/request.rs), such as
    * `{ report: { simulation: 0 } }`. The methods of this class and of Simulation are made of such requests.
    */
   request(request: object): unknown;
+}
+
+/** What a trace holds of how its run was started and steered: docs/reference/trace.md. */
+export interface Recorded {
+  /** The attachment `starl/scenario.toml`. */
+  scenario: string;
+  /** The attachments `starl/files/NAME`, by name. */
+  files: Record<string, string>;
+  /** When the run was steered, nanoseconds, and how: the records on `/starl/intervention`. */
+  interventions: [number, Intervention][];
 }
 
 /** An example that comes with StarL. */
@@ -147,6 +162,11 @@ export class Simulation {
   drop(snapshot: number): void;
   /** The scenario as a file, with all that was applied: run from the start, it goes as this run went. */
   scenario(): string;
+  /**
+   * The run up to the present moment as a trace, an MCAP file: docs/reference/trace.md. The run is made again for it,
+   * which takes as long.
+   */
+  trace(): Uint8Array;
   /** Takes up to `max` records, the oldest first; all if `max` is not given. */
   records(max?: number): Batch;
   world(): World;

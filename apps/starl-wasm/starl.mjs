@@ -67,6 +67,11 @@ export class Starl {
     return new Simulation(this, this.request({ open }));
   }
 
+  openRecorded(recorded, { topics } = {}) {
+    const open_recorded = { recorded, topics: topics && Array.from(topics) };
+    return new Simulation(this, this.request({ open_recorded }));
+  }
+
   /** Hands over a request as the module takes it, and gives what it answers. */
   request(request) {
     return this.#guarded((exports) => {
@@ -177,6 +182,10 @@ export class Simulation {
 
   scenario() {
     return this.#request("scenario");
+  }
+
+  trace() {
+    return Uint8Array.from(atob(this.#request("trace")), (character) => character.charCodeAt(0));
   }
 
   records(max) {

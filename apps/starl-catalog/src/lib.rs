@@ -10,6 +10,7 @@ mod explore;
 pub mod language;
 mod parameters;
 pub mod programs;
+pub mod recording;
 pub mod service;
 pub mod session;
 mod start;

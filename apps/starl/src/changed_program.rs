@@ -1,7 +1,8 @@
 //! A recorded scenario with another text in the place of a robot's program.
 
 use crate::failure::Failure;
-use crate::{recording, target};
+use crate::target;
+use starl_catalog::recording;
 use starl_catalog::Application;
 use starl_catalog::language::SUFFIX;
 use starl_catalog::programs::Registry;

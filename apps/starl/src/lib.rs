@@ -41,7 +41,6 @@ mod outputs;
 mod paths;
 mod plot;
 mod progress;
-mod recording;
 mod replay;
 mod replay_robot;
 mod report;

@@ -67,6 +67,16 @@ impl Service {
                 }
                 return Ok(self.keep(session));
             }
+            Request::OpenRecorded { recorded, topics } => {
+                let mut session = Session::open_recorded(recorded, &self.registry)?;
+                if let Some(topics) = topics {
+                    session.set_topics(&topics)?;
+                }
+                return Ok(self.keep(session));
+            }
+            Request::Trace { simulation } => {
+                Answer::Text(starl_trace::json_bytes(&self.find(simulation)?.trace()?))
+            }
             Request::Close { simulation } => {
                 self.find(simulation)?;
                 self.sessions.remove(&simulation);

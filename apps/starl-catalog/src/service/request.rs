@@ -1,6 +1,6 @@
 //! What can be asked of the service, as JSON: an object whose only member is the name of the request.
 
-use crate::session::{Files, Options};
+use crate::session::{Recorded, Files, Options};
 use serde::Deserialize;
 use starl_core::{Duration, Intervention, RobotId, Time};
 use std::collections::BTreeMap;
@@ -19,6 +19,13 @@ pub enum Request {
         #[serde(default)]
         options: Options,
         topics: Option<Vec<String>>,
+    },
+    OpenRecorded {
+        recorded: Recorded,
+        topics: Option<Vec<String>>,
+    },
+    Trace {
+        simulation: u32,
     },
     Close {
         simulation: u32,

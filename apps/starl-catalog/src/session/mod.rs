@@ -8,6 +8,7 @@ mod diagnostic;
 mod files;
 mod inspect;
 mod open;
+mod recorded;
 mod poses;
 mod report;
 
@@ -19,11 +20,13 @@ pub use inspect::{
 };
 pub use open::{Options, Refused};
 pub use poses::{MOST_FRAME_NUMBERS, POSE_NUMBERS};
+pub use recorded::Recorded;
 pub use report::{
     Excused, Failure, Member, Messages, Progress, Property, Report, Standing, Status, Thing,
     Violation, World, fleet, states,
 };
 
+use crate::Application;
 use crate::programs::Registry;
 use poses::Frames;
 use starl_core::{Duration, Intervention, Record, RobotId, Time};
@@ -36,6 +39,7 @@ pub const MOST_RECORDS: usize = 200_000;
 
 /// A simulation with the moments of it that are kept.
 pub struct Session {
+    application: Application,
     global_names: BTreeMap<String, String>,
     warnings: Vec<Diagnostic>,
     topics: Option<BTreeSet<Topic>>,
@@ -89,10 +93,20 @@ impl Session {
     /// All that is wrong with the options, the scenario and its programs.
     pub fn open(files: &Files, options: &Options, registry: &Registry) -> Result<Session, Refused> {
         let opened = open::open(files, options, registry)?;
-        let run = opened.application.run();
+        Session::of(opened.application, opened.global_names, opened.warnings)
+    }
+
+    /// The run of an application at its start.
+    fn of(
+        application: Application,
+        global_names: BTreeMap<String, String>,
+        warnings: Vec<Diagnostic>,
+    ) -> Result<Session, Refused> {
+        let run = application.run();
         Ok(Session {
-            global_names: opened.global_names,
-            warnings: opened.warnings,
+            application,
+            global_names,
+            warnings,
             topics: None,
             live: Live {
                 run: run.map_err(|error| error.message)?,
