@@ -22,11 +22,14 @@ pub use report::{
     Violation, World, fleet,
 };
 
+use crate::Application;
 use crate::programs::Registry;
 use starl_core::{Intervention, Record, RobotId, Time};
 use starl_sim::{Run, write};
 use starl_trace::Topic;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// So many records are kept until they are taken; then the oldest are dropped.
 pub const MOST_RECORDS: usize = 200_000;
@@ -34,7 +37,8 @@ pub const MOST_RECORDS: usize = 200_000;
 /// How many numbers [`Session::poses`] gives for each robot.
 pub const POSE_NUMBERS: usize = 11;
 
-/// A simulation with the moments of it that are kept.
+/// A simulation with the moments of it that are kept. A copy goes on exactly as the original would.
+#[derive(Clone)]
 pub struct Session {
     global_names: BTreeMap<String, String>,
     warnings: Vec<Diagnostic>,
@@ -42,6 +46,7 @@ pub struct Session {
     live: Live,
     kept: BTreeMap<u32, Live>,
     next: u32,
+    interrupt: Arc<AtomicBool>,
 }
 
 /// All that changes as time goes on. A copy goes on exactly as the original would.
@@ -70,19 +75,43 @@ impl Session {
     /// All that is wrong with the options, the scenario and its programs.
     pub fn open(files: &Files, options: &Options, registry: &Registry) -> Result<Session, Refused> {
         let opened = open::open(files, options, registry)?;
-        let run = opened.application.run();
-        Ok(Session {
-            global_names: opened.global_names,
-            warnings: opened.warnings,
+        let run = opened.application.run().map_err(|error| error.message)?;
+        Ok(Session::new(run, opened.warnings, opened.global_names))
+    }
+
+    /// A session of a run that was started elsewhere, such as from files on disk. `global_names` are the names that
+    /// programs have everywhere, by those that they have in the scenario, see [`Session::scenario`].
+    pub fn of_run(
+        run: Run,
+        application: &Application,
+        global_names: BTreeMap<String, String>,
+    ) -> Session {
+        let files = Files::default();
+        let beside = Beside::new(&files, "");
+        let warnings = application.warnings().iter();
+        let warnings = warnings.flat_map(|findings| Diagnostic::of_program(findings, &beside));
+        Session::new(run, warnings.collect(), global_names)
+    }
+
+    fn new(run: Run, warnings: Vec<Diagnostic>, global_names: BTreeMap<String, String>) -> Session {
+        Session {
+            global_names,
+            warnings,
             topics: None,
             live: Live {
-                run: run.map_err(|error| error.message)?,
+                run,
                 records: VecDeque::new(),
                 dropped: 0,
             },
             kept: BTreeMap::new(),
             next: 0,
-        })
+            interrupt: Arc::default(),
+        }
+    }
+
+    /// While this flag is set, [`Session::advance`] makes no step.
+    pub fn set_interrupt(&mut self, interrupt: Arc<AtomicBool>) {
+        self.interrupt = interrupt;
     }
 
     /// Keeps the records of these topics only, by their names in traces such as `/starl/action`; of all topics
@@ -125,11 +154,16 @@ impl Session {
         Status::of(&self.live.run, 1)
     }
 
-    /// Makes physics steps until the run is over, the time `until` has come, or so many steps are made.
+    /// Makes physics steps until the run is over, the time `until` has come, so many steps are made, or it is
+    /// interrupted.
     pub fn advance(&mut self, until: Time, most_steps: u64) -> Status {
         let mut steps = 0;
         let live = &mut self.live;
-        while steps < most_steps && live.run.simulation().now() < until && !live.run.is_over() {
+        while steps < most_steps
+            && live.run.simulation().now() < until
+            && !live.run.is_over()
+            && !self.interrupt.load(Ordering::Relaxed)
+        {
             live.step(self.topics.as_ref());
             steps += 1;
         }
