@@ -10,7 +10,7 @@ export class StarlError extends Error {
   readonly diagnostics: Diagnostic[];
 }
 
-/** So many numbers of `poses()` belong to each robot. */
+/** So many numbers of `poses()` and of a frame belong to each robot. */
 export const POSE_NUMBERS: 11;
 
 /**
@@ -123,15 +123,16 @@ export class Simulation {
   step(): Status;
   /**
    * Makes physics steps until the run is over, the time `until` has come, or `steps` are made; to the end if
-   * neither is given.
+   * neither is given. With a period `sample` in seconds of simulated time, it keeps a frame after each step that
+   * reaches or passes a multiple of the period: see `frames()`.
    */
-  run(budget?: { until?: number; steps?: number }): Status;
+  run(budget?: { until?: number; steps?: number; sample?: number }): Status;
   /**
    * Steers the run: at the time `at`, or at once if that is not given or has passed. Throws a StarlError that says
    * what is wrong with the intervention.
    */
   apply(intervention: Intervention, when?: { at?: number }): void;
-  /** Keeps the present moment, records that were not taken included. */
+  /** Keeps the present moment, records and frames that were not taken included. */
   snapshot(): number;
   /** Goes back, or forth, to a moment that was kept, exactly. It stays kept. */
   restore(snapshot: number): Status;
@@ -144,6 +145,12 @@ export class Simulation {
   world(): World;
   /** All robots in the order of their numbers, those that have joined and left too. */
   fleet(): Member[];
+  /**
+   * Where the program of each robot is, in the order of their numbers, for a label beside its name: the value of the
+   * first variable of an enum of a program in the StarL language, such as `wait`, or its role. Null where there is no
+   * such variable, for programs in Rust, and before the program has started.
+   */
+  states(): (string | null)[];
   /** All there is to see of a robot now. */
   robot(robot: number): Robot;
   /** What has come of the run so far. */
@@ -154,6 +161,12 @@ export class Simulation {
    * array lies in the memory of the module: it is good until the next call of any method. Copy it to keep it.
    */
   poses(): Float64Array;
+  /**
+   * Takes the frames that `run` has kept since the last call, the oldest first. Each is its time in seconds, the
+   * number of robots n, and n times POSE_NUMBERS numbers as in `poses()`. No more than 20,000,000 numbers are kept
+   * until they are taken; then the oldest frames are dropped. The array is good until the next call of any method.
+   */
+  frames(): Float64Array;
 }
 
 /** Records that were taken. */

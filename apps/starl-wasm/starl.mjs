@@ -1,6 +1,7 @@
 // StarL's simulator for JavaScript: Node.js from 18, browsers and workers. Types and units: starl.d.mts.
 //
-// Requests and answers pass through one buffer of the WebAssembly module as JSON; poses are read in place.
+// Requests and answers pass through one buffer of the WebAssembly module as JSON; poses and frames are read in
+// place.
 
 /** What StarL refuses, with the single problems where there are any. */
 export class StarlError extends Error {
@@ -80,12 +81,21 @@ export class Starl {
 
   /** The poses of a simulation's robots, in the memory of the module. */
   poses(simulation) {
+    return this.#numbers(simulation, "poses", "poses_at");
+  }
+
+  /** The frames of a simulation that were not taken yet, in the memory of the module. */
+  frames(simulation) {
+    return this.#numbers(simulation, "frames", "frames_at");
+  }
+
+  #numbers(simulation, take, place) {
     return this.#guarded((exports) => {
-      const count = exports.poses(simulation);
+      const count = exports[take](simulation);
       if (count < 0) throw new StarlError(`there is no simulation ${simulation}; it may have been closed`);
-      // Asked first: the call may let the memory grow, which detaches its buffer.
-      const place = exports.poses_at();
-      return new Float64Array(exports.memory.buffer, place, count);
+      // The buffer is asked for last: a call may let the memory grow, which detaches it.
+      const at = exports[place]();
+      return new Float64Array(exports.memory.buffer, at, count);
     });
   }
 
@@ -132,8 +142,9 @@ export class Simulation {
     return this.#request("step");
   }
 
-  run({ until, steps } = {}) {
-    return this.#request("run", { until: until === Infinity ? undefined : moment(until), steps });
+  run({ until, steps, sample } = {}) {
+    const end = until === Infinity ? undefined : moment(until);
+    return this.#request("run", { until: end, steps, sample: moment(sample) });
   }
 
   apply(intervention, { at } = {}) {
@@ -168,6 +179,10 @@ export class Simulation {
     return this.#request("fleet");
   }
 
+  states() {
+    return this.#request("states");
+  }
+
   robot(robot) {
     return this.#request("robot", { robot });
   }
@@ -178,6 +193,10 @@ export class Simulation {
 
   poses() {
     return this.#starl.poses(this.#id);
+  }
+
+  frames() {
+    return this.#starl.frames(this.#id);
   }
 }
 

@@ -1,8 +1,8 @@
 //! The names that the module exports.
 //!
 //! One buffer carries JSON both ways: JavaScript asks for room with [`buffer`], writes a request there, calls
-//! [`call`], and reads as many bytes as that returns from where [`answer`] says. Poses are read in place: [`poses`]
-//! and [`poses_at`]. What was read before is gone after the next call, and memory may have grown.
+//! [`call`], and reads as many bytes as that returns from where [`answer`] says. Numbers are read in place: [`poses`]
+//! and [`poses_at`], [`frames`] and [`frames_at`]. What was read before is gone after the next call, and memory may have grown.
 //!
 //! A panic is a fault of StarL and ends the instance: the call traps, and [`failure`] puts the message where
 //! [`answer`] says.
@@ -18,7 +18,7 @@ use std::{mem, panic};
 
 static BUFFER: Mutex<Vec<u8>> = Mutex::new(Vec::new());
 static SERVICE: LazyLock<Mutex<Service>> = LazyLock::new(Mutex::default);
-static POSES: Mutex<Vec<f64>> = Mutex::new(Vec::new());
+static NUMBERS: Mutex<Vec<f64>> = Mutex::new(Vec::new());
 static HOOK: Once = Once::new();
 
 fn locked<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -62,19 +62,39 @@ pub extern "C" fn failure() -> usize {
     locked(&BUFFER).len()
 }
 
-/// Writes the poses of a simulation's robots, see [`Service::poses`]; returns how many numbers there are, or -1 if
+/// Takes the poses of a simulation's robots, see [`Service::poses`]; returns how many numbers there are, or -1 if
 /// there is no such simulation.
 #[unsafe(no_mangle)]
 pub extern "C" fn poses(simulation: u32) -> isize {
-    let mut poses = locked(&POSES);
-    match locked(&SERVICE).poses(simulation, &mut poses) {
-        true => poses.len() as isize,
-        false => -1,
-    }
+    let mut numbers = locked(&NUMBERS);
+    let is_known = locked(&SERVICE).poses(simulation, &mut numbers);
+    count(is_known, &numbers)
 }
 
 /// Where the poses are: 64-bit floating-point numbers.
 #[unsafe(no_mangle)]
 pub extern "C" fn poses_at() -> *const f64 {
-    locked(&POSES).as_ptr()
+    locked(&NUMBERS).as_ptr()
+}
+
+/// Takes the frames of a simulation that were not taken yet, see [`Service::frames`]; returns how many numbers there
+/// are, or -1 if there is no such simulation.
+#[unsafe(no_mangle)]
+pub extern "C" fn frames(simulation: u32) -> isize {
+    let mut numbers = locked(&NUMBERS);
+    let is_known = locked(&SERVICE).frames(simulation, &mut numbers);
+    count(is_known, &numbers)
+}
+
+/// Where the frames are: 64-bit floating-point numbers.
+#[unsafe(no_mangle)]
+pub extern "C" fn frames_at() -> *const f64 {
+    locked(&NUMBERS).as_ptr()
+}
+
+fn count(is_known: bool, numbers: &[f64]) -> isize {
+    match is_known {
+        true => numbers.len() as isize,
+        false => -1,
+    }
 }

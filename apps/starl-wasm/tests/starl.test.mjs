@@ -75,6 +75,27 @@ test("poses are those of the robots, also when memory has grown", async () => {
   assert.deepEqual([...own.slice(6, 8)], [estimate.pose.position.x, estimate.pose.position.y]);
 });
 
+test("frames hold the poses of the moments that were sampled", async () => {
+  const starl = await load(module);
+  const open = () => starl.open({}, { scenario: "race", seed: 4 });
+  const [sampled, stepped] = [open(), open()];
+  const robots = stepped.fleet().length;
+  const size = 2 + robots * POSE_NUMBERS;
+  for (const until of [0.3, 0.75, 1]) sampled.run({ until, sample: 0.1 });
+  const frames = sampled.frames().slice();
+  assert.equal(sampled.frames().length, 0);
+  assert.equal(frames.length, 10 * size);
+  for (let at = 0; at < frames.length; at += size) {
+    stepped.run({ until: frames[at] });
+    assert.ok(Math.abs(frames[at] - (at / size + 1) / 10) < stepped.step_length);
+    assert.equal(stepped.status().now, frames[at]);
+    assert.equal(frames[at + 1], robots);
+    assert.deepEqual([...frames.subarray(at + 2, at + size)], [...stepped.poses()]);
+  }
+  assert.equal(sampled.report().digest, stepped.report().digest);
+  for (const sample of [0, -1, Number.NaN]) assert.throws(() => sampled.run({ sample }), StarlError);
+});
+
 test("what is wrong with files has a place", async () => {
   const starl = await load(module);
   assert.deepEqual(starl.check({ "counter.starl": COUNTER }), []);

@@ -5,7 +5,7 @@ mod request;
 
 use crate::examples::{self, EXAMPLES};
 use crate::programs::Registry;
-use crate::session::{Refused, Session, Status, World, check, fleet};
+use crate::session::{Budget, Refused, Session, Status, World, check, fleet, states};
 use request::Request;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -67,11 +67,23 @@ impl Service {
         }
     }
 
-    /// Writes the poses of a simulation's robots, [`crate::session::POSE_NUMBERS`] each, see
-    /// [`Session::poses`]. False if there is no such simulation.
-    pub fn poses(&self, simulation: u32, poses: &mut Vec<f64>) -> bool {
+    /// Puts the poses of a simulation's robots in the place of `numbers`, see [`Session::poses`]. False if there is no
+    /// such simulation.
+    pub fn poses(&self, simulation: u32, numbers: &mut Vec<f64>) -> bool {
+        numbers.clear();
         let session = self.sessions.get(&simulation);
-        session.map(|session| session.poses(poses)).is_some()
+        session
+            .map(|session| numbers.extend(session.poses()))
+            .is_some()
+    }
+
+    /// Puts the frames of a simulation that were not taken yet in the place of `numbers`, see
+    /// [`Session::take_frames`]. False if there is no such simulation.
+    pub fn frames(&mut self, simulation: u32, numbers: &mut Vec<f64>) -> bool {
+        let session = self.sessions.get_mut(&simulation);
+        session
+            .map(|session| *numbers = session.take_frames())
+            .is_some()
     }
 
     fn carry_out(&mut self, request: Request) -> Result<Answer, Refused> {
@@ -100,10 +112,14 @@ impl Service {
                 simulation,
                 until,
                 steps,
+                sample,
             } => {
-                let until = until.map_or(Time::NEVER, |until| until.0);
-                let session = self.find(simulation)?;
-                answer(&session.advance(until, steps.unwrap_or(u64::MAX)))
+                let budget = Budget {
+                    until: until.map_or(Time::NEVER, |until| until.0),
+                    steps: steps.unwrap_or(u64::MAX),
+                };
+                let sample = sample.map(|sample| sample.0);
+                answer(&self.find(simulation)?.advance(budget, sample))
             }
             Request::Apply {
                 simulation,
@@ -137,6 +153,7 @@ impl Service {
             }
             Request::World { simulation } => answer(&World::of(self.find(simulation)?.run())),
             Request::Fleet { simulation } => answer(&fleet(self.find(simulation)?.run())),
+            Request::States { simulation } => answer(&states(self.find(simulation)?.run())),
             Request::Robot { simulation, robot } => {
                 let found = self.find(simulation)?.robot(robot);
                 answer(&found.ok_or_else(|| format!("there is no robot {robot}"))?)

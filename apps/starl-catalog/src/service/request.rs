@@ -33,6 +33,7 @@ pub enum Request {
         simulation: u32,
         until: Option<Seconds>,
         steps: Option<u64>,
+        sample: Option<Period>,
     },
     Apply {
         simulation: u32,
@@ -61,6 +62,9 @@ pub enum Request {
         simulation: u32,
     },
     Fleet {
+        simulation: u32,
+    },
+    States {
         simulation: u32,
     },
     Robot {
@@ -108,6 +112,24 @@ impl TryFrom<f64> for Seconds {
         match seconds >= 0.0 && seconds.is_finite() {
             true => Ok(Seconds(Time::ZERO + Duration::from_seconds_f64(seconds))),
             false => Err(format!("{seconds} is not a time; give seconds from 0")),
+        }
+    }
+}
+
+/// A span of simulated time, in seconds.
+#[derive(Deserialize)]
+#[serde(try_from = "f64")]
+pub struct Period(pub Duration);
+
+impl TryFrom<f64> for Period {
+    type Error = String;
+    fn try_from(seconds: f64) -> Result<Period, String> {
+        let period = Duration::from_seconds_f64(seconds);
+        match period.is_zero() || !seconds.is_finite() {
+            true => Err(format!(
+                "{seconds} is not a period; give seconds, at least 1e-9"
+            )),
+            false => Ok(Period(period)),
         }
     }
 }

@@ -8,6 +8,7 @@ mod diagnostic;
 mod files;
 mod inspect;
 mod open;
+mod poses;
 mod report;
 
 pub use diagnostic::{Diagnostic, check};
@@ -17,14 +18,16 @@ pub use inspect::{
     VariableReport,
 };
 pub use open::{Options, Refused};
+pub use poses::{MOST_FRAME_NUMBERS, POSE_NUMBERS};
 pub use report::{
     Excused, Failure, Member, Messages, Progress, Property, Report, Standing, Status, Thing,
-    Violation, World, fleet,
+    Violation, World, fleet, states,
 };
 
 use crate::Application;
 use crate::programs::Registry;
-use starl_core::{Intervention, Record, RobotId, Time};
+use poses::Frames;
+use starl_core::{Duration, Intervention, Record, RobotId, Time};
 use starl_sim::{Run, write};
 use starl_trace::Topic;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -33,9 +36,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// So many records are kept until they are taken; then the oldest are dropped.
 pub const MOST_RECORDS: usize = 200_000;
-
-/// How many numbers [`Session::poses`] gives for each robot.
-pub const POSE_NUMBERS: usize = 11;
 
 /// A simulation with the moments of it that are kept. A copy goes on exactly as the original would.
 #[derive(Clone)]
@@ -55,6 +55,25 @@ struct Live {
     run: Run,
     records: VecDeque<Record>,
     dropped: u64,
+    frames: Frames,
+}
+
+/// How far to run at most; to the end of the run by default.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Budget {
+    /// The time at which to stop.
+    pub until: Time,
+    /// How many physics steps to make.
+    pub steps: u64,
+}
+
+impl Default for Budget {
+    fn default() -> Budget {
+        Budget {
+            until: Time::NEVER,
+            steps: u64::MAX,
+        }
+    }
 }
 
 /// Records that were taken.
@@ -102,6 +121,7 @@ impl Session {
                 run,
                 records: VecDeque::new(),
                 dropped: 0,
+                frames: Frames::default(),
             },
             kept: BTreeMap::new(),
             next: 0,
@@ -154,20 +174,24 @@ impl Session {
         Status::of(&self.live.run, 1)
     }
 
-    /// Makes physics steps until the run is over, the time `until` has come, so many steps are made, or it is
-    /// interrupted.
-    pub fn advance(&mut self, until: Time, most_steps: u64) -> Status {
+    /// Makes physics steps until the run is over, the budget is spent, or it is interrupted. With a period to `sample`
+    /// by, which must not be zero, it keeps a frame after each step that reaches or passes a multiple of the period,
+    /// see [`Session::take_frames`].
+    pub fn advance(&mut self, budget: Budget, sample: Option<Duration>) -> Status {
         let mut steps = 0;
         let live = &mut self.live;
-        while steps < most_steps
-            && live.run.simulation().now() < until
-            && !live.run.is_over()
-            && !self.interrupt.load(Ordering::Relaxed)
-        {
+        loop {
+            let before = live.run.simulation().now();
+            let is_spent = steps >= budget.steps || before >= budget.until;
+            if is_spent || live.run.is_over() || self.interrupt.load(Ordering::Relaxed) {
+                return Status::of(&live.run, steps);
+            }
             live.step(self.topics.as_ref());
             steps += 1;
+            if let Some(period) = sample {
+                live.frames.sample(&live.run, before, period);
+            }
         }
-        Status::of(&live.run, steps)
     }
 
     /// Steers the run: see [`starl_sim::Simulation::apply`].
@@ -178,7 +202,7 @@ impl Session {
         self.live.run.apply(at, what)
     }
 
-    /// Keeps the present moment, records that were not taken included; gives its number.
+    /// Keeps the present moment, records and frames that were not taken included; gives its number.
     pub fn snapshot(&mut self) -> u32 {
         let number = self.next;
         self.next += 1;
@@ -239,38 +263,18 @@ impl Session {
         RobotReport::of(&self.live.run, robot)
     }
 
-    /// Writes [`POSE_NUMBERS`] numbers for each robot in the order of their numbers: the true x, y, z, yaw, pitch
-    /// and roll; x, y, z and yaw as the robot believes them; and its condition, 0 for running, 1 for finished, 2
-    /// for failed, 3 for down, 4 for left. Metres and radians.
-    pub fn poses(&self, numbers: &mut Vec<f64>) {
-        let simulation = self.live.run.simulation();
-        numbers.clear();
-        for &robot in simulation.robots() {
-            let (truth, belief) = (
-                simulation.state(robot).pose,
-                simulation.estimate(robot).pose,
-            );
-            let condition = match inspect::condition(&self.live.run, robot) {
-                "running" => 0.0,
-                "finished" => 1.0,
-                "failed" => 2.0,
-                "down" => 3.0,
-                _ => 4.0,
-            };
-            numbers.extend([
-                truth.position.x,
-                truth.position.y,
-                truth.position.z,
-                truth.yaw,
-                truth.pitch,
-                truth.roll,
-                belief.position.x,
-                belief.position.y,
-                belief.position.z,
-                belief.yaw,
-                condition,
-            ]);
-        }
+    /// [`POSE_NUMBERS`] numbers for each robot in the order of their numbers: the true x, y, z, yaw, pitch and roll;
+    /// x, y, z and yaw as the robot believes them; and its condition, 0 for running, 1 for finished, 2 for failed, 3
+    /// for down, 4 for left. Metres and radians.
+    pub fn poses(&self) -> impl Iterator<Item = f64> {
+        poses::poses(&self.live.run)
+    }
+
+    /// Takes all frames that were sampled, the oldest first: each its time in seconds, the number of robots, and what
+    /// [`Session::poses`] gave then. No more than [`MOST_FRAME_NUMBERS`] numbers are kept; then the oldest frames are
+    /// dropped.
+    pub fn take_frames(&mut self) -> Vec<f64> {
+        self.live.frames.take()
     }
 }
 

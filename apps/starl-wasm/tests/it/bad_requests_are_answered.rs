@@ -60,12 +60,12 @@ fn sound() -> Vec<Value> {
     let about = json!({"simulation": 0});
     sound.extend(
         [
-            "status", "step", "scenario", "world", "fleet", "report", "snapshot",
+            "status", "step", "scenario", "world", "fleet", "states", "report", "snapshot",
         ]
         .map(|name| json!({ name: about })),
     );
     sound.extend([
-        json!({"run": {"simulation": 0, "until": 2.0, "steps": 20}}),
+        json!({"run": {"simulation": 0, "until": 2.0, "steps": 20, "sample": 0.1}}),
         json!({"records": {"simulation": 0, "max": 7}}),
         json!({"robot": {"simulation": 0, "robot": 1}}),
         json!({"restore": {"simulation": 0, "snapshot": 0}}),

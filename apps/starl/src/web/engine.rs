@@ -5,8 +5,9 @@
 //! thread beside the server's. A client that goes away ends what it has asked for.
 //!
 //! A text message `{"id": 1, "request": {...}}` is answered by `{"id": 1, "ok": ...}` or `{"id": 1, "error": {...}}`.
-//! `{"id": 2, "poses": 0}` is answered by a binary message, little-endian: the id in 4 bytes, 4 bytes that are zero,
-//! then the numbers of [`Service::poses`], 8 bytes each; or by an error as above.
+//! `{"id": 2, "poses": 0}` and `{"id": 3, "frames": 0}` are answered by a binary message, little-endian: the id in 4
+//! bytes, 4 bytes that are zero, then the numbers of [`Service::poses`] or [`Service::frames`], 8 bytes each; or by an
+//! error as above.
 
 use axum::body::Bytes;
 use axum::extract::ws::{CloseCode, CloseFrame, Message, WebSocket, WebSocketUpgrade, close_code};
@@ -75,6 +76,7 @@ struct Asked {
     id: u32,
     request: Option<Box<RawValue>>,
     poses: Option<u32>,
+    frames: Option<u32>,
 }
 
 /// Answers a page's wish for a connection.
@@ -115,8 +117,7 @@ async fn talk(socket: &mut WebSocket, mut engine: Engine) -> Option<Reason> {
             Message::Close(_) => return None,
         };
         let Ok(asked) = serde_json::from_str::<Asked>(&text) else {
-            let reason =
-                "send {\"id\": number, \"request\": {...}} or {\"id\": number, \"poses\": number}";
+            let reason = "send {\"id\": number, \"request\": {...}}";
             return Some((close_code::POLICY, reason));
         };
         let id = asked.id;
@@ -189,22 +190,26 @@ impl Engine {
 
     fn carry_out(&mut self, asked: &Asked) -> Message {
         let id = asked.id;
-        match (&asked.request, asked.poses) {
-            (Some(request), None) => {
+        let mut numbers = Vec::new();
+        let (simulation, is_there) = match (&asked.request, asked.poses, asked.frames) {
+            (Some(request), None, None) => {
                 let answer = self.service.answer(request.get().as_bytes());
                 let answer = String::from_utf8(answer)
                     .unwrap_or_else(|error| unreachable!("answers are JSON: {error}"));
                 // An answer is an object with one member; the id goes before that.
-                Message::Text(format!("{{\"id\":{id},{}", &answer[1..]).into())
+                return Message::Text(format!("{{\"id\":{id},{}", &answer[1..]).into());
             }
-            (None, Some(simulation)) => {
-                let mut numbers = Vec::new();
-                match self.service.poses(simulation, &mut numbers) {
-                    true => Message::Binary(binary(id, &numbers)),
-                    false => refusal(id, &format!("there is no simulation {simulation}")),
-                }
+            (None, Some(simulation), None) => {
+                (simulation, self.service.poses(simulation, &mut numbers))
             }
-            _ => refusal(id, "send either `request` or `poses`"),
+            (None, None, Some(simulation)) => {
+                (simulation, self.service.frames(simulation, &mut numbers))
+            }
+            _ => return refusal(id, "send one of `request`, `poses` and `frames`"),
+        };
+        match is_there {
+            true => Message::Binary(binary(id, &numbers)),
+            false => refusal(id, &format!("there is no simulation {simulation}")),
         }
     }
 }

@@ -86,8 +86,8 @@ fn the_page_is_told_what_is_run_and_from_which_files() {
 }
 
 #[test]
-fn poses_come_as_numbers() {
-    let folder = folder("open_poses");
+fn poses_and_frames_come_as_numbers() {
+    let folder = folder("open_numbers");
     file(&folder, "small.toml", SMALL);
     let server = Server::start(&folder, &["run", "small.toml", "--open"]);
     let mut engine = server.engine();
@@ -96,13 +96,21 @@ fn poses_come_as_numbers() {
     assert_eq!(poses[11..13], [0.0, 1.0]);
     engine.ok(&json!({ "run": { "simulation": 0, "until": 5 } }));
     assert_ne!(engine.numbers("poses", 0), poses);
-    let request = json!({ "id": 9, "poses": 4 }).to_string();
-    engine.socket.send(request.into()).expect("it is read");
-    let refused = engine.socket.read().expect("it is answered");
-    let refused: serde_json::Value =
-        serde_json::from_str(refused.to_text().expect("text")).expect("JSON");
-    assert_eq!(refused["id"], 9);
-    assert_eq!(refused["error"]["message"], "there is no simulation 4");
+    engine.ok(&json!({ "run": { "simulation": 0, "until": 7, "sample": 1 } }));
+    let frames = engine.numbers("frames", 0);
+    let frames: Vec<&[f64]> = frames.chunks(2 + 2 * 11).collect();
+    let heads: Vec<&[f64]> = frames.iter().map(|frame| &frame[..2]).collect();
+    assert_eq!(heads, [[6.0, 2.0], [7.0, 2.0]]);
+    assert_eq!(frames[1][2..], engine.numbers("poses", 0));
+    for kind in ["poses", "frames"] {
+        let request = json!({ "id": 9, kind: 4 }).to_string();
+        engine.socket.send(request.into()).expect("it is read");
+        let refused = engine.socket.read().expect("it is answered");
+        let refused: serde_json::Value =
+            serde_json::from_str(refused.to_text().expect("text")).expect("JSON");
+        assert_eq!(refused["id"], 9);
+        assert_eq!(refused["error"]["message"], "there is no simulation 4");
+    }
 }
 
 #[test]
