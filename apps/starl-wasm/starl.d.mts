@@ -19,15 +19,22 @@ export const POSE_NUMBERS: 11;
  */
 export function load(source?: string | URL | Response | BufferSource | WebAssembly.Module): Promise<Starl>;
 
-/** An instance of the simulator. It holds any number of simulations. */
+/** An instance of the simulator. It holds any number of simulations, in 1 GiB of memory. */
 export class Starl {
   private constructor();
+  /** Whether it cannot go on: every call throws a StarlError that says why. Load another instance. */
+  readonly failed: boolean;
   /** The examples that come with StarL. */
   examples(): Example[];
   /** All that is wrong with programs and libraries (`.starl`) and scenarios (`.toml`), by file and place. */
   check(files: Files): Diagnostic[];
   /** Opens a scenario with its programs. Throws a StarlError with diagnostics if something is wrong with them. */
   open(files: Files, options?: Options): Simulation;
+  /**
+   * Answers a request of the JSON service (apps/starl-catalog/src/service/request.rs), such as
+   * `{ report: { simulation: 0 } }`. The methods of this class and of Simulation are made of such requests.
+   */
+  request(request: object): unknown;
 }
 
 /** An example that comes with StarL. */

@@ -1,0 +1,60 @@
+// The page as a whole: what is written on the left, the world in the middle, what is known of the run on the right,
+// time below.
+
+import { signal } from "@preact/signals";
+import { Timeline } from "../timeline/Timeline.tsx";
+import { Transport } from "../timeline/Transport.tsx";
+import { WorldView } from "../world/WorldView.tsx";
+import { Bench } from "./Bench.tsx";
+import { run, start } from "./context.ts";
+import { Header } from "./Header.tsx";
+import { Problem } from "./Problem.tsx";
+import { Side } from "./Side.tsx";
+
+/** Which part a small screen shows. */
+export const part = signal<"write" | "world" | "inspect">("world");
+
+const PARTS = [
+  ["write", "Write"],
+  ["world", "World"],
+  ["inspect", "Inspect"],
+] as const;
+
+export function App() {
+  const writes = start.value.mode === "web";
+  return (
+    <div class={`page ${writes ? "with-bench" : ""}`} data-part={part.value}>
+      <Header />
+      <Problem />
+      {writes && (
+        <section class="bench" aria-label="Program and scenario">
+          <Bench />
+        </section>
+      )}
+      <main class="stage" aria-label="World">
+        <WorldView />
+      </main>
+      <aside class="side" aria-label="Inspector">
+        <Side />
+      </aside>
+      <footer class="time" aria-label="Time">
+        <Transport />
+        {run.opened.value && <Timeline />}
+      </footer>
+      <nav class="parts" aria-label="Parts of the page">
+        {PARTS.filter(([name]) => writes || name !== "write").map(([name, label]) => (
+          <button
+            key={name}
+            type="button"
+            aria-pressed={part.value === name}
+            onClick={() => {
+              part.value = name;
+            }}
+          >
+            {label}
+          </button>
+        ))}
+      </nav>
+    </div>
+  );
+}

@@ -1,0 +1,26 @@
+// What there is one of on the page: the run that is shown, and what the page is for.
+
+import { signal } from "@preact/signals";
+import type { ServerRun } from "../engine/types.ts";
+import { Run } from "../run/run.ts";
+
+export const run = new Run();
+
+/** What the page was opened for: by a static host or `starl web`, by `starl run --open`, or by `starl view`. */
+export type Start =
+  | { mode: "web" }
+  | { mode: "run"; opened: ServerRun; files: Record<string, string> }
+  | { mode: "trace"; name: string; size: number };
+
+export const start = signal<Start>({ mode: "web" });
+
+/** Asks the host of the page what it was opened for. A static host does not know. */
+export async function askHost(): Promise<Start> {
+  try {
+    const answer = await fetch("start.json", { cache: "no-store" });
+    if (answer.ok && answer.headers.get("content-type")?.includes("json")) return await answer.json();
+  } catch {
+    // Offline, or served from a folder.
+  }
+  return { mode: "web" };
+}

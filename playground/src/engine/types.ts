@@ -1,0 +1,138 @@
+// The simulator's own types, and the contract between the page and the worker that runs it.
+// Units as in starl.d.mts: seconds, metres, radians, one right-handed world frame with z up.
+
+import type * as starl from "../../../apps/starl-wasm/starl.d.mts";
+
+export type {
+  Condition,
+  Diagnostic,
+  Example,
+  Fault,
+  Files,
+  Intervention,
+  Member,
+  NetworkKnob,
+  Obstacle,
+  Options,
+  Outcome,
+  Point,
+  Pose,
+  Report,
+  Robot,
+  TraceRecord,
+  WayPoint,
+  World,
+} from "../../../apps/starl-wasm/starl.d.mts";
+
+/** Numbers of a robot in a frame: true x, y, z, yaw, pitch, roll; believed x, y, z, yaw; condition. */
+export const POSE_NUMBERS = 11;
+
+/** A run that can be shown. */
+export type Source =
+  /** A scenario with its programs, simulated in the worker. */
+  | { kind: "files"; files: starl.Files; options: starl.Options }
+  /** The run that `starl run --open` holds; simulated by the command. */
+  | { kind: "server"; opened: ServerRun }
+  /** A trace, read as it is needed. */
+  | { kind: "trace"; name: string; from: string | Blob };
+
+/** The answer of the server about its run. */
+export interface ServerRun {
+  simulation: number;
+  title: string;
+  seed: string;
+  duration: number;
+  step_length: number;
+  warnings: starl.Diagnostic[];
+}
+
+/** What a run is. */
+export interface Opened {
+  title: string;
+  seed: string;
+  /** When the run ends at the latest, s. */
+  duration: number;
+  /** The length of a physics step, s. */
+  stepLength: number;
+  warnings: starl.Diagnostic[];
+  fleet: starl.Member[];
+  world: starl.World;
+  /** Whether it is simulated, so that it can be steered and robots can be looked into; otherwise it is recorded. */
+  live: boolean;
+}
+
+/** Stops the run. */
+export type Breakpoint =
+  | { action: { name: string; robot: number | null } }
+  | { message: { name: string | null; robot: number | null } }
+  | { when: { expression: string } };
+
+/** Where a run was stopped by a breakpoint. */
+export interface Stopped {
+  breakpoint: number;
+  at: number;
+  robot: number | null;
+  text: string;
+}
+
+/** What has changed since the last update. */
+export interface Update {
+  /** The moment shown, s. */
+  now: number;
+  /** How far the run is known, s. */
+  known: number;
+  /** How many records there are up to the moment shown, of all since the start. */
+  position: number;
+  /** Whether the run ends at `known`. */
+  over: boolean;
+  outcome: starl.Outcome | null;
+  playing: boolean;
+  /** The frame of the moment shown, null if it is to be made from those around it: time, number of robots, POSE_NUMBERS for each. */
+  frame: Float64Array | null;
+  /** New frames in the order of their times, one after the other, each as `frame`. */
+  frames: Float64Array | null;
+  /** New records in the order of their times, without poses and estimates. */
+  records: starl.TraceRecord[];
+  /** Everything later than this moment is no longer so, because the run was steered. Applies before what is new. */
+  cut: number | null;
+  /** Where programs are, by robot. */
+  states: (string | null)[];
+  fleet: starl.Member[] | null;
+  world: starl.World | null;
+  /** The robots that are looked into. */
+  robots: starl.Robot[];
+  report: starl.Report | null;
+  stopped: Stopped | null;
+  /** Simulated seconds in a second, while it plays. */
+  pace: number;
+}
+
+/** What the page asks of the worker; each is answered by its `id`. */
+export type Request =
+  | { open: Source }
+  /** Speed is in simulated seconds a second; Infinity is as fast as it goes. */
+  | { play: { speed: number } }
+  | { pause: true }
+  | { seek: number }
+  /** To the next step of physics. */
+  | { step: true }
+  /** Forward to the next moment at which something is recorded on one of these topics. */
+  | { next: { topics: string[] } }
+  | { inspect: number[] }
+  | { breakpoints: Breakpoint[] }
+  | { apply: starl.Intervention }
+  | { scenario: true }
+  | { report: true }
+  | { check: starl.Files }
+  | { examples: true }
+  /** A request of the simulator that is handed on as it is. */
+  | { raw: unknown };
+
+export type ToWorker = { id: number; request: Request };
+
+export type FromWorker =
+  | { id: number; ok: unknown }
+  | { id: number; error: { message: string; diagnostics: starl.Diagnostic[] } }
+  | { update: Update }
+  /** Something that nobody asked for went wrong; the run cannot go on. */
+  | { failed: string };

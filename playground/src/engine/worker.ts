@@ -1,0 +1,80 @@
+// The worker in which runs are simulated, so that the page never has to wait for them.
+
+import { load, type Starl, StarlError } from "../../../apps/starl-wasm/starl.mjs";
+import wasm from "../../wasm/starl.wasm?url";
+import { Driver } from "./driver.ts";
+import { RECORDED } from "./engine.ts";
+import { Playback } from "./playback.ts";
+import { Refused, remote, Socket } from "./remote.ts";
+import type { FromWorker, Opened, Request, Source, ToWorker, Update } from "./types.ts";
+
+let module: Promise<Starl> | null = null;
+
+/** The instance; another one if a run has brought the last one down. */
+async function starl(): Promise<Starl> {
+  if ((await module?.catch(() => null))?.failed !== false) module = load(new URL(wasm, self.location.href));
+  return module as Promise<Starl>;
+}
+
+let shown: Driver | Playback | null = null;
+
+const say = (message: FromWorker, transfer: Transferable[] = []) => self.postMessage(message, { transfer });
+const post = (update: Update, transfer: Transferable[]) => say({ update }, transfer);
+
+self.onmessage = async ({ data: { id, request } }: MessageEvent<ToWorker>) => {
+  try {
+    say({ id, ok: await answer(request) });
+    // The first picture, once the page knows what it shows.
+    if ("open" in request) await shown?.pause();
+  } catch (error) {
+    const refused = error instanceof StarlError || error instanceof Refused;
+    const message = error instanceof Error ? error.message : String(error);
+    say({ id, error: { message, diagnostics: refused ? error.diagnostics : [] } });
+  }
+};
+
+self.addEventListener("unhandledrejection", ({ reason }) => say({ failed: String(reason?.message ?? reason) }));
+
+async function answer(request: Request): Promise<unknown> {
+  if ("open" in request) return open(request.open);
+  if ("check" in request) return (await starl()).check(request.check);
+  if ("examples" in request) return (await starl()).examples();
+  if ("raw" in request) return (await starl()).request(request.raw as object);
+  const run = shown;
+  if (!run) throw new Refused("nothing is open");
+  if ("play" in request) return run.play(request.play.speed);
+  if ("pause" in request) return run.pause();
+  if ("seek" in request) return run.seek(request.seek);
+  if ("step" in request) return run.step();
+  if ("next" in request) return run.next(request.next.topics);
+  if ("inspect" in request) return run.inspect(request.inspect);
+  if (!(run instanceof Driver)) throw new Refused("a recorded run cannot be steered");
+  if ("breakpoints" in request) return run.breakpoints(request.breakpoints);
+  if ("apply" in request) return run.apply(request.apply);
+  if ("scenario" in request) return run.scenario();
+  return run.report();
+}
+
+async function open(source: Source): Promise<Opened> {
+  await shown?.close().catch(() => undefined);
+  shown = null;
+  shown = await start(source);
+  return shown.opened;
+}
+
+async function start(source: Source): Promise<Driver | Playback> {
+  switch (source.kind) {
+    case "files": {
+      const simulation = (await starl()).open(source.files, { ...source.options, topics: RECORDED });
+      return Driver.start(simulation, { ...simulation, simulation: 0 }, post);
+    }
+    case "server": {
+      const url = new URL("engine", self.location.origin);
+      url.protocol = url.protocol.replace("http", "ws");
+      const socket = await Socket.connect(url.href);
+      return Driver.start(remote(socket, source.opened.simulation), source.opened, post);
+    }
+    case "trace":
+      return Playback.start(source, post);
+  }
+}

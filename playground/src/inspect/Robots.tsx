@@ -1,0 +1,3 @@
+export function Robots() {
+  return null;
+}

@@ -1,0 +1,3 @@
+export function Steer() {
+  return null;
+}

@@ -1,0 +1,77 @@
+// What happened in a run, in order: the records of the trace but for poses. Memory is bounded: of too many records
+// the oldest datagrams are forgotten first, then the oldest of the others.
+
+import type { TraceRecord } from "../engine/types.ts";
+
+const MOST = 400_000;
+
+/** A record with its place among all records of the run, from 0. */
+export interface Event extends TraceRecord {
+  index: number;
+  /** s */
+  time: number;
+}
+
+export class Events {
+  list: Event[] = [];
+  /** Changes whenever events are taken away. */
+  generation = 0;
+  /** How many records there were, those forgotten included. */
+  count = 0;
+  forgotten = 0;
+
+  add(records: TraceRecord[]): void {
+    for (const record of records) {
+      this.list.push({ ...record, time: record.time_ns / 1e9, index: this.count++ });
+    }
+    if (this.list.length <= MOST) return;
+    const kept = this.#thin();
+    this.forgotten += this.list.length - kept.length;
+    this.list = kept;
+    this.generation++;
+  }
+
+  /** Keeps the first `count` records of the run. */
+  cut(count: number): void {
+    this.list.length = this.before(count);
+    this.count = count;
+    this.generation++;
+  }
+
+  clear(): void {
+    this.list = [];
+    this.count = 0;
+    this.forgotten = 0;
+    this.generation++;
+  }
+
+  /** How many events of the list are among the first `count` records of the run. */
+  before(count: number): number {
+    return this.#first((event) => event.index >= count);
+  }
+
+  /** Where in the list the events from a time on begin. */
+  from(time: number): number {
+    return this.#first((event) => event.time >= time);
+  }
+
+  #first(later: (event: Event) => boolean): number {
+    let [low, high] = [0, this.list.length];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      const event = this.list[middle];
+      if (event && later(event)) high = middle;
+      else low = middle + 1;
+    }
+    return low;
+  }
+
+  #thin(): Event[] {
+    const half = this.list.length - MOST / 2;
+    const story = this.list.filter((event, index) => index >= half || !isTraffic(event));
+    return story.length > MOST * 0.75 ? story.slice(story.length - MOST / 2) : story;
+  }
+}
+
+export const isTraffic = ({ topic }: TraceRecord): boolean =>
+  topic === "/starl/sent" || topic === "/starl/delivered" || topic === "/starl/dropped";

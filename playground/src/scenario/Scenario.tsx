@@ -1,0 +1,3 @@
+export function Scenario() {
+  return null;
+}
