@@ -63,10 +63,10 @@ impl Guard {
         format!("http://{}/?token={}", self.host, self.token)
     }
 
-    /// Whether a request is to be answered, or else what it is told.
-    fn check(&self, uri: &Uri, headers: &HeaderMap) -> Result<(), Response> {
+    /// What a request is told that does not get through; none of one that does.
+    fn stop(&self, uri: &Uri, headers: &HeaderMap) -> Option<Response> {
         if headers.get(HOST).is_none_or(|host| *host != self.host) {
-            return Err(refuse(
+            return Some(refuse(
                 "this address is not the one that was printed in the terminal",
             ));
         }
@@ -77,11 +77,11 @@ impl Guard {
             None => headers.contains_key(SEC_WEBSOCKET_KEY),
         };
         if is_foreign {
-            return Err(refuse("pages of other origins get nothing from here"));
+            return Some(refuse("pages of other origins get nothing from here"));
         }
         let token = uri.query().and_then(|query| query.strip_prefix("token="));
         if let ("/", Some(token)) = (uri.path(), token) {
-            return Err(match same(token, &self.token) {
+            return Some(match same(token, &self.token) {
                 true => self.let_in(),
                 false => {
                     refuse("the token in this address is not that of the server that runs now")
@@ -93,8 +93,8 @@ impl Guard {
             .filter_map(|header| header.to_str().ok())
             .flat_map(|header| header.split(';'));
         match cookies.any(|cookie| same(cookie.trim(), &self.cookie)) {
-            true => Ok(()),
-            false => Err(refuse("this browser has not shown the token yet")),
+            true => None,
+            false => Some(refuse("this browser has not shown the token yet")),
         }
     }
 
@@ -108,9 +108,9 @@ impl Guard {
 
 /// Lets requests pass that are to be answered; no answer goes out without the headers that protect the page.
 pub async fn guarded(State(guard): State<Arc<Guard>>, request: Request, next: Next) -> Response {
-    let mut response = match guard.check(request.uri(), request.headers()) {
-        Ok(()) => next.run(request).await,
-        Err(response) => response,
+    let mut response = match guard.stop(request.uri(), request.headers()) {
+        Some(response) => response,
+        None => next.run(request).await,
     };
     for (name, value) in HEADERS {
         let value = HeaderValue::from_static(value);

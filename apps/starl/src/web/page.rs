@@ -54,9 +54,8 @@ impl Page {
         }
         let command = console::command();
         Err(Failure(format!(
-            "this {command} was built without the page; in StarL's repository run `npm --prefix playground ci` and \
-             `npm --prefix playground run build`, then build {command} again; or name a folder that holds the \
-             built page with --page"
+            "this {command} was built without the page; run `make page` in StarL's repository, then build {command} \
+             again; or name a folder that holds the built page with --page"
         )))
     }
 
@@ -83,7 +82,11 @@ pub async fn answer(State(page): State<Arc<Page>>, request: Request) -> Response
         "/" => INDEX,
         path => path.trim_start_matches('/'),
     };
-    match page.file(path) {
+    // A service worker outlives the server: it would answer in the place of the next one at this port, from an old
+    // page, and keep the next token to itself.
+    let is_for_service_worker = request.headers().contains_key("service-worker");
+    let found = page.file(path).filter(|_| !is_for_service_worker);
+    match found {
         Some(content) => ([(CONTENT_TYPE, content_type(path))], content).into_response(),
         None => (StatusCode::NOT_FOUND, "the page has no such file\n").into_response(),
     }
@@ -115,7 +118,7 @@ mod tests {
     #[test]
     fn a_command_without_the_page_says_how_to_build_it() {
         let refused = Page::built_in(&[]).unwrap_err();
-        assert!(refused.0.contains("npm --prefix playground run build"));
+        assert!(refused.0.contains("make page"));
     }
 
     #[test]

@@ -182,6 +182,17 @@ fn a_path_that_leaves_the_page_is_not_found() {
     assert_eq!(server.get("/.hidden", &[]).text(), "of the page");
 }
 
+/// Browsers ask for the scripts of service workers with this header.
+#[test]
+fn no_service_worker_is_installed_that_would_outlive_the_server() {
+    let folder = folder("web_service_worker");
+    let server = Server::start(&folder, &["web"]);
+    file(&folder, "page/sw.js", "self.onfetch = undefined");
+    assert_eq!(server.get("/sw.js", &[]).status, 200);
+    let asked = server.get("/sw.js", &[("service-worker", "script")]);
+    assert_eq!(asked.status, 404);
+}
+
 #[test]
 fn nothing_can_be_sent_to_the_server_but_questions() {
     let folder = folder("web_methods");
