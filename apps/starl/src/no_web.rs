@@ -1,4 +1,4 @@
-//! What serves the page, in a command that was built without the feature `web`.
+//! The commands that serve the page, in a build without the feature `web`: all are refused.
 
 use crate::args::{PageArguments, RunArguments, ViewArguments};
 use crate::console;

@@ -33,7 +33,7 @@ const MOST_MESSAGE_BYTES: usize = 64 << 20;
 /// So many requests may wait for their turn; more end the connection.
 const MOST_WAITING: usize = 256;
 
-/// What every page is given at first.
+/// The simulation that every page is given at first.
 pub struct Origin {
     /// The run at its start.
     session: Mutex<Session>,
@@ -79,7 +79,7 @@ struct Asked {
     frames: Option<u32>,
 }
 
-/// Answers a page's wish for a connection.
+/// Connects a page to simulations of its own.
 pub fn connect(origin: &Origin, upgrade: WebSocketUpgrade) -> Response {
     let engine = origin.engine();
     upgrade
@@ -99,7 +99,7 @@ pub fn connect(origin: &Origin, upgrade: WebSocketUpgrade) -> Response {
 /// Why a connection is closed.
 type Reason = (CloseCode, &'static str);
 
-/// Answers messages until the page goes away, or something goes wrong: that is told.
+/// Answers messages until the page goes away. Returns the reason if the server ends the connection.
 async fn talk(socket: &mut WebSocket, mut engine: Engine) -> Option<Reason> {
     let mut waiting = VecDeque::new();
     loop {
@@ -145,7 +145,7 @@ async fn talk(socket: &mut WebSocket, mut engine: Engine) -> Option<Reason> {
                             if waiting.len() <= MOST_WAITING {
                                 continue;
                             }
-                            Some((close_code::AGAIN, "too many requests wait; wait for answers"))
+                            Some((close_code::AGAIN, "more than 256 requests are waiting; wait for answers first"))
                         }
                         gone => end(gone),
                     };
@@ -171,7 +171,7 @@ async fn talk(socket: &mut WebSocket, mut engine: Engine) -> Option<Reason> {
     }
 }
 
-/// Why no more can be read: the page has gone away, which needs no reason, or it sends what is no message.
+/// The reason to end a connection of which no more can be read; none if the page has gone away.
 fn end(received: Option<Result<Message, axum::Error>>) -> Option<Reason> {
     received?.err()?;
     let reason = "a message must be text in UTF-8, of at most 16 MiB";

@@ -16,12 +16,12 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use std::sync::Arc;
 
-/// What a page may load, and from where: this server, and nothing else.
+/// The page may load files from this server, and nothing else.
 const POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; style-src 'self'; \
     img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; manifest-src 'self'; base-uri 'none'; \
     form-action 'none'; frame-ancestors 'none'";
 
-/// Every answer has these.
+/// Every answer has these headers.
 const HEADERS: [(HeaderName, &str); 5] = [
     (CONTENT_SECURITY_POLICY, POLICY),
     (X_CONTENT_TYPE_OPTIONS, "nosniff"),
@@ -34,7 +34,7 @@ const HEADERS: [(HeaderName, &str); 5] = [
     (CACHE_CONTROL, "no-store"),
 ];
 
-/// Knows who may ask.
+/// Checks requests.
 pub struct Guard {
     /// The server's address and port, as browsers name its host.
     host: String,
@@ -49,7 +49,7 @@ impl Guard {
     pub fn new(port: u16) -> Result<Guard, Failure> {
         let mut random = [0; 32];
         getrandom::fill(&mut random)
-            .map_err(|error| Failure(format!("there is no random number to be had: {error}")))?;
+            .map_err(|error| Failure(format!("no random token can be made: {error}")))?;
         let token: String = random.iter().map(|byte| format!("{byte:02x}")).collect();
         Ok(Guard {
             host: format!("127.0.0.1:{port}"),
@@ -63,12 +63,10 @@ impl Guard {
         format!("http://{}/?token={}", self.host, self.token)
     }
 
-    /// What a request is told that does not get through; none of one that does.
+    /// The answer to a request that is refused, or that shows the token; none if the request may pass.
     fn stop(&self, uri: &Uri, headers: &HeaderMap) -> Option<Response> {
         if headers.get(HOST).is_none_or(|host| *host != self.host) {
-            return Some(refuse(
-                "this address is not the one that was printed in the terminal",
-            ));
+            return Some(refuse("the request names another host"));
         }
         let is_own = |origin: &HeaderValue| *origin == format!("http://{}", self.host);
         // Browsers always say where a WebSocket comes from.
@@ -77,15 +75,13 @@ impl Guard {
             None => headers.contains_key(SEC_WEBSOCKET_KEY),
         };
         if is_foreign {
-            return Some(refuse("pages of other origins get nothing from here"));
+            return Some(refuse("the request comes from a page of another origin"));
         }
         let token = uri.query().and_then(|query| query.strip_prefix("token="));
         if let ("/", Some(token)) = (uri.path(), token) {
             return Some(match same(token, &self.token) {
                 true => self.let_in(),
-                false => {
-                    refuse("the token in this address is not that of the server that runs now")
-                }
+                false => refuse("the token in this address is wrong"),
             });
         }
         let cookies = headers.get_all(COOKIE).iter();
@@ -94,7 +90,7 @@ impl Guard {
             .flat_map(|header| header.split(';'));
         match cookies.any(|cookie| same(cookie.trim(), &self.cookie)) {
             true => None,
-            false => Some(refuse("this browser has not shown the token yet")),
+            false => Some(refuse("this browser has not shown the token")),
         }
     }
 
@@ -106,7 +102,7 @@ impl Guard {
     }
 }
 
-/// Lets requests pass that are to be answered; no answer goes out without the headers that protect the page.
+/// Lets requests pass that may, and gives every answer the headers that protect the page.
 pub async fn guarded(State(guard): State<Arc<Guard>>, request: Request, next: Next) -> Response {
     let mut response = match guard.stop(request.uri(), request.headers()) {
         Some(response) => response,

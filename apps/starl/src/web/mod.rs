@@ -34,24 +34,24 @@ use tokio::net::TcpListener;
 use tokio::runtime;
 use tokio::sync::Notify;
 
-/// What the page shows.
+/// The content of the page.
 enum Content {
-    /// What the person who looks at it opens.
-    Anything,
+    /// Programs and scenarios that its user writes in it.
+    Page,
     /// A run, which the page drives.
     Run {
-        /// What it is, for the page.
+        /// The answer to `/start.json`.
         start: serde_json::Value,
         origin: Box<Origin>,
     },
-    /// What a trace has recorded.
+    /// A recorded run.
     Trace { path: PathBuf, name: String },
 }
 
 /// Serves the page alone.
 pub fn serve_page(arguments: &PageArguments) -> Result<bool, Failure> {
     let page = Page::of(arguments.folder.as_deref())?;
-    serve(page, Content::Anything, arguments)
+    serve(page, Content::Page, arguments)
 }
 
 /// Serves a run of what the arguments name, from its start.
@@ -119,7 +119,7 @@ fn serve(page: Page, content: Content, arguments: &PageArguments) -> Result<bool
             () = stop.notified() => Ok(()),
         }
     });
-    // What pages have asked for does not matter any more.
+    // Requests under way are not waited for.
     runtime.shutdown_background();
     served.map(|()| true)
 }
@@ -153,7 +153,7 @@ fn router(page: Page, content: Content, guard: Guard) -> Router {
 
 async fn tell_start(State(content): State<Arc<Content>>) -> Response {
     match &*content {
-        Content::Anything => json(&start::of_page()),
+        Content::Page => json(&start::of_page()),
         Content::Run { start, .. } => json(start),
         Content::Trace { path, name } => match path.metadata() {
             Ok(file) => json(&start::of_trace(name, file.len())),

@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// Files by path.
 type Files = &'static [(&'static str, &'static [u8])];
 
-/// What `build.rs` has found in `playground/dist`.
+/// The files of `playground/dist` when the command was built, listed by `build.rs`.
 static BUILT_IN: Files = include!(concat!(env!("OUT_DIR"), "/page.rs"));
 
 /// The first file that a browser asks for.
@@ -67,7 +67,7 @@ impl Page {
                 Some(Cow::Borrowed(*content))
             }
             Page::Folder(root) => {
-                // Whatever `..` and links there are in the path, the file must be in the folder.
+                // The path may hold `..` and links; the file that it leads to must be in the folder.
                 let found = root.join(path).canonicalize().ok()?;
                 let content = found.starts_with(root).then(|| fs::read(found))?;
                 content.ok().map(Cow::Owned)
@@ -82,8 +82,8 @@ pub async fn answer(State(page): State<Arc<Page>>, request: Request) -> Response
         "/" => INDEX,
         path => path.trim_start_matches('/'),
     };
-    // A service worker outlives the server: it would answer in the place of the next one at this port, from an old
-    // page, and keep the next token to itself.
+    // A service worker outlives the server: at this port it would answer in place of the next one, with an old page,
+    // and the next token would never reach its server.
     let is_for_service_worker = request.headers().contains_key("service-worker");
     let found = page.file(path).filter(|_| !is_for_service_worker);
     match found {

@@ -1,4 +1,4 @@
-//! What `/start.json` says: what the page is to show.
+//! The answer to `/start.json`: the mode of the page, and what it needs for that.
 
 use serde_json::{Value, json};
 use starl_catalog::Application;
@@ -8,7 +8,7 @@ use starl_sim::read::{Content, Inputs};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Nothing in particular.
+/// The page alone.
 pub fn of_page() -> Value {
     json!({ "mode": "web" })
 }

@@ -1,4 +1,4 @@
-//! What cannot be shown with the programs that ship with the command.
+//! A program in Rust that panics; no program that ships with the command does.
 
 use super::*;
 use starl_catalog::session::{Files, Options};

@@ -17,7 +17,7 @@ use tokio_util::io::ReaderStream;
 /// Bytes that are read at once.
 const CHUNK: usize = 64 * 1024;
 
-/// What a request asks for of a file.
+/// The part of a file that a request asks for.
 #[derive(Debug, PartialEq, Eq)]
 enum Wanted {
     All,
@@ -41,7 +41,7 @@ async fn part(path: &Path, headers: &HeaderMap) -> io::Result<Response> {
     let mut file = File::open(path).await?;
     let size = file.metadata().await?.len();
     let asked = headers.get(RANGE).and_then(|value| value.to_str().ok());
-    // A part of what the file was is not to be had: versions have no names.
+    // This asks for a part of a certain version of the file, and versions have no names here.
     let asked = asked.filter(|_| !headers.contains_key(IF_RANGE));
     let (status, range, place) = match asked.map_or(Wanted::All, |asked| wanted(asked, size)) {
         Wanted::All => (StatusCode::OK, 0..size, None),

@@ -25,6 +25,8 @@ mod test_command;
 mod trace_is_never_lost;
 mod verify_trace;
 #[cfg(feature = "web")]
+mod web_bad_clients;
+#[cfg(feature = "web")]
 mod web_command;
 #[cfg(feature = "web")]
 mod web_engine;

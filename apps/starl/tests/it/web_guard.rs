@@ -88,11 +88,11 @@ fn another_host_or_origin_is_refused() {
     for path in PATHS {
         for host in hosts {
             let headers = [("host", host), ("cookie", &cookie)];
-            refused(&server.send("GET", path, &headers), "address");
+            refused(&server.send("GET", path, &headers), "another host");
         }
         for origin in &origins {
             let headers = [("host", &*own), ("cookie", &cookie), ("origin", origin)];
-            refused(&server.send("GET", path, &headers), "other origins");
+            refused(&server.send("GET", path, &headers), "another origin");
         }
     }
     let own_origin = server.origin();
@@ -194,7 +194,7 @@ fn no_service_worker_is_installed_that_would_outlive_the_server() {
 }
 
 #[test]
-fn nothing_can_be_sent_to_the_server_but_questions() {
+fn only_get_and_head_are_allowed() {
     let folder = folder("web_methods");
     let server = Server::start(&folder, &["web"]);
     let (host, cookie) = (server.host(), server.cookie());

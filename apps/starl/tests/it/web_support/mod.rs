@@ -9,7 +9,7 @@ use std::process::{Child, ChildStdout, Stdio};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket, client};
 
-/// What the page of these tests holds, beside its `index.html`.
+/// A script of the page of these tests.
 pub const SCRIPT: &str = "console.log('a page')";
 
 /// A page as small as can be, in a folder `page`.
@@ -89,14 +89,14 @@ impl Server {
         format!("starl-{}={}", self.port, self.token)
     }
 
-    /// What a page of this server gets.
+    /// The answer to a page of this server.
     pub fn get(&self, path: &str, headers: &[(&str, &str)]) -> Response {
         let (host, cookie) = (self.host(), self.cookie());
         let own = [("host", &*host), ("cookie", &*cookie)];
         self.send("GET", path, &[&own, headers].concat())
     }
 
-    /// What somebody gets who sends these headers and no others.
+    /// The answer to a request with these headers and no others.
     pub fn send(&self, method: &str, path: &str, headers: &[(&str, &str)]) -> Response {
         let mut stream = TcpStream::connect(self.host()).expect("the server listens");
         let headers: String = headers
@@ -162,7 +162,7 @@ pub struct Engine {
 }
 
 impl Engine {
-    /// What a request comes to.
+    /// The answer to a request.
     pub fn ask(&mut self, request: &serde_json::Value) -> serde_json::Value {
         let answer = self.message("request", request);
         let answer: serde_json::Value =
@@ -171,7 +171,7 @@ impl Engine {
         answer
     }
 
-    /// What a request comes to that is carried out.
+    /// The result of a request, which must be carried out.
     pub fn ok(&mut self, request: &serde_json::Value) -> serde_json::Value {
         let mut answer = self.ask(request);
         assert!(answer.get("error").is_none(), "{request}: {answer}");
