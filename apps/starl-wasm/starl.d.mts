@@ -223,12 +223,10 @@ export interface Twist {
 /** Null is from the floor to the sky. */
 export type HeightSpan = { low: number; high: number } | null;
 
-export interface Obstacle {
-  shape:
-    | { Polygon: { base: Point[]; height: HeightSpan } }
-    | { Circle: { center: Point; radius: number; height: HeightSpan } }
-    | { Cuboid: { low: Point; high: Point } };
-}
+export type Obstacle =
+  | { Polygon: { base: Point[]; height: HeightSpan } }
+  | { Circle: { center: Point; radius: number; height: HeightSpan } }
+  | { Cuboid: { low: Point; high: Point } };
 
 export interface WayPoint {
   name: string;
