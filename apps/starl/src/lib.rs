@@ -1,4 +1,4 @@
-//! The one command of StarL: checks, explains, runs, replays, judges, tests, draws, lists and measures. See
+//! The one command of StarL: checks, explains, runs, replays, shows, judges, tests, draws, lists and measures. See
 //! `docs/reference/command.md`.
 //!
 //! As a library it is the same command with programs of one's own:
@@ -52,6 +52,11 @@ mod test;
 mod threads;
 mod trace_output;
 mod verify;
+#[cfg(feature = "web")]
+mod web;
+#[cfg(not(feature = "web"))]
+#[path = "no_web.rs"]
+mod web;
 
 pub use starl_catalog::Parameters;
 
@@ -103,6 +108,7 @@ impl CommandLine {
         let registry = &self.registry;
         let result = match &arguments.command {
             Command::Explore(arguments) => return exit(explore::run(arguments, registry)),
+            Command::Run(arguments) if arguments.open => web::serve_run(arguments, registry),
             Command::Run(arguments) => run::run(arguments, registry),
             Command::Replay(arguments) => match &arguments.robot {
                 Some(name) => replay_robot::replay(arguments, name, registry),
@@ -115,6 +121,8 @@ impl CommandLine {
             Command::Fmt(arguments) => fmt::run(arguments),
             Command::Explain(arguments) => explain::run(arguments),
             Command::Lsp(_) => lsp::run(),
+            Command::View(arguments) => web::serve_trace(arguments),
+            Command::Web(arguments) => web::serve_page(arguments),
             Command::List(arguments) => list::list(arguments, registry),
             Command::Bench(arguments) => bench::bench(arguments),
         };

@@ -1,6 +1,6 @@
 //! What can be asked of the service, as JSON: an object whose only member is the name of the request.
 
-use crate::session::{Recorded, Files, Options};
+use crate::session::{Files, Options, Recorded};
 use serde::Deserialize;
 use starl_core::{Duration, Intervention, RobotId, Time};
 use std::collections::BTreeMap;

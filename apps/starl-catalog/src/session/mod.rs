@@ -8,8 +8,8 @@ mod diagnostic;
 mod files;
 mod inspect;
 mod open;
-mod recorded;
 mod poses;
+mod recorded;
 mod report;
 
 pub use diagnostic::{Diagnostic, check};
@@ -33,11 +33,14 @@ use starl_core::{Duration, Intervention, Record, RobotId, Time};
 use starl_sim::{Run, write};
 use starl_trace::Topic;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// So many records are kept until they are taken; then the oldest are dropped.
 pub const MOST_RECORDS: usize = 200_000;
 
-/// A simulation with the moments of it that are kept.
+/// A simulation with the moments of it that are kept. A copy goes on exactly as the original would.
+#[derive(Clone)]
 pub struct Session {
     application: Application,
     global_names: BTreeMap<String, String>,
@@ -46,6 +49,7 @@ pub struct Session {
     live: Live,
     kept: BTreeMap<u32, Live>,
     next: u32,
+    interrupt: Arc<AtomicBool>,
 }
 
 /// All that changes as time goes on. A copy goes on exactly as the original would.
@@ -102,21 +106,51 @@ impl Session {
         global_names: BTreeMap<String, String>,
         warnings: Vec<Diagnostic>,
     ) -> Result<Session, Refused> {
-        let run = application.run();
-        Ok(Session {
+        let run = application.run().map_err(|error| error.message)?;
+        Ok(Session::new(run, application, warnings, global_names))
+    }
+
+    /// A session of a run that was started elsewhere, such as from files on disk. `global_names` are the names that
+    /// programs have everywhere, by those that they have in the scenario, see [`Session::scenario`].
+    pub fn of_run(
+        run: Run,
+        application: &Application,
+        global_names: BTreeMap<String, String>,
+    ) -> Session {
+        let files = Files::default();
+        let beside = Beside::new(&files, "");
+        let warnings = application.warnings().iter();
+        let warnings = warnings.flat_map(|findings| Diagnostic::of_program(findings, &beside));
+        let warnings = warnings.collect();
+        Session::new(run, application.clone(), warnings, global_names)
+    }
+
+    fn new(
+        run: Run,
+        application: Application,
+        warnings: Vec<Diagnostic>,
+        global_names: BTreeMap<String, String>,
+    ) -> Session {
+        Session {
             application,
             global_names,
             warnings,
             topics: None,
             live: Live {
-                run: run.map_err(|error| error.message)?,
+                run,
                 records: VecDeque::new(),
                 dropped: 0,
                 frames: Frames::default(),
             },
             kept: BTreeMap::new(),
             next: 0,
-        })
+            interrupt: Arc::default(),
+        }
+    }
+
+    /// While this flag is set, [`Session::advance`] makes no step.
+    pub fn set_interrupt(&mut self, interrupt: Arc<AtomicBool>) {
+        self.interrupt = interrupt;
     }
 
     /// Keeps the records of these topics only, by their names in traces such as `/starl/action`; of all topics
@@ -159,15 +193,16 @@ impl Session {
         Status::of(&self.live.run, 1)
     }
 
-    /// Makes physics steps until the run is over or the budget is spent. With a period to `sample` by, which must not
-    /// be zero, it keeps a frame after each step that reaches or passes a multiple of the period, see
-    /// [`Session::take_frames`].
+    /// Makes physics steps until the run is over, the budget is spent, or it is interrupted. With a period to `sample`
+    /// by, which must not be zero, it keeps a frame after each step that reaches or passes a multiple of the period,
+    /// see [`Session::take_frames`].
     pub fn advance(&mut self, budget: Budget, sample: Option<Duration>) -> Status {
         let mut steps = 0;
         let live = &mut self.live;
         loop {
             let before = live.run.simulation().now();
-            if steps >= budget.steps || before >= budget.until || live.run.is_over() {
+            let is_spent = steps >= budget.steps || before >= budget.until;
+            if is_spent || live.run.is_over() || self.interrupt.load(Ordering::Relaxed) {
                 return Status::of(&live.run, steps);
             }
             live.step(self.topics.as_ref());

@@ -24,3 +24,15 @@ mod support;
 mod test_command;
 mod trace_is_never_lost;
 mod verify_trace;
+#[cfg(feature = "web")]
+mod web_bad_clients;
+#[cfg(feature = "web")]
+mod web_command;
+#[cfg(feature = "web")]
+mod web_engine;
+#[cfg(feature = "web")]
+mod web_guard;
+#[cfg(feature = "web")]
+mod web_support;
+#[cfg(feature = "web")]
+mod web_trace;
