@@ -31,6 +31,16 @@ use crate::machine::Bytecode;
 /// Compiles a program that was checked. Of a library all functions are compiled, of a program those
 /// that it uses.
 ///
+/// What keeps a program, or a library, that the checker finds correct from being run; nothing if the checker has found
+/// errors.
+#[must_use]
+pub fn problems(checked: &Checked) -> Vec<Diagnostic> {
+    match checked.has_errors() {
+        true => Vec::new(),
+        false => compile(checked).err().unwrap_or_default(),
+    }
+}
+
 /// # Errors
 /// What the machine or the robots cannot do; the checker's errors, if there are any.
 pub fn compile(checked: &Checked) -> Result<Bytecode, Vec<Diagnostic>> {
