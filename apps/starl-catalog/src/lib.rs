@@ -10,6 +10,7 @@ mod explore;
 pub mod language;
 mod parameters;
 pub mod programs;
+pub mod schema;
 pub mod service;
 pub mod session;
 mod start;

@@ -13,6 +13,7 @@ mod interrupted_run;
 mod json_report;
 mod list_what_there_is;
 mod lsp;
+mod lsp_agrees_with_pages;
 mod lsp_files;
 mod lsp_support;
 mod output_files;

@@ -8,6 +8,7 @@
 //! diagnostics.
 
 mod body;
+mod breakpoint;
 mod call;
 mod code;
 mod computed;
@@ -24,13 +25,12 @@ mod unit;
 
 use alloc::vec::Vec;
 
+pub use breakpoint::with_condition;
+
 use crate::check::Checked;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::machine::Bytecode;
 
-/// Compiles a program that was checked. Of a library all functions are compiled, of a program those
-/// that it uses.
-///
 /// What keeps a program, or a library, that the checker finds correct from being run; nothing if the checker has found
 /// errors.
 #[must_use]
@@ -41,6 +41,9 @@ pub fn problems(checked: &Checked) -> Vec<Diagnostic> {
     }
 }
 
+/// Compiles a program that was checked. Of a library all functions are compiled, of a program those
+/// that it uses.
+///
 /// # Errors
 /// What the machine or the robots cannot do; the checker's errors, if there are any.
 pub fn compile(checked: &Checked) -> Result<Bytecode, Vec<Diagnostic>> {
