@@ -46,6 +46,8 @@ pub enum Command {
     Explain(ExplainArguments),
     /// Serve an editor: the Language Server Protocol on standard input and output
     Lsp(LspArguments),
+    /// Print the fields of scenario files as a JSON Schema, for editors of TOML files
+    Schema,
     /// Show the examples, programs, robot models and planners
     List(ListArguments),
     /// Measure the simulator's speed and memory

@@ -60,6 +60,7 @@ use args::{Arguments, Command};
 use clap::Parser;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use starl_catalog::programs::Registry;
+use starl_catalog::schema::schema;
 use starl_core::Program;
 use std::process::ExitCode;
 
@@ -116,6 +117,7 @@ impl CommandLine {
             Command::Fmt(arguments) => fmt::run(arguments),
             Command::Explain(arguments) => explain::run(arguments),
             Command::Lsp(_) => lsp::run(),
+            Command::Schema => json::print(&schema()).map(|()| true),
             Command::List(arguments) => list::list(arguments, registry),
             Command::Bench(arguments) => bench::bench(arguments),
         };
