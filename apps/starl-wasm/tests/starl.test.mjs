@@ -170,7 +170,7 @@ test("a run stops at breakpoints", async () => {
   simulation.restore(snapshot);
   assert.deepEqual(simulation.run().stopped, second);
   assert.throws(
-    () => simulation.breakpoints([{ when: { expression: "currentIndex >= 1 and indx" } }]),
+    () => simulation.breakpoints([{ when: { expression: "currentIndex >= 1 and lost" } }]),
     (error) => error instanceof StarlError && error.diagnostics[0].column === 23,
   );
   simulation.breakpoints([]);

@@ -3,18 +3,19 @@
 //! They belong to the session, not to the run: they make no difference to what happens, and stay when the session goes
 //! back to a moment that was kept.
 
+mod names;
+
 use super::diagnostic::Diagnostic;
 use super::open::Refused;
 use crate::Application;
 use crate::language::FleetCondition;
+use names::Names;
 use serde::{Deserialize, Serialize};
 use starl_core::event::Event;
 use starl_core::{Record, RobotId};
-use starl_lang::machine::Origin;
 use starl_lang::robot::RobotProgram;
-use starl_sim::read::suggest;
 use starl_sim::{Run, Simulation};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Where a run stops.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
@@ -195,54 +196,6 @@ impl Watched {
         self.met = met;
         new
     }
-}
-
-/// What breakpoints may name.
-struct Names<'a> {
-    actions: BTreeSet<&'a str>,
-    messages: BTreeSet<&'a str>,
-    /// Programs in Rust do not say which actions they have.
-    are_all_actions: bool,
-}
-
-impl<'a> Names<'a> {
-    fn of(application: &'a Application) -> Names<'a> {
-        let bytecodes = application
-            .programs
-            .codes()
-            .map(|code| code.program().bytecode());
-        let bytecodes: Vec<_> = bytecodes.collect();
-        let actions = bytecodes.iter().flat_map(|bytecode| &bytecode.actions);
-        let handlers = bytecodes.iter().flat_map(|bytecode| &bytecode.handlers);
-        let messages = handlers.filter(|handler| handler.origin == Origin::Message);
-        let mut groups = application.scenario().fleet.groups.iter();
-        Names {
-            actions: actions.map(|action| &*action.name).collect(),
-            messages: messages.map(|handler| &*handler.event).collect(),
-            are_all_actions: groups.all(|group| group.program.ends_with(crate::language::SUFFIX)),
-        }
-    }
-
-    fn check_action(&self, name: &str) -> Result<(), String> {
-        match !self.are_all_actions || self.actions.contains(name) {
-            true => Ok(()),
-            false => Err(unknown("action", name, &self.actions)),
-        }
-    }
-
-    fn check_message(&self, name: &str) -> Result<(), String> {
-        match self.messages.contains(name) {
-            true => Ok(()),
-            false => Err(unknown("handler of a message", name, &self.messages)),
-        }
-    }
-}
-
-fn unknown(what: &str, name: &str, known: &BTreeSet<&str>) -> String {
-    let known: Vec<&str> = known.iter().copied().collect();
-    let help = suggest::help(name, &known, "there are").map(|help| format!("; {help}"));
-    let help = help.unwrap_or_default();
-    format!("no program of the scenario has the {what} {name:?}{help}")
 }
 
 fn check_robot(robot: Option<RobotId>, run: &Run) -> Result<(), String> {

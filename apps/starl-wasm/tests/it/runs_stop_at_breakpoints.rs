@@ -212,10 +212,10 @@ fn breakpoints_stay_when_one_goes_back() {
 fn an_expression_with_an_error_is_answered_with_its_place() {
     let mut client = race();
     let cases = [
-        ("currentIndx >= 1", "E0201", 1, 12),
+        ("currentPoint >= 1", "E0201", 1, 13),
         ("forall r: r.currentIndex", "E0220", 11, 25),
         ("currentIndex + 1", "E0220", 1, 17),
-        ("1 <\n currentIndx", "E0201", 2, 13),
+        ("1 <\n currentPoint", "E0201", 2, 14),
     ];
     for (expression, code, column, end_column) in cases {
         let refused = refused(&mut client, json!({"when": {"expression": expression}}));
