@@ -83,13 +83,9 @@ fn a_run_stops_once_for_each_step() {
     let fired = records.filter(|record| {
         record["topic"] == "/starl/action" && record["message"]["name"] == "finish"
     });
+    // A step takes in what happens from its start until before its end.
     let mut steps: Vec<u64> = fired
-        .map(|record| {
-            record["time_ns"]
-                .as_u64()
-                .expect("a time")
-                .div_ceil(25_000_000)
-        })
+        .map(|record| record["time_ns"].as_u64().expect("a time") / 25_000_000 + 1)
         .collect();
     assert_eq!(steps.len(), 3);
     steps.dedup();
