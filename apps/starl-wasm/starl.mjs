@@ -59,6 +59,30 @@ export class Starl {
     return this.request({ check: { files: contents(files) } });
   }
 
+  schema() {
+    return this.request({ schema: {} });
+  }
+
+  hover(files, path, position) {
+    return this.request({ hover: { files: contents(files), path, position } });
+  }
+
+  complete(files, path, position) {
+    return this.request({ complete: { files: contents(files), path, position } });
+  }
+
+  definition(files, path, position) {
+    return this.request({ definition: { files: contents(files), path, position } });
+  }
+
+  outline(files, path) {
+    return this.request({ outline: { files: contents(files), path } });
+  }
+
+  format(text) {
+    return this.request({ format: { text } });
+  }
+
   open(files, options = {}) {
     const { topics, seed, ...rest } = options;
     if (seed !== undefined) rest.seed = String(seed);
@@ -162,6 +186,10 @@ export class Simulation {
   run({ until, steps, sample } = {}) {
     const end = until === Infinity ? undefined : moment(until);
     return this.#request("run", { until: end, steps, sample: moment(sample) });
+  }
+
+  breakpoints(breakpoints) {
+    this.#request("breakpoints", { breakpoints });
   }
 
   apply(intervention, { at } = {}) {

@@ -11,6 +11,7 @@ pub mod language;
 mod parameters;
 pub mod programs;
 pub mod recording;
+pub mod schema;
 pub mod service;
 pub mod session;
 mod start;

@@ -50,6 +50,8 @@ pub enum Command {
     View(ViewArguments),
     /// Serve the page with the simulator in it, for a browser on this machine
     Web(PageArguments),
+    /// Print the fields of scenario files as a JSON Schema, for editors of TOML files
+    Schema,
     /// Show the examples, programs, robot models and planners
     List(ListArguments),
     /// Measure the simulator's speed and memory

@@ -64,6 +64,7 @@ use args::{Arguments, Command};
 use clap::Parser;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use starl_catalog::programs::Registry;
+use starl_catalog::schema::schema;
 use starl_core::Program;
 use std::process::ExitCode;
 
@@ -123,6 +124,7 @@ impl CommandLine {
             Command::Lsp(_) => lsp::run(),
             Command::View(arguments) => web::serve_trace(arguments),
             Command::Web(arguments) => web::serve_page(arguments),
+            Command::Schema => json::print(&schema()).map(|()| true),
             Command::List(arguments) => list::list(arguments, registry),
             Command::Bench(arguments) => bench::bench(arguments),
         };

@@ -5,7 +5,10 @@ mod request;
 
 use crate::examples::{self, EXAMPLES};
 use crate::programs::Registry;
-use crate::session::{Budget, Refused, Session, Status, World, check, fleet, states};
+use crate::schema::schema;
+use crate::session::{
+    Budget, Document, Refused, Session, Status, World, check, fleet, formatted, states,
+};
 use request::Request;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -89,7 +92,27 @@ impl Service {
     fn carry_out(&mut self, request: Request) -> Result<Answer, Refused> {
         let answer = match request {
             Request::Examples {} => answer(&all_examples()),
+            Request::Schema {} => answer(&schema()),
             Request::Check { files } => answer(&check(&files.into(), &self.registry)),
+            Request::Hover {
+                files,
+                path,
+                position,
+            } => answer(&Document::open(&files.into(), &path)?.hover(position)),
+            Request::Complete {
+                files,
+                path,
+                position,
+            } => answer(&Document::open(&files.into(), &path)?.complete(position)),
+            Request::Definition {
+                files,
+                path,
+                position,
+            } => answer(&Document::open(&files.into(), &path)?.definition(position)),
+            Request::Outline { files, path } => {
+                answer(&Document::open(&files.into(), &path)?.outline())
+            }
+            Request::Format { text } => answer(&formatted(&text)),
             Request::Open {
                 files,
                 options,
@@ -130,6 +153,13 @@ impl Service {
                 };
                 let sample = sample.map(|sample| sample.0);
                 answer(&self.find(simulation)?.advance(budget, sample))
+            }
+            Request::Breakpoints {
+                simulation,
+                breakpoints,
+            } => {
+                self.find(simulation)?.set_breakpoints(breakpoints)?;
+                Answer::Json(Value::Null)
             }
             Request::Apply {
                 simulation,

@@ -4,7 +4,9 @@
 //! Everything that goes out is plain data that can be serialised. Nothing here makes a difference to what a run
 //! does: its digest is that of `starl run`.
 
+mod breakpoint;
 mod diagnostic;
+mod editor;
 mod files;
 mod inspect;
 mod open;
@@ -12,7 +14,9 @@ mod poses;
 mod recorded;
 mod report;
 
-pub use diagnostic::{Diagnostic, check};
+pub use breakpoint::{Breakpoint, Stopped};
+pub use diagnostic::{Diagnostic, Edit, Related, check};
+pub use editor::{Completion, Definition, Document, Hover, Part, formatted};
 pub use files::{Beside, Files};
 pub use inspect::{
     ActionReport, ClockReport, MailReport, PrimitiveReport, RobotReport, TimerReport,
@@ -28,6 +32,7 @@ pub use report::{
 
 use crate::Application;
 use crate::programs::Registry;
+use breakpoint::Breakpoints;
 use poses::Frames;
 use starl_core::{Duration, Intervention, Record, RobotId, Time};
 use starl_sim::{Run, write};
@@ -46,6 +51,7 @@ pub struct Session {
     global_names: BTreeMap<String, String>,
     warnings: Vec<Diagnostic>,
     topics: Option<BTreeSet<Topic>>,
+    breakpoints: Breakpoints,
     live: Live,
     kept: BTreeMap<u32, Live>,
     next: u32,
@@ -136,6 +142,7 @@ impl Session {
             global_names,
             warnings,
             topics: None,
+            breakpoints: Breakpoints::default(),
             live: Live {
                 run,
                 records: VecDeque::new(),
@@ -189,13 +196,16 @@ impl Session {
 
     /// Makes one physics step, also when the run is over.
     pub fn step(&mut self) -> Status {
-        self.live.step(self.topics.as_ref());
-        Status::of(&self.live.run, 1)
+        let stopped = self.live.step(self.topics.as_ref(), &mut self.breakpoints);
+        Status {
+            stopped,
+            ..Status::of(&self.live.run, 1)
+        }
     }
 
-    /// Makes physics steps until the run is over, the budget is spent, or it is interrupted. With a period to `sample`
-    /// by, which must not be zero, it keeps a frame after each step that reaches or passes a multiple of the period,
-    /// see [`Session::take_frames`].
+    /// Makes physics steps until the run is over, the budget is spent, a breakpoint is met, or it is interrupted. With a
+    /// period to `sample` by, which must not be zero, it keeps a frame after each step that reaches or passes a multiple
+    /// of the period, see [`Session::take_frames`].
     pub fn advance(&mut self, budget: Budget, sample: Option<Duration>) -> Status {
         let mut steps = 0;
         let live = &mut self.live;
@@ -205,10 +215,16 @@ impl Session {
             if is_spent || live.run.is_over() || self.interrupt.load(Ordering::Relaxed) {
                 return Status::of(&live.run, steps);
             }
-            live.step(self.topics.as_ref());
+            let stopped = live.step(self.topics.as_ref(), &mut self.breakpoints);
             steps += 1;
             if let Some(period) = sample {
                 live.frames.sample(&live.run, before, period);
+            }
+            if stopped.is_some() {
+                return Status {
+                    stopped,
+                    ..Status::of(&live.run, steps)
+                };
             }
         }
     }
@@ -221,6 +237,15 @@ impl Session {
         self.live.run.apply(at, what)
     }
 
+    /// Replaces the breakpoints, see [`Session::advance`].
+    ///
+    /// # Errors
+    /// What is wrong with one of them; those that there were stay.
+    pub fn set_breakpoints(&mut self, breakpoints: Vec<Breakpoint>) -> Result<(), Refused> {
+        self.breakpoints = Breakpoints::new(breakpoints, &self.application, &self.live.run)?;
+        Ok(())
+    }
+
     /// Keeps the present moment, records and frames that were not taken included; gives its number.
     pub fn snapshot(&mut self) -> u32 {
         let number = self.next;
@@ -229,13 +254,15 @@ impl Session {
         number
     }
 
-    /// Goes back, or forth, to a moment that was kept. It stays kept.
+    /// Goes back, or forth, to a moment that was kept. It stays kept. Breakpoints stay as they are; a condition that is
+    /// true at that moment has to become false before it is met.
     ///
     /// # Errors
     /// Where there is no such moment.
     pub fn restore(&mut self, number: u32) -> Result<Status, String> {
         let kept = self.kept.get(&number);
         self.live = kept.ok_or_else(|| unknown(number))?.clone();
+        self.breakpoints.look_anew(&self.live.run);
         Ok(self.status())
     }
 
@@ -298,15 +325,25 @@ impl Session {
 }
 
 impl Live {
-    fn step(&mut self, topics: Option<&BTreeSet<Topic>>) {
-        let records = self.run.step().iter();
-        let wanted = records.filter(|record| {
+    /// Makes a step; gives the breakpoint that was met in it.
+    fn step(
+        &mut self,
+        topics: Option<&BTreeSet<Topic>>,
+        breakpoints: &mut Breakpoints,
+    ) -> Option<Stopped> {
+        self.run.step();
+        let records = self.run.records();
+        let wanted = records.iter().filter(|record| {
             topics.is_none_or(|topics| topics.contains(&Topic::of(&record.event)))
         });
         self.records.extend(wanted.cloned());
         let excess = self.records.len().saturating_sub(MOST_RECORDS);
         self.records.drain(..excess);
         self.dropped += excess as u64;
+        match breakpoints.are_none() {
+            true => None,
+            false => breakpoints.look(&self.run, records),
+        }
     }
 }
 
