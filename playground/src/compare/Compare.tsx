@@ -28,7 +28,8 @@ import {
 import "../styles/compare.css";
 
 /** Records that are shown before the difference, and from it on. */
-const AROUND = 12;
+const BEFORE = 4;
+const AFTER = 12;
 
 const seed = signal("2");
 
@@ -115,14 +116,16 @@ function Side({ recording, index, time }: { recording: Recording; index: number;
         Show this moment
       </button>
       <ol>
-        {around(recording.list, index, AROUND).map((event) => (
+        {around(recording.list, index, BEFORE, AFTER).map((event) => (
           <li
             key={event.index}
             class={event.index === differs ? "differs" : event.index < index ? "same" : ""}
           >
             <span class="muted">{seconds(event.time, 3)}</span>{" "}
             {event.index === differs && <strong>First difference: </strong>}
-            {describe(event, name)}
+            <span class="what" title={describe(event, name)}>
+              {describe(event, name)}
+            </span>
           </li>
         ))}
         {differs === undefined && <li class="differs">Nothing more happens in this run.</li>}

@@ -1,5 +1,6 @@
 // The first record in which two runs differ. Runs are deterministic, so everything after it may differ because of it.
 
+import { countBefore } from "../messages/traffic.ts";
 import type { Event } from "../run/events.ts";
 
 /** What is known of a run: its records, and how far they reach. */
@@ -59,9 +60,8 @@ function equal(one: unknown, other: unknown): boolean {
   );
 }
 
-/** The records around a place, so many before and after it. */
-export function around(list: Event[], index: number, many: number): Event[] {
-  const at = list.findIndex((event) => event.index >= index);
-  const middle = at < 0 ? list.length : at;
-  return list.slice(Math.max(0, middle - many), middle + many);
+/** The records around a place: so many before it, and so many from it on. */
+export function around(list: Event[], index: number, before: number, after: number): Event[] {
+  const at = countBefore(list, index);
+  return list.slice(Math.max(0, at - before), at + after);
 }

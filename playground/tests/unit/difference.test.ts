@@ -61,5 +61,5 @@ test("nested fields are compared", () => {
 
 test("the records around a place are those before it and from it on", () => {
   const { list } = known(9, ...[1, 2, 3, 4, 5].map((time) => acted(time, 0, String(time))));
-  expect(around(list, 2, 2).map(({ index }) => index)).toEqual([0, 1, 2, 3]);
+  expect(around(list, 2, 1, 2).map(({ index }) => index)).toEqual([1, 2, 3]);
 });
