@@ -3,6 +3,7 @@
 import { render } from "preact";
 import { App } from "./app/App.tsx";
 import { askHost, run, start } from "./app/context.ts";
+import { begin } from "./project/begin.ts";
 import "./styles/base.css";
 import "./styles/layout.css";
 import "./styles/controls.css";
@@ -20,11 +21,7 @@ switch (start.value.mode) {
     await run.open({ kind: "trace", name: start.value.name, from: new URL("trace", location.href).href });
     break;
   case "web":
-    await openExample(new URLSearchParams(location.search).get("example"));
+    await begin();
     if (import.meta.env.PROD) await navigator.serviceWorker?.register("./sw.js").catch(() => undefined);
     break;
-}
-
-async function openExample(name: string | null): Promise<void> {
-  if (name) await run.open({ kind: "files", files: {}, options: { scenario: name } });
 }

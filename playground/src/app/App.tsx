@@ -7,6 +7,7 @@ import { Transport } from "../timeline/Transport.tsx";
 import { WorldView } from "../world/WorldView.tsx";
 import { Bench } from "./Bench.tsx";
 import { run, start } from "./context.ts";
+import { Divider } from "./Divider.tsx";
 import { Header } from "./Header.tsx";
 import { Problem } from "./Problem.tsx";
 import { Side } from "./Side.tsx";
@@ -29,6 +30,7 @@ export function App() {
       {writes && (
         <section class="bench" aria-label="Program and scenario">
           <Bench />
+          <Divider />
         </section>
       )}
       <main class="stage" aria-label="World">

@@ -1,5 +1,15 @@
 // What the title bar offers beside the title; each part of the page has its own file for what it offers.
 
+import { RunBar } from "../project/RunBar.tsx";
+import { Share } from "../share/Share.tsx";
+import { start } from "./context.ts";
+
 export function HeaderActions() {
-  return null;
+  if (start.value.mode !== "web") return null;
+  return (
+    <>
+      <Share />
+      <RunBar />
+    </>
+  );
 }

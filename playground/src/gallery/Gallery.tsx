@@ -1,3 +1,52 @@
+// Every example with a picture; a click opens its files and its run.
+
+import { useEffect } from "preact/hooks";
+import { run } from "../app/context.ts";
+import { Projects } from "../project/Projects.tsx";
+import { examples, loadExamples, openExample, titleOf } from "./examples.ts";
+import { grouped } from "./groups.ts";
+import "../styles/gallery.css";
+
+const PICTURES: Record<string, string> = import.meta.glob("./pictures/*.svg", {
+  query: "?url",
+  import: "default",
+  eager: true,
+});
+
 export function Gallery() {
-  return null;
+  useEffect(() => {
+    loadExamples().catch((error) => {
+      run.problem.value = error;
+    });
+  }, []);
+  return (
+    <div class="gallery">
+      <Projects />
+      {examples.value.length === 0 && <p class="muted">Loading examples …</p>}
+      {grouped(examples.value).map(([heading, members]) => (
+        <section key={heading}>
+          <h2>{heading}</h2>
+          <ul class="cards">
+            {members.map((example) => (
+              <li key={example.name}>
+                <button type="button" class="card" onClick={() => openExample(example.name)}>
+                  <img
+                    src={PICTURES[`./pictures/${example.name}.svg`]}
+                    alt=""
+                    width="240"
+                    height="150"
+                    loading="lazy"
+                  />
+                  <span class="name">{titleOf(example)}</span>
+                  <span class="muted">{sentence(example.summary)}</span>
+                </button>
+              </li>
+            ))}
+          </ul>
+        </section>
+      ))}
+    </div>
+  );
 }
+
+const sentence = (text: string) => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`;

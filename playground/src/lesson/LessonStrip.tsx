@@ -1,0 +1,3 @@
+export function LessonStrip() {
+  return null;
+}

@@ -1,0 +1,58 @@
+// Runs the project: checks it, opens it in the simulator and plays. A project with errors leaves the run that is
+// shown as it is.
+
+import { signal } from "@preact/signals";
+import { part } from "../app/App.tsx";
+import { run } from "../app/context.ts";
+import { EngineError } from "../engine/client.ts";
+import { check } from "./checking.ts";
+import { errorsOf, optionsOf } from "./model.ts";
+import { project } from "./project.ts";
+
+/** The seed of the next run; empty for the scenario's. */
+export const seed = signal("");
+export const starting = signal(false);
+
+const LARGEST_SEED = 2n ** 63n - 1n;
+
+export const seedProblem = (text: string): string | null =>
+  text === "" || (/^\d{1,19}$/.test(text) && BigInt(text) <= LARGEST_SEED)
+    ? null
+    : "A seed is a whole number from 0.";
+
+/** Draws another seed, at random. */
+export function drawSeed(): void {
+  seed.value = String(1 + Math.floor(Math.random() * 999_999));
+}
+
+/** Opens the project's run, and plays it unless told otherwise. */
+export async function runProject({ play = true } = {}): Promise<boolean> {
+  if (starting.value) return false;
+  starting.value = true;
+  try {
+    const shown = project.value;
+    const wrong = seedProblem(seed.value);
+    if (wrong) throw new EngineError(wrong);
+    if (Object.keys(shown.files).length === 0)
+      throw new EngineError("There is no program yet. Add a file first.");
+    const errors = errorsOf(shown, await check(shown.files));
+    if (errors.length > 0)
+      throw new EngineError(`Not run: ${count(errors.length, "error")} to correct first.`, errors);
+    const opened = await run.open({
+      kind: "files",
+      files: shown.files,
+      options: optionsOf(shown, seed.value),
+    });
+    if (!opened) return false;
+    part.value = "world";
+    if (play) run.play();
+    return true;
+  } catch (error) {
+    run.problem.value = error instanceof EngineError ? error : new EngineError(String(error));
+    return false;
+  } finally {
+    starting.value = false;
+  }
+}
+
+const count = (number: number, what: string) => `${number} ${what}${number === 1 ? "" : "s"}`;
