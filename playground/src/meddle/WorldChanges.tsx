@@ -87,10 +87,7 @@ function Present() {
   );
 }
 
-// The simulator takes obstacles as `world()` gives them: the shape itself.
-const asObstacle = (shape: Obstacle["shape"]) => shape as unknown as Obstacle;
-
-const round = (center: Point, radius: number) => asObstacle({ Circle: { center, radius, height: null } });
+const round = (center: Point, radius: number): Obstacle => ({ Circle: { center, radius, height: null } });
 
 function box({ x, y, z }: Point, width: number, depth: number): Obstacle {
   const corners = [
@@ -100,5 +97,5 @@ function box({ x, y, z }: Point, width: number, depth: number): Obstacle {
     [-1, 1],
   ] as const;
   const base = corners.map(([right, up]) => ({ x: x + (right * width) / 2, y: y + (up * depth) / 2, z }));
-  return asObstacle({ Polygon: { base, height: null } });
+  return { Polygon: { base, height: null } };
 }
