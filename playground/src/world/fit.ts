@@ -64,7 +64,7 @@ export function wholeBox(poses: ArrayLike<number>, world: World): Box | null {
 }
 
 /** The corners of an obstacle's base. */
-export function footprint({ shape }: Obstacle): { x: number; y: number }[] {
+export function footprint(shape: Obstacle): { x: number; y: number }[] {
   if ("Polygon" in shape) return shape.Polygon.base;
   if ("Cuboid" in shape) {
     const { low, high } = shape.Cuboid;
@@ -78,7 +78,7 @@ export function footprint({ shape }: Obstacle): { x: number; y: number }[] {
 }
 
 /** From where to where an obstacle reaches; one without a height is drawn up to `sky`. */
-export function heights({ shape }: Obstacle, sky: number): { low: number; high: number } {
+export function heights(shape: Obstacle, sky: number): { low: number; high: number } {
   if ("Cuboid" in shape) return { low: shape.Cuboid.low.z, high: shape.Cuboid.high.z };
   const span = "Polygon" in shape ? shape.Polygon.height : shape.Circle.height;
   return span ? { low: Math.max(span.low, -sky), high: Math.min(span.high, 1e4) } : { low: 0, high: sky };

@@ -160,10 +160,9 @@ export class Places {
 const color = (rgb: [number, number, number]) => new Color().setRGB(...rgb, "srgb");
 
 export function outline(area: Area): { x: number; y: number }[] {
-  const none = null;
-  if ("circle" in area) return footprint({ shape: { Circle: { ...area.circle, height: none } } });
+  if ("circle" in area) return footprint({ Circle: { ...area.circle, height: null } });
   if ("polygon" in area) return area.polygon;
-  return footprint({ shape: { Cuboid: area.box } });
+  return footprint({ Cuboid: area.box });
 }
 
 /** A wall as a thin box. */
