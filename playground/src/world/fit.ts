@@ -10,9 +10,9 @@ import type { Box, Place } from "./view.ts";
 const RECENT = 6;
 /** Of more robots than this, those far from the others do not count. */
 const FEW = 12;
-const SHARE_OF_MANY = 0.6;
-/** Way-points and obstacles count while they make the view at most this many times as large. */
-const SURROUNDINGS = 2.5;
+const SHARE_OF_MANY = 0.5;
+/** Way-points and obstacles around few robots, and around many, count while the view is at most so many times as large. */
+const [AROUND_FEW, AROUND_MANY] = [6, 1.5];
 
 export function boxOf(places: Place[]): Box | null {
   const [first] = places;
@@ -48,10 +48,13 @@ export function movingBox(poses: ArrayLike<number>, history: History, now: numbe
   const places = moved.length > 0 ? central(moved, 2 * FEW) : central(present, FEW);
   const robots = boxOf(places);
   if (!robots) return surroundings(world);
-  const around = present.length <= FEW ? joined(robots, boxOf(present) ?? robots) : robots;
+  const few = present.length <= FEW;
+  const around = few ? joined(robots, boxOf(present) ?? robots) : robots;
   const stands = surroundings(world);
   const whole = stands && joined(around, stands);
-  return padded(whole && size(whole) <= Math.max(4, SURROUNDINGS * size(around)) ? whole : around);
+  return padded(
+    whole && size(whole) <= Math.max(4, (few ? AROUND_FEW : AROUND_MANY) * size(around)) ? whole : around,
+  );
 }
 
 /** Around everything there is. */

@@ -85,9 +85,10 @@ export class Places {
       for (const { position } of world.way_points) {
         const at = { ...position, z: position.z + 0.003 };
         if (position.z > 0.05) this.#lines.add({ ...at, z: 0 }, at, palette.rgb["way-point"], 0.35, 1);
-        this.#lines.add(at, at, palette.rgb["way-point"], 1, small ? 6 : 13);
-        this.#lines.add(at, at, palette.rgb.floor, 1, small ? 3 : 8);
-        if (!small) this.#lines.add(at, at, palette.rgb["way-point"], 1, 3.5);
+        this.#lines.add(at, at, palette.rgb["way-point"], small ? 0.8 : 1, small ? 4 : 13);
+        if (small) continue;
+        this.#lines.add(at, at, palette.rgb.floor, 1, 8);
+        this.#lines.add(at, at, palette.rgb["way-point"], 1, 3.5);
       }
     }
     this.#lines.end();
