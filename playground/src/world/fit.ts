@@ -8,6 +8,8 @@ import type { Box, Place } from "./view.ts";
 
 /** How far back movement counts, s. */
 const RECENT = 6;
+/** Of larger fleets, so many are looked at. */
+const LOOKED_AT = 250;
 /** Of more robots than this, those far from the others do not count. */
 const FEW = 12;
 const SHARE_OF_MANY = 0.5;
@@ -35,7 +37,8 @@ export function movingBox(poses: ArrayLike<number>, history: History, now: numbe
   const earlier = history.frames[Math.max(0, history.indexAt(now - RECENT))]?.poses ?? poses;
   const moved: Place[] = [];
   const present: Place[] = [];
-  for (let robot = 0; robot < count; robot++) {
+  const step = Math.ceil(count / LOOKED_AT);
+  for (let robot = 0; robot < count; robot += step) {
     const at = robot * POSE_NUMBERS;
     const condition = poses[at + POSE_NUMBERS - 1];
     if (condition === LEFT) continue;

@@ -14,6 +14,7 @@ export interface Box {
 
 /** The angle of the picture's height, radians. */
 export const FIELD = (36 * Math.PI) / 180;
+const FIELD_TANGENT = 2 * Math.tan(FIELD / 2);
 /** Angles from the vertical in 3-D, radians. */
 const [STEEPEST, FLATTEST] = [0.02, 1.52];
 /** Metres across the shorter side of the picture. */
@@ -48,7 +49,7 @@ export class View {
 
   /** From the eye to the place that is looked at, m. */
   get distance(): number {
-    return (this.pixel * this.height) / (2 * Math.tan(FIELD / 2));
+    return (this.pixel * this.height) / FIELD_TANGENT;
   }
 
   get azimuth(): number {
@@ -96,8 +97,10 @@ export class View {
    * Written into `out` at `index`, without a new object: it is called for every robot and frame.
    */
   project(x: number, y: number, z: number, out: Float32Array, index = 0): void {
-    const [dx, dy, dz] = [x - this.target.x, y - this.target.y, z - this.target.z];
-    const { right, up, forward } = this;
+    const { target, right, up, forward } = this;
+    const dx = x - target.x;
+    const dy = y - target.y;
+    const dz = z - target.z;
     let scale = 1 / this.pixel;
     if (!this.flat) {
       const distance = this.distance;
