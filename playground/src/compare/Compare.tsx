@@ -53,7 +53,7 @@ export function Compare() {
       </div>
       {seeded && (
         <div class="acts">
-          <Text label="Seed" value={seed} />
+          <Text label="Another seed" value={seed} />
           <button
             type="button"
             disabled={underWay.value !== null || run.known.value === 0 || !/^\d+$/.test(seed.value.trim())}

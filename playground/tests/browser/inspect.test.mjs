@@ -5,6 +5,9 @@ import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { launch, serve, visit } from "./support.mjs";
 
+/** The world is drawn without a graphics card: a small one costs less time. */
+const VIEW = { viewport: { width: 1060, height: 620 } };
+
 let server;
 let browser;
 before(async () => {
@@ -18,7 +21,7 @@ after(async () => {
 
 /** Opens an example; `until` plays it as fast as it goes until a selector is there. */
 async function example(name) {
-  const { page, errors, context } = await visit(browser, `${server.url}?example=${name}`);
+  const { page, errors, context } = await visit(browser, `${server.url}?example=${name}`, VIEW);
   page.setDefaultTimeout(20_000);
   await page.locator(".play:enabled").waitFor();
   const tab = (label) => page.getByRole("tab", { name: label }).click();
@@ -28,7 +31,11 @@ async function example(name) {
   };
   const over = () => page.locator(".transport .outcome").waitFor();
   const end = async () => {
-    assert.deepEqual(errors, []);
+    // A static host does not say what it was opened for.
+    assert.deepEqual(
+      errors.filter((error) => !error.includes("404")),
+      [],
+    );
     await context.close();
   };
   return { page, tab, play, over, end };
@@ -46,17 +53,23 @@ test("variables of a chosen robot are shown, and marked when they change", async
   const { page, tab, end } = await example("race");
   await tab("Robots");
   await page.getByRole("option", { name: /iRobot0/ }).click();
-  const row = page.locator(".looked tr", { has: page.getByRole("rowheader", { name: "loc", exact: true }) });
-  await row.locator("td", { hasText: "init" }).waitFor();
-  await page.getByRole("button", { name: "To the next event" }).click();
-  await row.locator("td.changed", { hasText: "was init" }).waitFor();
+  const row = page.locator(".looked tr", {
+    has: page.getByRole("rowheader", { name: "currentIndex", exact: true }),
+  });
+  const changed = row.locator("td.changed", { hasText: "was 0" });
+  for (let events = 0; (await changed.count()) === 0; events++) {
+    assert.ok(events < 40, "the variable never changed");
+    await page.getByRole("button", { name: "To the next event" }).click();
+    await page.waitForTimeout(50);
+  }
+  assert.match(await row.textContent(), /1 was 0/);
   await end();
 });
 
 test("a violation leads to its moment and to what could have caused it", async () => {
   const { page, tab, play, over, end } = await example("race");
   await tab("Steer");
-  await page.getByText("World", { exact: true }).last().click();
+  await page.locator(".steer summary", { hasText: "World" }).click();
   for (const [label, value] of [
     ["x, m", "0.7"],
     ["y, m", "-0.5"],
@@ -77,10 +90,10 @@ test("a violation leads to its moment and to what could have caused it", async (
 
   await tab(/Properties/);
   await page.getByText("reach_avoid.safety violated").first().waitFor();
-  const finish = Number.parseFloat(await page.locator(".clock").innerText());
+  const finish = Number.parseFloat(await page.locator(".clock").textContent());
   await page.getByRole("listbox", { name: "Violations" }).getByRole("option").first().click();
   await page.getByRole("heading", { name: "What could have led to it" }).waitFor();
-  assert.ok(Number.parseFloat(await page.locator(".clock").innerText()) < finish);
+  assert.ok(Number.parseFloat(await page.locator(".clock").textContent()) < finish);
   assert.ok(
     (await page
       .getByRole("listbox", { name: /causal past/ })
@@ -111,13 +124,15 @@ test("messages are found by keyboard, with where they went", async () => {
   await play();
   await over();
   await tab("Messages");
+  await page.getByRole("button", { name: "To the start" }).click();
+  await page.waitForFunction(() => Number.parseFloat(document.querySelector(".clock").textContent) === 0);
   await page.getByRole("application", { name: /Messages between robots/ }).focus();
   const details = page.locator(".messages .details");
-  for (let presses = 0; !(await details.innerText()).includes("Payload"); presses++) {
-    assert.ok(presses < 400, "no message was found");
-    await page.keyboard.press("ArrowUp");
+  for (let presses = 0; !(await details.textContent()).includes("Payload"); presses++) {
+    assert.ok(presses < 100, "no message was found");
+    await page.keyboard.press("ArrowDown");
   }
-  assert.match(await details.innerText(), /bytes[\s\S]*delivered to robot\d[\s\S]*ms/);
+  assert.match(await details.textContent(), /bytes[\s\S]*delivered to robot\d[\s\S]*ms/);
   await end();
 });
 
@@ -129,10 +144,10 @@ test("the log is searched and leads to moments", async () => {
   await page.getByLabel("Search the events").fill("arrived");
   const lines = page.getByRole("listbox", { name: "Events" }).getByRole("option");
   await page.getByText(/^4 of/).waitFor();
-  const time = Number.parseFloat(await lines.first().innerText());
+  const time = Number.parseFloat(await lines.first().textContent());
   await lines.first().click();
   await page.waitForFunction(
-    (time) => Math.abs(Number.parseFloat(document.querySelector(".clock").innerText) - time) < 0.1,
+    (time) => Math.abs(Number.parseFloat(document.querySelector(".clock").textContent) - time) < 0.1,
     time,
   );
   await end();
@@ -145,7 +160,7 @@ test("plots are saved as tables and pictures", async () => {
   await tab("Plots");
   await page.locator(".picture img").waitFor();
   assert.match(await saved(page, "Save as SVG"), /^<svg[\s\S]*iRobot0[\s\S]*<\/svg>$/);
-  await page.getByLabel("Plot", { exact: true }).selectOption("speed");
+  await page.locator(".plots select").first().selectOption("speed");
   await page.locator(".time-plot canvas").waitFor();
   const table = (await saved(page, "Save as CSV")).split("\r\n");
   assert.equal(table[0], 'series,"time, s","speed, m/s"');
@@ -158,10 +173,10 @@ test("two seeds part at their first difference", async () => {
   await play();
   await over();
   await tab("Compare");
-  await page.getByLabel("Seed", { exact: true }).fill("1");
+  await page.getByLabel("Another seed").fill("1");
   await page.getByRole("button", { name: "Compare with this seed" }).click();
   await page.getByText(/No record differs/).waitFor();
-  await page.getByLabel("Seed", { exact: true }).fill("2");
+  await page.getByLabel("Another seed").fill("2");
   await page.getByRole("button", { name: "Compare with this seed" }).click();
   await page.getByRole("heading", { name: /The first difference is at/ }).waitFor();
   assert.equal(await page.locator(".sides .differs").count(), 2);
