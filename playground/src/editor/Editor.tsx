@@ -81,7 +81,7 @@ function Outline({ path }: { path: string }) {
       onChange={(event) => {
         const symbol = symbols[Number(event.currentTarget.value)];
         event.currentTarget.value = "";
-        if (symbol) goTo(path, symbol.selection_range ?? symbol.range);
+        if (symbol) goTo(path, symbol.name_range);
       }}
     >
       <option value="">Go to …</option>
@@ -94,5 +94,4 @@ function Outline({ path }: { path: string }) {
   );
 }
 
-const flat = (symbols: Entry[]): Entry[] =>
-  symbols.flatMap((symbol) => [symbol, ...flat(symbol.children ?? [])]);
+const flat = (symbols: Entry[]): Entry[] => symbols.flatMap((symbol) => [symbol, ...flat(symbol.parts)]);
