@@ -1,7 +1,6 @@
 // The project's files: tabs, the editor, and what is wrong.
 
 import { useEffect, useState } from "preact/hooks";
-import { LessonStrip } from "../lesson/LessonStrip.tsx";
 import { checked, diagnostics } from "../project/checking.ts";
 import { notKept, project, rename } from "../project/project.ts";
 import { CodePane, pane } from "./CodePane.tsx";
@@ -20,7 +19,6 @@ export function Editor() {
   );
   return (
     <div class="editor">
-      <LessonStrip />
       <div class="row head">
         <input
           class="project-name"

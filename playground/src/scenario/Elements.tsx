@@ -1,8 +1,9 @@
 // A list of tables as a form: robots, way-points, faults.
 
-import { edit, isTable, type Table } from "./document.ts";
+import { edit } from "./document.ts";
 import { Fields } from "./Fields.tsx";
 import { type Field, fieldsOf, fieldsOfModel, type Schema } from "./schema.ts";
+import { isTable, type Table } from "./table.ts";
 import { append, remove, type Toml } from "./toml/edit.ts";
 import type { Path } from "./toml/layout.ts";
 import { show } from "./values.ts";

@@ -2,11 +2,12 @@
 
 import type { JSX } from "preact";
 import { useState } from "preact/hooks";
-import { isTable, put, type Table, tablesOf } from "./document.ts";
+import { put } from "./document.ts";
 import { Elements } from "./Elements.tsx";
 import { Parameters } from "./Parameters.tsx";
 import { complaints } from "./problems.ts";
 import { type Field, fieldsOf } from "./schema.ts";
+import { isTable, type Table, tablesOf } from "./table.ts";
 import type { Toml } from "./toml/edit.ts";
 import type { Path } from "./toml/layout.ts";
 import { read, show } from "./values.ts";

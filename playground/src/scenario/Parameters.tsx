@@ -1,10 +1,11 @@
 // Values for names that the program or the model has: `parameters`.
 
 import { useSignal } from "@preact/signals";
-import { put, type Table } from "./document.ts";
+import { put } from "./document.ts";
 import { Single } from "./Fields.tsx";
 import { parameterNames } from "./problems.ts";
 import { type Field, labelOf } from "./schema.ts";
+import type { Table } from "./table.ts";
 import type { Path } from "./toml/layout.ts";
 
 interface Properties {

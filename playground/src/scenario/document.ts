@@ -3,10 +3,9 @@
 import { computed, signal } from "@preact/signals";
 import { parse } from "smol-toml";
 import { project, setText } from "../project/project.ts";
+import type { Table } from "./table.ts";
 import { remove, set, type Toml } from "./toml/edit.ts";
 import type { Path } from "./toml/layout.ts";
-
-export type Table = { [key: string]: Toml };
 
 export const path = computed(() => project.value.scenario);
 export const text = computed(() => (path.value === null ? "" : (project.value.files[path.value] ?? "")));
@@ -38,8 +37,3 @@ export function edit(change: (text: string) => string): void {
 
 export const put = (path: Path, value: Toml | undefined): void =>
   edit((text) => (value === undefined ? remove(text, path) : set(text, path, value)));
-
-export const isTable = (value: unknown): value is Table =>
-  typeof value === "object" && value !== null && !Array.isArray(value) && !(value instanceof Date);
-
-export const tablesOf = (value: unknown): Table[] => (Array.isArray(value) ? value.filter(isTable) : []);

@@ -2,8 +2,9 @@
 
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { content, edit, tablesOf } from "../document.ts";
+import { content, edit } from "../document.ts";
 import { nextName } from "../Elements.tsx";
+import { tablesOf } from "../table.ts";
 import { backdrop, keepLooking } from "./backdrop.ts";
 import {
   addObstacle,
@@ -169,7 +170,6 @@ export function WorldMap() {
           +
         </button>
       </div>
-      {/* biome-ignore lint/a11y/noSvgWithoutTitle: a title would hide those of its parts */}
       <svg
         ref={svg}
         aria-label="Map of the world"
@@ -244,7 +244,7 @@ function Drawing({
       ) : what === "thing" ? (
         <rect x={x - 5 * unit} y={y - 5 * unit} width={10 * unit} height={10 * unit} />
       ) : (
-        <circle cx={x} cy={y} r={7 * unit} />
+        <circle class="start" cx={x} cy={y} r={7 * unit} />
       )}
       <text x={x + 9 * unit} y={y - 5 * unit} font-size={12 * unit}>
         {name}

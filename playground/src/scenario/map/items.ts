@@ -1,6 +1,6 @@
 // What a scenario's text puts into the world, as things that can be drawn, moved and added. Metres.
 
-import { isTable, type Table, tablesOf } from "../document.ts";
+import { isTable, type Table, tablesOf } from "../table.ts";
 import { append, remove, set, type Toml } from "../toml/edit.ts";
 import type { Path } from "../toml/layout.ts";
 
