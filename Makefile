@@ -1,5 +1,5 @@
 # The two commands of the README, and the parts that `make test` is made of.
-.PHONY: run setup test check unit portable wasm golden wasm-module trace examples faults nightly million docs deny bench editors diagrams
+.PHONY: run setup test check unit portable wasm golden wasm-module page site web trace examples faults nightly million docs deny bench editors diagrams
 
 VENV = target/venv/bin
 CARGO_TARGET_DIR ?= target
@@ -14,7 +14,7 @@ run:
 	cargo run --release --locked -- run race
 
 # Everything that continuous integration runs.
-test: setup check unit portable wasm trace examples faults docs deny
+test: setup check unit portable wasm web trace examples faults docs deny
 
 setup:
 	tools/setup.sh
@@ -47,7 +47,22 @@ golden: wasm-module $(STARL)
 	node apps/starl-wasm/golden.mjs $(STARL) $(ANSWER) --write
 
 wasm-module:
-	cargo build --locked --release -p starl-wasm --target wasm32-unknown-unknown
+	cargo build --locked --profile page -p starl-wasm --target wasm32-unknown-unknown
+
+# The page: built into playground/dist, where a `starl` that is built afterwards finds it.
+page: setup wasm-module
+	cp $(CARGO_TARGET_DIR)/wasm32-unknown-unknown/page/starl_wasm.wasm playground/wasm/starl.wasm
+	cd playground && npm run --silent build
+
+# The page as a folder for any static host.
+site: page
+	rm -rf $(CARGO_TARGET_DIR)/site
+	cp -r playground/dist $(CARGO_TARGET_DIR)/site
+	@echo "the page is in $(CARGO_TARGET_DIR)/site"
+
+# The page in a real browser.
+web: page
+	cd playground && npm run --silent check && npm run --silent unit && npm run --silent browser
 
 # Traces read with libraries that are not ours.
 trace: $(STARL)

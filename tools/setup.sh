@@ -35,3 +35,16 @@ if ! cmp -s tools/requirements.txt "$venv/requirements.txt"; then
     "$venv/bin/pip" install --quiet --disable-pip-version-check -r tools/requirements.txt
     cp tools/requirements.txt "$venv/requirements.txt"
 fi
+
+# The page: what it is built from, and the browser that tests it.
+need npm npm
+need chromium chromium
+if ! node -e 'const [a, b] = process.versions.node.split("."); process.exit(a > 20 || (a == 20 && b >= 19) ? 0 : 1)'; then
+    echo "setup: the page needs Node.js 20.19 or later; this is $(node --version)" >&2
+    exit 1
+fi
+if ! cmp -s playground/package-lock.json playground/node_modules/package-lock.json; then
+    (cd playground && npm ci --no-audit --no-fund)
+    cp playground/package-lock.json playground/node_modules/package-lock.json
+fi
+mkdir -p playground/wasm

@@ -19,15 +19,22 @@ export const POSE_NUMBERS: 11;
  */
 export function load(source?: string | URL | Response | BufferSource | WebAssembly.Module): Promise<Starl>;
 
-/** An instance of the simulator. It holds any number of simulations. */
+/** An instance of the simulator. It holds any number of simulations, in 1 GiB of memory. */
 export class Starl {
   private constructor();
+  /** Whether it cannot go on: every call throws a StarlError that says why. Load another instance. */
+  readonly failed: boolean;
   /** The examples that come with StarL. */
   examples(): Example[];
   /** All that is wrong with programs and libraries (`.starl`) and scenarios (`.toml`), by file and place. */
   check(files: Files): Diagnostic[];
   /** Opens a scenario with its programs. Throws a StarlError with diagnostics if something is wrong with them. */
   open(files: Files, options?: Options): Simulation;
+  /**
+   * Answers a request of the JSON service (apps/starl-catalog/src/service/request.rs), such as
+   * `{ report: { simulation: 0 } }`. The methods of this class and of Simulation are made of such requests.
+   */
+  request(request: object): unknown;
 }
 
 /** An example that comes with StarL. */
@@ -145,6 +152,12 @@ export class Simulation {
   world(): World;
   /** All robots in the order of their numbers, those that have joined and left too. */
   fleet(): Member[];
+  /**
+   * Where the program of each robot is, in the order of their numbers, for a label beside its name: the value of the
+   * first variable of an enum of a program in the StarL language, such as `wait`, or its role. Null where there is no
+   * such variable, for programs in Rust, and before the program has started.
+   */
+  states(): (string | null)[];
   /** All there is to see of a robot now. */
   robot(robot: number): Robot;
   /** What has come of the run so far. */
@@ -210,12 +223,10 @@ export interface Twist {
 /** Null is from the floor to the sky. */
 export type HeightSpan = { low: number; high: number } | null;
 
-export interface Obstacle {
-  shape:
-    | { Polygon: { base: Point[]; height: HeightSpan } }
-    | { Circle: { center: Point; radius: number; height: HeightSpan } }
-    | { Cuboid: { low: Point; high: Point } };
-}
+export type Obstacle =
+  | { Polygon: { base: Point[]; height: HeightSpan } }
+  | { Circle: { center: Point; radius: number; height: HeightSpan } }
+  | { Cuboid: { low: Point; high: Point } };
 
 export interface WayPoint {
   name: string;

@@ -3,6 +3,9 @@
 // Requests and answers pass through one buffer of the WebAssembly module as JSON; poses and frames are read in
 // place.
 
+// The module's memory does not grow further: build.rs.
+const MOST_MEMORY = 2 ** 30;
+
 /** What StarL refuses, with the single problems where there are any. */
 export class StarlError extends Error {
   constructor(message, diagnostics = []) {
@@ -99,6 +102,10 @@ export class Starl {
     });
   }
 
+  get failed() {
+    return this.#failure !== null;
+  }
+
   /** A trap leaves the instance in no state to go on. */
   #guarded(run) {
     if (this.#failure) throw new StarlError(this.#failure);
@@ -107,8 +114,13 @@ export class Starl {
       return run(exports);
     } catch (error) {
       if (!(error instanceof WebAssembly.RuntimeError)) throw error;
-      const panic = read(exports, exports.failure()) || error.message;
-      this.#failure = `StarL has failed, which is a fault of StarL; load it anew: ${panic}`;
+      const panic = read(exports, exports.failure());
+      // Only a lack of memory ends without the message of a panic. Memory grows in leaps, so the last one counts.
+      const full = exports.memory.buffer.byteLength > MOST_MEMORY / 2;
+      this.#failure =
+        !panic && full
+          ? "the simulations need more memory than the 1 GiB that there is; use fewer robots, then load StarL anew"
+          : `StarL has failed, which is a fault of StarL; load it anew: ${panic || error.message}`;
       throw new StarlError(this.#failure);
     }
   }
@@ -177,6 +189,10 @@ export class Simulation {
 
   fleet() {
     return this.#request("fleet");
+  }
+
+  states() {
+    return this.#request("states");
   }
 
   robot(robot) {

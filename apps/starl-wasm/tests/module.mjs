@@ -2,4 +2,4 @@
 
 const target = process.env.CARGO_TARGET_DIR ?? new URL("../../../target", import.meta.url).pathname;
 
-export const moduleFile = `${target}/wasm32-unknown-unknown/release/starl_wasm.wasm`;
+export const moduleFile = `${target}/wasm32-unknown-unknown/page/starl_wasm.wasm`;

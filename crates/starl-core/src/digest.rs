@@ -28,9 +28,8 @@ impl Digest {
     /// Folds in one word.
     pub fn word(&mut self, word: u64) {
         const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15; // 2^64 over the golden ratio
-        let product = u128::from(self.0 ^ word ^ FACTOR.rotate_left(32)) * u128::from(FACTOR);
-        self.0 =
-            (product as u64) ^ ((product >> 64) as u64).rotate_left(23) ^ self.0.rotate_left(17);
+        let (low, high) = product(self.0 ^ word ^ FACTOR.rotate_left(32), FACTOR);
+        self.0 = low ^ high.rotate_left(23) ^ self.0.rotate_left(17);
     }
 
     /// Folds in bytes and their number.
@@ -100,4 +99,23 @@ impl fmt::Display for Digest {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:016x}", self.0)
     }
+}
+
+/// The low and the high word of the product of two words.
+#[cfg(not(target_family = "wasm"))]
+fn product(a: u64, b: u64) -> (u64, u64) {
+    let product = u128::from(a) * u128::from(b);
+    (product as u64, (product >> 64) as u64)
+}
+
+/// The same from products of half words: WebAssembly has no larger ones, and calls a routine for 128 bits.
+#[cfg(target_family = "wasm")]
+fn product(a: u64, b: u64) -> (u64, u64) {
+    const HALF: u64 = u32::MAX as u64;
+    let (low_a, high_a, low_b, high_b) = (a & HALF, a >> 32, b & HALF, b >> 32);
+    let low = low_a * low_b;
+    let first = high_a * low_b + (low >> 32);
+    let second = low_a * high_b + (first & HALF);
+    let high = high_a * high_b + (first >> 32) + (second >> 32);
+    (a.wrapping_mul(b), high)
 }

@@ -4,10 +4,36 @@
 //! floor and the like are exact in IEEE 754 and may be used from wherever they come.
 
 pub use core::f64::consts::{FRAC_PI_2, PI, TAU};
-pub use libm::{
-    acos, asin, atan, atan2, ceil, cos, exp, fabs, floor, hypot, log, pow, round, sin, sincos,
-    sqrt, tan,
-};
+pub use exact::{ceil, fabs, floor, sqrt};
+pub use libm::{acos, asin, atan, atan2, cos, exp, hypot, log, pow, round, sin, sincos, tan};
+
+/// `libm` computes these in software on WebAssembly, which has instructions for them.
+#[cfg(target_family = "wasm")]
+mod exact {
+    extern crate std;
+
+    /// The square root.
+    pub fn sqrt(x: f64) -> f64 {
+        x.sqrt()
+    }
+    /// The largest whole number that is not above `x`.
+    pub fn floor(x: f64) -> f64 {
+        x.floor()
+    }
+    /// The smallest whole number that is not below `x`.
+    pub fn ceil(x: f64) -> f64 {
+        x.ceil()
+    }
+    /// The absolute value.
+    pub fn fabs(x: f64) -> f64 {
+        x.abs()
+    }
+}
+
+#[cfg(not(target_family = "wasm"))]
+mod exact {
+    pub use libm::{ceil, fabs, floor, sqrt};
+}
 
 /// The angle in (-pi, pi] that points the same way, in radians.
 pub fn wrap_angle(angle: f64) -> f64 {

@@ -1,22 +1,21 @@
 // What there is to know of the run, and how to steer it.
 
-import { signal } from "@preact/signals";
 import { Log } from "../inspect/Log.tsx";
 import { Properties } from "../inspect/Properties.tsx";
 import { Robots } from "../inspect/Robots.tsx";
+import { violations } from "../inspect/violations.ts";
 import { Steer } from "../meddle/Steer.tsx";
 import { Messages } from "../messages/Messages.tsx";
 import { Plots } from "../plots/Plots.tsx";
 import { run } from "./context.ts";
+import { sideTab } from "./side-tab.ts";
 import { type Tab, Tabs } from "./Tabs.tsx";
-
-export const sideTab = signal("robots");
 
 export function Side() {
   const tabs: Tab[] = [
     { name: "robots", label: "Robots", panel: Robots },
     { name: "messages", label: "Messages", panel: Messages },
-    { name: "properties", label: "Properties", panel: Properties, count: run.report.value?.violations.length ?? 0 },
+    { name: "properties", label: "Properties", panel: Properties, count: violations.value.length },
     { name: "log", label: "Log", panel: Log },
     { name: "plots", label: "Plots", panel: Plots },
   ];

@@ -272,9 +272,9 @@ function shape(obstacle: unknown): World["obstacles"][number]["obstacle"] {
     box?: { low: { x: number; y: number; z: number }; high: { x: number; y: number; z: number } };
     height?: { low: number; high: number } | null;
   };
-  if (circle) return { shape: { Circle: { ...circle, height } } };
-  if (box) return { shape: { Cuboid: box } };
-  return { shape: { Polygon: { base: polygon ?? [], height } } };
+  if (circle) return { Circle: { ...circle, height } };
+  if (box) return { Cuboid: box };
+  return { Polygon: { base: polygon ?? [], height } };
 }
 
 async function metadata(reader: McapIndexedReader): Promise<Map<string, string> | null> {

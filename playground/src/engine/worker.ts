@@ -9,7 +9,12 @@ import { Refused, remote, Socket } from "./remote.ts";
 import type { FromWorker, Opened, Request, Source, ToWorker, Update } from "./types.ts";
 
 let module: Promise<Starl> | null = null;
-const starl = () => (module ??= load(new URL(wasm, self.location.href)));
+
+/** The instance; another one if a run has brought the last one down. */
+async function starl(): Promise<Starl> {
+  if ((await module?.catch(() => null))?.failed !== false) module = load(new URL(wasm, self.location.href));
+  return module as Promise<Starl>;
+}
 
 let shown: Driver | Playback | null = null;
 
@@ -51,7 +56,7 @@ async function answer(request: Request): Promise<unknown> {
 }
 
 async function open(source: Source): Promise<Opened> {
-  await shown?.close();
+  await shown?.close().catch(() => undefined);
   shown = null;
   shown = await start(source);
   return shown.opened;

@@ -1,3 +1,19 @@
+// The fleet, and all there is to see of the robots that a person has chosen.
+
+import { run } from "../app/context.ts";
+import { Fleet } from "./Fleet.tsx";
+import { Looked } from "./Looked.tsx";
+import { Recorded } from "./Recorded.tsx";
+import "../styles/inspect.css";
+
 export function Robots() {
-  return null;
+  if (!run.opened.value) return <p class="muted">Open an example or a program to see its robots.</p>;
+  const chosen = run.selected.value.length > 0;
+  return (
+    <div class="robots">
+      <Fleet />
+      {!chosen && <p class="muted">Choose a robot to look into it.</p>}
+      {chosen && (run.live.value ? <Looked /> : <Recorded />)}
+    </div>
+  );
 }

@@ -147,7 +147,8 @@ function draw(canvas: HTMLCanvasElement, width: number): void {
   context.fill();
 }
 
-function drawMark(context: CanvasRenderingContext2D, shape: string, x: number, y: number): void {
+/** Draws a mark with its middle at a place, in the present colours. */
+export function drawMark(context: CanvasRenderingContext2D, shape: string, x: number, y: number): void {
   context.beginPath();
   switch (shape) {
     case "cross":

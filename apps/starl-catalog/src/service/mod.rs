@@ -5,7 +5,7 @@ mod request;
 
 use crate::examples::{self, EXAMPLES};
 use crate::programs::Registry;
-use crate::session::{Budget, Refused, Session, Status, World, check, fleet};
+use crate::session::{Budget, Refused, Session, Status, World, check, fleet, states};
 use request::Request;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -119,6 +119,7 @@ impl Service {
             }
             Request::World { simulation } => answer(&World::of(self.find(simulation)?.run())),
             Request::Fleet { simulation } => answer(&fleet(self.find(simulation)?.run())),
+            Request::States { simulation } => answer(&states(self.find(simulation)?.run())),
             Request::Robot { simulation, robot } => {
                 let found = self.find(simulation)?.robot(robot);
                 answer(&found.ok_or_else(|| format!("there is no robot {robot}"))?)

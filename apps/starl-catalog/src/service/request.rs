@@ -64,6 +64,9 @@ pub enum Request {
     Fleet {
         simulation: u32,
     },
+    States {
+        simulation: u32,
+    },
     Robot {
         simulation: u32,
         robot: RobotId,

@@ -21,7 +21,7 @@ pub use open::{Options, Refused};
 pub use poses::{MOST_FRAME_NUMBERS, POSE_NUMBERS};
 pub use report::{
     Excused, Failure, Member, Messages, Progress, Property, Report, Standing, Status, Thing,
-    Violation, World, fleet,
+    Violation, World, fleet, states,
 };
 
 use crate::programs::Registry;

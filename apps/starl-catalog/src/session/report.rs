@@ -3,6 +3,7 @@
 use super::inspect::condition;
 use serde::Serialize;
 use starl_core::{Obstacle, Point, RobotId, WayPoint};
+use starl_lang::robot::RobotProgram;
 use starl_properties::Verdict;
 use starl_sim::{Run, Simulation};
 
@@ -290,6 +291,18 @@ pub fn fleet(run: &Run) -> Vec<Member> {
         }
     });
     members.collect()
+}
+
+/// Where the program of each robot is, in the order of their numbers: the value of the first variable of an enum of a
+/// program in the StarL language, or its role; none where there is no such variable, for programs in Rust, and before
+/// the program has started.
+pub fn states(run: &Run) -> Vec<Option<&str>> {
+    let simulation = run.simulation();
+    let stage = |&robot: &RobotId| {
+        let program = simulation.program(robot).inspect()?;
+        program.downcast_ref::<RobotProgram>()?.stage()
+    };
+    simulation.robots().iter().map(stage).collect()
 }
 
 impl World {

@@ -60,7 +60,7 @@ fn sound() -> Vec<Value> {
     let about = json!({"simulation": 0});
     sound.extend(
         [
-            "status", "step", "scenario", "world", "fleet", "report", "snapshot",
+            "status", "step", "scenario", "world", "fleet", "states", "report", "snapshot",
         ]
         .map(|name| json!({ name: about })),
     );

@@ -144,3 +144,53 @@ fn poses_are_those_of_robots() {
     );
     assert!(world["obstacles"].is_array());
 }
+
+#[test]
+fn states_are_the_values_of_the_first_enum() {
+    let options = json!({"scenario": "race", "set": ["program=race.starl"]});
+    let mut client = Client::open(json!({}), options);
+    let robots = client
+        .ask("fleet", json!({}))
+        .as_array()
+        .map_or(0, Vec::len);
+    assert_eq!(
+        client.ask("states", json!({})),
+        json!(vec![Value::Null; robots])
+    );
+    let mut seen = Vec::new();
+    while client.ask("run", json!({"steps": 1, "until": 3.0}))["steps"] == 1 {
+        let states = client.ask("states", json!({}));
+        assert_eq!(states.as_array().map(Vec::len), Some(robots));
+        let robot = client.ask("robot", json!({"robot": 1}));
+        let variables = robot["variables"].as_array().expect("a list");
+        let expected =
+            variables.first().map_or(
+                &Value::Null,
+                |_| &named(&robot["variables"], "loc")["value"],
+            );
+        assert_eq!(&states[1], expected);
+        if seen.last() != Some(expected) {
+            seen.push(expected.clone());
+        }
+    }
+    assert!(seen.contains(&json!("wait")), "{seen:?}");
+}
+
+#[test]
+fn a_role_is_a_state_where_there_is_no_enum() {
+    let roles = "program Roles\n\nparam colour: Colour = red\n\nenum Colour {red, blue}\n\nticks: Int = 0\n\ntick()\n    pre ticks < 10\n    eff ticks += 1\n\nrole scout\n    go()\n        pre ticks >= 10\n        eff role = guard\n\nrole guard\n    rest()\n        pre false\n        eff finish()\n";
+    let options = json!({"robots": "create=1"});
+    let mut client = Client::open(json!({"roles.starl": roles}), options);
+    client.ask("run", json!({"until": 0.2}));
+    assert_eq!(client.ask("states", json!({})), json!(["scout"]));
+    client.ask("run", json!({"until": 5.0}));
+    assert_eq!(client.ask("states", json!({})), json!(["guard"]));
+}
+
+#[test]
+fn programs_in_rust_have_no_state() {
+    let options = json!({"scenario": "race", "robots": "create=2", "set": ["program=race"]});
+    let mut client = Client::open(json!({}), options);
+    client.ask("run", json!({"until": 1.0}));
+    assert_eq!(client.ask("states", json!({})), json!([null, null]));
+}

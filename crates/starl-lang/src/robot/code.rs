@@ -10,6 +10,7 @@ use super::rest;
 use super::services::Services;
 use super::shape::Declared;
 use super::stable::Stable;
+use super::stage::Stage;
 use crate::machine::{Bytecode, Import, LoadError, Origin, Program, RuntimeError, State};
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -35,6 +36,8 @@ struct Inner {
     inbox: Inbox,
     orders: Orders,
     stable: Vec<Stable>,
+    /// Where the program says how far it is.
+    stage: Option<Stage>,
     /// The parameters' defaults; or what went wrong when they were worked out.
     initial: Result<State, String>,
 }
@@ -80,6 +83,7 @@ impl Code {
             services: Services::of(&program.bytecode().name, needs(&instances)),
             needs: needs(&instances),
             conflicts: Conflicts::of(program.bytecode()),
+            stage: Stage::of(program.bytecode()),
             program,
             instances,
             inbox,
@@ -154,6 +158,11 @@ impl Code {
     /// The stable variables, in the order of the variables.
     pub(super) fn stable(&self) -> &[Stable] {
         &self.0.stable
+    }
+
+    /// Where the program says how far it is; none if it has no variable of an enum.
+    pub(super) fn stage(&self) -> Option<&Stage> {
+        self.0.stage.as_ref()
     }
 
     /// An error in words, with its place: `race.starl:12:5: index 5 is out of range 0..3`.

@@ -69,6 +69,13 @@ impl RobotProgram {
         variables.collect()
     }
 
+    /// Where it is, in a word: the value of its first variable of an enum, else its role. None before it starts, or if
+    /// it has no such variable.
+    pub fn stage(&self) -> Option<&str> {
+        let stage = self.code.stage().filter(|_| self.has_started())?;
+        stage.read(self.code.program().bytecode(), &self.state)
+    }
+
     /// Its actions in the order of the text, each with whether its guard holds now; none if the program does not
     /// run. Guards are evaluated on a copy of the program, each with the fuel of a whole activation. An action
     /// with `atomic` may have to wait for its variables even if its guard holds.

@@ -28,6 +28,7 @@ mod rest;
 mod services;
 mod shape;
 mod stable;
+mod stage;
 mod words;
 mod workbench;
 

@@ -1,0 +1,37 @@
+// What can be done to a robot where it is looked into.
+
+import type { Condition } from "../engine/types.ts";
+import { nameOf } from "../inspect/names.ts";
+import { said, steer } from "./steering.ts";
+
+export function Quick({ robot, condition }: { robot: number; condition: Condition }) {
+  if (condition === "left") return null;
+  const down = condition === "down";
+  return (
+    <span class="quick">
+      {!down && (
+        <button
+          type="button"
+          class="small"
+          aria-label={`Crash ${nameOf(robot)}`}
+          onClick={() => steer({ fault: { crash: [robot] } }, `crash of ${nameOf(robot)}`)}
+        >
+          Crash
+        </button>
+      )}
+      <button
+        type="button"
+        class="small"
+        aria-label={`Restart ${nameOf(robot)}`}
+        onClick={() => steer({ fault: { restart: [robot] } }, `restart of ${nameOf(robot)}`)}
+      >
+        Restart
+      </button>
+      {said.value && !said.value.good && (
+        <span class="refused" role="alert">
+          {said.value.text}
+        </span>
+      )}
+    </span>
+  );
+}

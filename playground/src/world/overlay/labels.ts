@@ -1,0 +1,179 @@
+// Names beside what they name. One that would cover another is left out; those that were shown stay, so that nothing
+// flickers.
+
+import { POSE_NUMBERS } from "../../engine/types.ts";
+import { hovered } from "../pick.ts";
+import type { Scene } from "../scene.ts";
+import { LEFT } from "../scene.ts";
+import type { View } from "../view.ts";
+
+const FONT = '12px system-ui, "Segoe UI", Roboto, sans-serif';
+const BOLD = `600 ${FONT}`;
+/** Labels have room of their own in cells of so many pixels. */
+const CELL = 6;
+/** More robots are not named, nor more way-points. */
+const [MOST_ROBOTS, MOST_PLACES] = [90, 30];
+const CONDITIONS = ["", "finished", "failed", "down", "left"];
+
+export class Labels {
+  #cells = new Uint8Array();
+  #columns = 0;
+  #rows = 0;
+  #widths = new Map<string, number>();
+  #shown: number[] = [];
+  #at = new Float32Array(3);
+
+  draw(context: CanvasRenderingContext2D, scene: Scene, view: View, screen: Float32Array): void {
+    this.#clear(view);
+    context.textBaseline = "middle";
+    context.lineJoin = "round";
+    context.lineWidth = 3;
+    this.#robots(context, scene, screen);
+    if (!scene.hidden.has("marks")) this.#marks(context, scene, view);
+    if (!scene.hidden.has("wayPoints")) this.#places(context, scene, view);
+    if (!scene.hidden.has("things")) this.#things(context, scene, view);
+  }
+
+  #robots(context: CanvasRenderingContext2D, scene: Scene, screen: Float32Array): void {
+    const chosen = [...scene.selected];
+    if (hovered.value?.kind === "robot") chosen.push(hovered.value.robot);
+    const shown: number[] = [];
+    const seen = new Set<number>();
+    const name = (robot: number, always: boolean) => {
+      if (seen.has(robot) || robot >= scene.count) return;
+      seen.add(robot);
+      if (this.#robot(context, scene, screen, robot, always)) shown.push(robot);
+    };
+    for (const robot of chosen.reverse()) name(robot, true);
+    if (!scene.hidden.has("labels")) {
+      for (const robot of this.#shown) if (shown.length < MOST_ROBOTS) name(robot, false);
+      for (let robot = 0; robot < scene.count && shown.length < MOST_ROBOTS; robot++) name(robot, false);
+    }
+    this.#shown = shown;
+  }
+
+  #robot(
+    context: CanvasRenderingContext2D,
+    scene: Scene,
+    screen: Float32Array,
+    robot: number,
+    always: boolean,
+  ): boolean {
+    const [x = 0, y = 0, scale = 0] = screen.subarray(robot * 3, robot * 3 + 3);
+    const condition = scene.poses[robot * POSE_NUMBERS + POSE_NUMBERS - 1] ?? LEFT;
+    const member = scene.fleet[robot];
+    if (scale === 0 || condition === LEFT || !member) return false;
+    const state = CONDITIONS[condition] || (scene.states[robot] ?? "");
+    const gap = state ? 5 : 0;
+    const width =
+      this.#width(context, BOLD, member.name) + gap + (state ? this.#width(context, FONT, state) : 0);
+    const off = member.radius * scene.enlarged * scale + 6;
+    const left = x + off * 0.75;
+    const top = y - off * 0.75 - 6;
+    if (!this.#take(left - 2, top - 8, width + 4, 16, always)) return false;
+    this.#write(context, scene, BOLD, member.name, left, top, scene.palette.css.text);
+    if (state) {
+      const color = condition >= 2 ? scene.palette.css.violation : scene.palette.css.muted;
+      this.#write(context, scene, FONT, state, left + width - this.#width(context, FONT, state), top, color);
+    }
+    return true;
+  }
+
+  #marks(context: CanvasRenderingContext2D, scene: Scene, view: View): void {
+    for (const { shape, label, points } of scene.happenings.marks.current.values()) {
+      const place = points[0];
+      if (shape !== "text" || !place) continue;
+      view.project(place.x, place.y, place.z, this.#at);
+      const [x = 0, y = 0, scale = 0] = this.#at;
+      const width = this.#width(context, BOLD, label);
+      if (scale === 0 || !this.#take(x - width / 2, y - 8, width, 16, false)) continue;
+      this.#write(context, scene, BOLD, label, x - width / 2, y, scene.palette.css.text);
+    }
+  }
+
+  #places(context: CanvasRenderingContext2D, scene: Scene, view: View): void {
+    const points = scene.world.way_points;
+    // Where there are many, a name keeps others away.
+    const margin = points.length > 40 ? 60 : 2;
+    let left = MOST_PLACES;
+    for (const { name, position } of points) {
+      view.project(position.x, position.y, position.z, this.#at);
+      const [x = 0, y = 0, scale = 0] = this.#at;
+      const isHovered = hovered.value?.kind === "way_point" && hovered.value.name === name;
+      if (scale === 0 || (!isHovered && (left <= 0 || scene.hidden.has("labels")))) continue;
+      const width = this.#width(context, FONT, name);
+      const free = this.#take(x + 9 - margin, y + 1 - margin, width + 2 * margin, 14 + 2 * margin, isHovered);
+      if (!free) continue;
+      left--;
+      this.#write(context, scene, FONT, name, x + 9, y + 8, scene.palette.css["way-point"]);
+    }
+  }
+
+  #things(context: CanvasRenderingContext2D, scene: Scene, view: View): void {
+    for (const { name, position, holder } of scene.world.things) {
+      const isHovered = hovered.value?.kind === "thing" && hovered.value.name === name;
+      if (holder !== null || (scene.hidden.has("labels") && !isHovered)) continue;
+      view.project(position.x, position.y, position.z, this.#at);
+      const [x = 0, y = 0, scale = 0] = this.#at;
+      const width = this.#width(context, FONT, name);
+      if (scale === 0 || !this.#take(x + 10, y - 22, width, 16, isHovered)) continue;
+      this.#write(context, scene, FONT, name, x + 10, y - 14, scene.palette.css.muted);
+    }
+  }
+
+  #write(
+    context: CanvasRenderingContext2D,
+    scene: Scene,
+    font: string,
+    text: string,
+    x: number,
+    y: number,
+    color: string,
+  ) {
+    context.font = font;
+    context.strokeStyle = scene.palette.css.floor;
+    context.strokeText(text, x, y);
+    context.fillStyle = color;
+    context.fillText(text, x, y);
+  }
+
+  #width(context: CanvasRenderingContext2D, font: string, text: string): number {
+    const key = `${font}${text}`;
+    let width = this.#widths.get(key);
+    if (width === undefined) {
+      // States may be any number of texts.
+      if (this.#widths.size > 5000) this.#widths.clear();
+      context.font = font;
+      width = context.measureText(text).width;
+      this.#widths.set(key, width);
+    }
+    return width;
+  }
+
+  #clear({ width, height }: View): void {
+    this.#columns = Math.ceil(width / CELL);
+    this.#rows = Math.ceil(height / CELL);
+    const cells = this.#columns * this.#rows;
+    if (this.#cells.length === cells) this.#cells.fill(0);
+    else this.#cells = new Uint8Array(cells);
+  }
+
+  /** Takes a place on the screen, unless it is taken or off the screen. */
+  #take(left: number, top: number, width: number, height: number, always: boolean): boolean {
+    const [from, to] = [Math.floor(left / CELL), Math.floor((left + width) / CELL)];
+    const [first, last] = [Math.floor(top / CELL), Math.floor((top + height) / CELL)];
+    if (to < 0 || last < 0 || from >= this.#columns || first >= this.#rows) return false;
+    const [start, end] = [Math.max(0, from), Math.min(this.#columns - 1, to)];
+    const [above, below] = [Math.max(0, first), Math.min(this.#rows - 1, last)];
+    if (!always) {
+      for (let row = above; row <= below; row++) {
+        for (let column = start; column <= end; column++)
+          if (this.#cells[row * this.#columns + column]) return false;
+      }
+    }
+    for (let row = above; row <= below; row++) {
+      this.#cells.fill(1, row * this.#columns + start, row * this.#columns + end + 1);
+    }
+    return true;
+  }
+}
