@@ -34,7 +34,8 @@ async function start(options: Options) {
   return { driver, history, events, update: () => last as unknown as Update };
 }
 
-const story = (events: Events) => events.list.map(({ time_ns, topic, message }) => ({ time_ns, topic, message }));
+const story = (events: Events) =>
+  events.list.map(({ time_ns, topic, message }) => ({ time_ns, topic, message }));
 
 /** The same without any going back. */
 function straight(options: Options, until: number, steered?: { at: number; intervention: Intervention }) {

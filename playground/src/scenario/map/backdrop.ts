@@ -49,9 +49,7 @@ async function look(): Promise<Backdrop> {
   }
 }
 
-function cornersOf(obstacle: Obstacle): Point[] {
-  // The shape is the whole of an obstacle in answers.
-  const shape = ("shape" in obstacle ? obstacle.shape : obstacle) as Obstacle["shape"];
+function cornersOf(shape: Obstacle): Point[] {
   if ("Polygon" in shape) return shape.Polygon.base.map(({ x, y }) => [x, y]);
   if ("Cuboid" in shape) {
     const { low, high } = shape.Cuboid;
