@@ -5,7 +5,7 @@
 // forbids elsewhere.
 
 import { closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
-import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap, indentWithTab, undo } from "@codemirror/commands";
 import { bracketMatching, indentOnInput, indentUnit } from "@codemirror/language";
 import { lintGutter, lintKeymap, type Diagnostic as Mark, setDiagnostics } from "@codemirror/lint";
 import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
@@ -73,6 +73,10 @@ export class Pane {
       effects: EditorView.scrollIntoView(anchor, { y: "center" }),
     });
     this.#view.focus();
+  }
+
+  undo(): void {
+    undo(this.#view);
   }
 
   format(): void {

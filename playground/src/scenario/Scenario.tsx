@@ -2,7 +2,7 @@
 
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { CodePane } from "../editor/CodePane.tsx";
+import { CodePane, pane } from "../editor/CodePane.tsx";
 import { templateOf } from "../editor/templates.ts";
 import { pathsOf } from "../project/model.ts";
 import { addFile, project } from "../project/project.ts";
@@ -51,6 +51,9 @@ export function Scenario() {
             </button>
           ))}
         </div>
+        <button type="button" onClick={() => pane.current?.undo()} title="Take back the last change">
+          Undo
+        </button>
         <span class="muted">
           {shown}
           {complaints.value.size > 0 && `: ${complaints.value.size} to correct`}

@@ -91,7 +91,9 @@ function limitsOf(schema: Schema, forms: Schema[]): string {
   const plain = forms.find((form) => form.minimum !== undefined || form.maximum !== undefined);
   const [least, most] = [schema["x-minimum"] ?? plain?.minimum, schema["x-maximum"] ?? plain?.maximum];
   const above = schema["x-exclusive-minimum"];
-  if (least !== undefined && most !== undefined) return `${least} to ${most} ${unit}`.trim();
+  // Of whole numbers of 64 bits, no person wants to know the greatest.
+  const isEndless = typeof most === "number" && most > Number.MAX_SAFE_INTEGER;
+  if (least !== undefined && most !== undefined && !isEndless) return `${least} to ${most} ${unit}`.trim();
   if (least !== undefined) return `at least ${least} ${unit}`.trim();
   return above === undefined ? "" : `above ${above}`;
 }
