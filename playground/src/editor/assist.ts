@@ -18,7 +18,7 @@ import { complete, definition, format, hover, type Completion as Offer } from ".
 export function assist(path: string): Extension {
   if (!path.endsWith(".starl")) return [];
   return [
-    hoverTooltip((view, offset) => explainAt(view, path, offset)),
+    hoverTooltip((view, offset) => explainAt(view, path, offset), { hideOnChange: true }),
     autocompletion({ override: [(context) => completions(context, path)], icons: false }),
     keymap.of([
       { key: "F12", run: (view) => follow(view, path, view.state.selection.main.head) },

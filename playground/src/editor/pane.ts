@@ -81,6 +81,7 @@ export class Pane {
 
   format(): void {
     layOut(this.#view);
+    this.#view.focus();
   }
 
   destroy(): void {

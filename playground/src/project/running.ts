@@ -65,7 +65,8 @@ export async function runProject({ play = true } = {}): Promise<boolean> {
 let refusal: EngineError | null = null;
 
 effect(() => {
-  if (refusal === null || errorsOf(project.value, diagnostics.value).length > 0) return;
+  const isFaulty = errorsOf(project.value, diagnostics.value).length > 0;
+  if (refusal === null || isFaulty) return;
   if (run.problem.peek() === refusal) run.problem.value = null;
   refusal = null;
 });
