@@ -4,6 +4,7 @@ import { signal } from "@preact/signals";
 import { Editor } from "../editor/Editor.tsx";
 import { Gallery } from "../gallery/Gallery.tsx";
 import { Lesson } from "../lesson/Lesson.tsx";
+import { LessonStrip } from "../lesson/LessonStrip.tsx";
 import { Scenario } from "../scenario/Scenario.tsx";
 import { type Tab, Tabs } from "./Tabs.tsx";
 
@@ -17,5 +18,10 @@ const TABS: Tab[] = [
 ];
 
 export function Bench() {
-  return <Tabs tabs={TABS} chosen={benchTab} label="Program and scenario" />;
+  return (
+    <>
+      <LessonStrip />
+      <Tabs tabs={TABS} chosen={benchTab} label="Program and scenario" />
+    </>
+  );
 }

@@ -1,7 +1,6 @@
 // The project's files: tabs, the editor, and what is wrong.
 
 import { useEffect, useState } from "preact/hooks";
-import { LessonStrip } from "../lesson/LessonStrip.tsx";
 import { checked, diagnostics } from "../project/checking.ts";
 import { notKept, project, rename } from "../project/project.ts";
 import { CodePane, pane } from "./CodePane.tsx";
@@ -20,7 +19,6 @@ export function Editor() {
   );
   return (
     <div class="editor">
-      <LessonStrip />
       <div class="row head">
         <input
           class="project-name"
@@ -81,7 +79,7 @@ function Outline({ path }: { path: string }) {
       onChange={(event) => {
         const symbol = symbols[Number(event.currentTarget.value)];
         event.currentTarget.value = "";
-        if (symbol) goTo(path, symbol.selection_range ?? symbol.range);
+        if (symbol) goTo(path, symbol.name_range);
       }}
     >
       <option value="">Go to …</option>
@@ -94,5 +92,4 @@ function Outline({ path }: { path: string }) {
   );
 }
 
-const flat = (symbols: Entry[]): Entry[] =>
-  symbols.flatMap((symbol) => [symbol, ...flat(symbol.children ?? [])]);
+const flat = (symbols: Entry[]): Entry[] => symbols.flatMap((symbol) => [symbol, ...flat(symbol.parts)]);

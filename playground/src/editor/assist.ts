@@ -2,9 +2,10 @@
 
 import {
   autocompletion,
+  type Completion,
   type CompletionContext,
   type CompletionResult,
-  snippet,
+  pickedCompletion,
 } from "@codemirror/autocomplete";
 import type { Extension } from "@codemirror/state";
 import { EditorView, hoverTooltip, keymap } from "@codemirror/view";
@@ -12,12 +13,12 @@ import { createElement, render } from "preact";
 import { goTo } from "./jump.ts";
 import { Markdown } from "./markdown.tsx";
 import { difference, offsetOf, positionOf } from "./offsets.ts";
-import { type Completion, complete, definition, format, hover } from "./services.ts";
+import { complete, definition, format, hover, type Completion as Offer } from "./services.ts";
 
 export function assist(path: string): Extension {
   if (!path.endsWith(".starl")) return [];
   return [
-    hoverTooltip((view, offset) => explainAt(view, path, offset)),
+    hoverTooltip((view, offset) => explainAt(view, path, offset), { hideOnChange: true }),
     autocompletion({ override: [(context) => completions(context, path)], icons: false }),
     keymap.of([
       { key: "F12", run: (view) => follow(view, path, view.state.selection.main.head) },
@@ -52,32 +53,35 @@ function markdownElement(text: string): HTMLElement {
 }
 
 async function completions(context: CompletionContext, path: string): Promise<CompletionResult | null> {
-  const word = context.matchBefore(/\w*/);
-  const from = word?.from ?? context.pos;
-  const afterDot = context.state.sliceDoc(from - 1, from) === ".";
-  if (from === context.pos && !afterDot && !context.explicit) return null;
+  const word = context.matchBefore(/\w+/);
+  const afterDot = context.state.sliceDoc(context.pos - 1, context.pos) === ".";
+  if (!word && !afterDot && !context.explicit) return null;
   const { doc } = context.state;
   const found = await complete(path, positionOf(doc, context.pos));
-  if (!found || found.length === 0 || context.aborted) return null;
+  const first = found?.[0];
+  if (!found || !first || context.aborted) return null;
   return {
-    from,
+    from: offsetOf(doc, first.range.start),
     validFor: /^\w*$/,
-    options: found.map((completion) => ({
-      label: completion.label,
-      type: completion.kind,
-      detail: completion.detail,
-      apply: apply(completion),
-      ...(completion.documentation && { info: () => markdownElement(completion.documentation ?? "") }),
-    })),
+    options: found.map((completion, rank) => optionOf(completion, found.length - rank)),
   };
 }
 
-/** Places to fill in are written as in the Language Server Protocol: `$0`, `${1:name}`. */
-function apply({ insert, label }: Completion) {
-  const text = insert ?? label;
-  if (!/\$(\d|\{)/.test(text)) return text;
-  // The editor's own form has braces around every place.
-  return snippet(text.replace(/\$(\d+)/g, (_, place) => `\${${place}}`).replace(/\\\$/g, "$"));
+/** The likeliest come first, as the language says. */
+function optionOf({ label, detail, documentation, insert, cursor }: Offer, rank: number): Completion {
+  return {
+    label,
+    boost: Math.min(99, rank),
+    ...(detail && { detail }),
+    ...(documentation && { info: () => markdownElement(documentation) }),
+    apply: (view, completion, from, to) =>
+      view.dispatch({
+        changes: { from, to, insert },
+        selection: { anchor: from + cursor },
+        annotations: pickedCompletion.of(completion),
+        userEvent: "input.complete",
+      }),
+  };
 }
 
 function follow(view: EditorView, path: string, offset: number): boolean {

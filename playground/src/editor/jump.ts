@@ -13,10 +13,10 @@ export const reading = signal<{ path: string; text: string } | null>(null);
 /** The place that the editor is to show, until it does. */
 export const target = signal<{ path: string; range: Range } | null>(null);
 
-export function goTo(path: string, range: Range, text?: string): void {
+export function goTo(path: string, range: Range, text: string | null = null): void {
   batch(() => {
     if (project.value.files[path] === undefined) {
-      if (text === undefined) return;
+      if (text === null) return;
       reading.value = { path, text };
     } else {
       reading.value = null;

@@ -16,7 +16,7 @@ export function languageOf(path: string): Extension {
 
 const style = HighlightStyle.define([
   { tag: [tags.controlKeyword, tags.operatorKeyword, tags.definitionKeyword], color: "var(--primitive)" },
-  { tag: tags.definitionKeyword, fontWeight: "600" },
+  { tag: tags.definitionKeyword, color: "var(--primitive)", fontWeight: "600" },
   { tag: [tags.typeName, tags.heading], color: "var(--program)" },
   { tag: [tags.number, tags.bool, tags.atom], color: "var(--fault)" },
   { tag: tags.string, color: "var(--good)" },
@@ -74,6 +74,7 @@ const theme = EditorView.theme({
     padding: "2px 0",
     margin: "0",
     textDecoration: "underline",
+    display: "block",
     cursor: "pointer",
   },
   ".cm-panels": { backgroundColor: "var(--raised)", color: "var(--text)" },

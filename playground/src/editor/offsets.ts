@@ -33,15 +33,21 @@ export function positionOf(doc: Text, offset: number): Position {
   return { line: line.number - 1, character: offset - line.from };
 }
 
-/** Where a diagnostic is marked: at least one character wide, or the rest of a line that it only begins in. */
-export function rangeOf(doc: Text, diagnostic: Diagnostic): { from: number; to: number } {
+export type Place = Pick<Diagnostic, "line" | "column" | "end_line" | "end_column">;
+
+export function spanOf(doc: Text, place: Place): { from: number; to: number } {
   const at = (line: number, column: number) => {
     if (line > doc.lines) return doc.length;
     const found = doc.line(Math.max(1, line));
     return found.from + units(found.text, column - 1);
   };
-  const from = at(diagnostic.line, diagnostic.column);
-  const to = at(diagnostic.end_line, diagnostic.end_column);
+  const from = at(place.line, place.column);
+  return { from, to: Math.max(from, at(place.end_line, place.end_column)) };
+}
+
+/** Where a diagnostic is marked: at least one character wide, or the rest of a line that it only begins in. */
+export function rangeOf(doc: Text, diagnostic: Diagnostic): { from: number; to: number } {
+  const { from, to } = spanOf(doc, diagnostic);
   if (to > from) return { from, to };
   const line = doc.lineAt(from);
   const code = line.text.slice(from - line.from).replace(/\s*(#.*)?$/, "");

@@ -5,7 +5,7 @@
 // forbids elsewhere.
 
 import { closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
-import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap, indentWithTab, undo } from "@codemirror/commands";
 import { bracketMatching, indentOnInput, indentUnit } from "@codemirror/language";
 import { lintGutter, lintKeymap, type Diagnostic as Mark, setDiagnostics } from "@codemirror/lint";
 import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
@@ -15,7 +15,7 @@ import type { Diagnostic } from "../engine/types.ts";
 import { assist, layOut } from "./assist.ts";
 import { explain } from "./explain.tsx";
 import { languageOf, look } from "./look.ts";
-import { difference, offsetOf, type Range, rangeOf } from "./offsets.ts";
+import { difference, offsetOf, type Place, type Range, rangeOf, spanOf } from "./offsets.ts";
 
 /** Of files that were shown, by project and path. */
 const states = new Map<string, EditorState>();
@@ -75,8 +75,13 @@ export class Pane {
     this.#view.focus();
   }
 
+  undo(): void {
+    undo(this.#view);
+  }
+
   format(): void {
     layOut(this.#view);
+    this.#view.focus();
   }
 
   destroy(): void {
@@ -138,8 +143,17 @@ function keepKeys(event: Event): void {
   event.stopPropagation();
 }
 
-function markOf(doc: EditorState["doc"], diagnostic: Diagnostic): Mark {
-  const { severity, code, message, help, notes } = diagnostic;
+/** A diagnostic with the changes that would put it right, where the checker knows them. */
+type Fixable = Diagnostic & { edits?: (Place & { text: string })[] };
+
+function fix(view: EditorView, edits: (Place & { text: string })[]): void {
+  const { doc } = view.state;
+  const changes = edits.map((edit) => ({ ...spanOf(doc, edit), insert: edit.text }));
+  view.dispatch({ changes, userEvent: "fix" });
+}
+
+function markOf(doc: EditorState["doc"], diagnostic: Fixable): Mark {
+  const { severity, code, message, help, notes, edits = [] } = diagnostic;
   return {
     ...rangeOf(doc, diagnostic),
     severity,
@@ -155,6 +169,9 @@ function markOf(doc: EditorState["doc"], diagnostic: Diagnostic): Mark {
       }
       return dom;
     },
-    actions: code ? [{ name: `About ${code}`, apply: () => void explain(code) }] : [],
+    actions: [
+      ...(edits.length > 0 ? [{ name: "Fix", apply: (view: EditorView) => fix(view, edits) }] : []),
+      ...(code ? [{ name: `About ${code}`, apply: () => void explain(code) }] : []),
+    ],
   };
 }

@@ -12,26 +12,28 @@ export interface Hover {
 export interface Completion {
   label: string;
   kind: string;
-  detail: string;
+  detail: string | null;
   documentation: string | null;
+  /** What to put in the place of `range`; the cursor belongs after so many of its UTF-16 units. */
   insert: string;
-  range?: Range;
+  cursor: number;
+  range: Range;
 }
 
 export interface Definition {
   path: string;
   range: Range;
   /** The text of a file of the standard library. */
-  text?: string;
+  text: string | null;
 }
 
 export interface Entry {
   name: string;
   kind: string;
-  detail?: string;
+  detail: string | null;
   range: Range;
-  selection_range?: Range;
-  children?: Entry[];
+  name_range: Range;
+  parts: Entry[];
 }
 
 /** Null where there is no answer: the file may be unreadable just now. */

@@ -1,36 +1,18 @@
 // What a new file begins with.
 
-/** A scenario that a person can go on from: as the default one, a floor with four robots and four places. */
-export const SCENARIO = `# What is run: the robots, their world and the radio.
-duration = "60s"
+import scenario from "../../../apps/starl-catalog/src/default.toml?raw";
 
-[[robots]]
-model = "create"
-count = 4
-
-[world]
-start_area = { low = [0, 0], high = [4, 4] }
-
-[[world.way_point]]
-name = "A"
-position = [1, 1]
-
-[[world.way_point]]
-name = "B"
-position = [3, 1]
-
-[[world.way_point]]
-name = "C"
-position = [3, 3]
-
+/** The scenario of programs that have none, which a person can go on from. */
+const SCENARIO = `# What is run: the robots, their world and the radio.\n${scenario.replace(/^#.*\n/gm, "")}
 [network]
 delay = "15ms"
 jitter = "5ms"
 `;
 
+/** With the program that a scenario is to run. */
 export function templateOf(path: string, program?: string): string {
   if (path.endsWith(".toml"))
-    return program ? SCENARIO.replace("duration", `program = "${program}"\nduration`) : SCENARIO;
+    return program ? SCENARIO.replace("duration =", `program = "${program}"\nduration =`) : SCENARIO;
   if (!path.endsWith(".starl")) return "";
   const words = path.replace(/^.*\/|\.starl$/g, "").split(/[^A-Za-z0-9]+/);
   const name = words.map((word) => word.charAt(0).toUpperCase() + word.slice(1)).join("");

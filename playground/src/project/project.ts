@@ -22,7 +22,7 @@ arrive()
 `;
 
 export type Draft = Pick<Project, "name" | "files"> &
-  Partial<Pick<Project, "active" | "scenario" | "example">>;
+  Partial<Pick<Project, "active" | "scenario" | "example" | "touched">>;
 
 function make(draft: Draft): Project {
   const scenario = scenarioOf(draft.files, draft.scenario ?? null);
@@ -36,7 +36,7 @@ function make(draft: Draft): Project {
     active: draft.active ?? named ?? programs[0] ?? Object.keys(draft.files)[0] ?? "",
     scenario,
     example: draft.example ?? null,
-    touched: false,
+    touched: draft.touched ?? false,
     changed: Date.now(),
   };
 }

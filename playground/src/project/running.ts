@@ -1,11 +1,11 @@
 // Runs the project: checks it, opens it in the simulator and plays. A project with errors leaves the run that is
 // shown as it is.
 
-import { signal } from "@preact/signals";
+import { effect, signal } from "@preact/signals";
 import { part } from "../app/App.tsx";
 import { run } from "../app/context.ts";
 import { EngineError } from "../engine/client.ts";
-import { check } from "./checking.ts";
+import { check, diagnostics } from "./checking.ts";
 import { errorsOf, optionsOf } from "./model.ts";
 import { project } from "./project.ts";
 
@@ -36,8 +36,14 @@ export async function runProject({ play = true } = {}): Promise<boolean> {
     if (Object.keys(shown.files).length === 0)
       throw new EngineError("There is no program yet. Add a file first.");
     const errors = errorsOf(shown, await check(shown.files));
-    if (errors.length > 0)
-      throw new EngineError(`Not run: ${count(errors.length, "error")} to correct first.`, errors);
+    if (errors.length > 0) {
+      // All of them stand below the editor.
+      refusal = new EngineError(
+        `Not run: ${count(errors.length, "error")} to correct first.`,
+        errors.slice(0, 1),
+      );
+      throw refusal;
+    }
     const opened = await run.open({
       kind: "files",
       files: shown.files,
@@ -54,5 +60,15 @@ export async function runProject({ play = true } = {}): Promise<boolean> {
     starting.value = false;
   }
 }
+
+/** Why the project as it was has not been run. */
+let refusal: EngineError | null = null;
+
+effect(() => {
+  const isFaulty = errorsOf(project.value, diagnostics.value).length > 0;
+  if (refusal === null || isFaulty) return;
+  if (run.problem.peek() === refusal) run.problem.value = null;
+  refusal = null;
+});
 
 const count = (number: number, what: string) => `${number} ${what}${number === 1 ? "" : "s"}`;

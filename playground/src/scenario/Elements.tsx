@@ -1,0 +1,107 @@
+// A list of tables as a form: robots, way-points, faults.
+
+import { edit } from "./document.ts";
+import { Fields } from "./Fields.tsx";
+import { type Field, fieldsOf, fieldsOfModel, type Schema } from "./schema.ts";
+import { isTable, type Table } from "./table.ts";
+import { append, remove, type Toml } from "./toml/edit.ts";
+import type { Path } from "./toml/layout.ts";
+import { show } from "./values.ts";
+
+interface Properties {
+  field: Field;
+  table: Schema;
+  path: Path;
+  values: Table[];
+}
+
+export function Elements({ field, table, path, values }: Properties) {
+  const fields = fieldsOf(table);
+  const one = singular(field.label);
+  return (
+    <details class="table" open={values.length > 0 && values.length < 4 && path.length === 1}>
+      <summary>
+        {field.label} {values.length > 0 && <span class="badge">{values.length}</span>}
+      </summary>
+      <p class="muted">{field.about}</p>
+      {values.map((value, index) => {
+        const place = [...path, index];
+        return (
+          <details class="element" key={place.join(".")} open={values.length === 1}>
+            <summary>{describe(value, index, one)}</summary>
+            <Fields fields={withModel(fields, table, value)} path={place} value={value} />
+            <button type="button" onClick={() => edit((text) => remove(text, place))}>
+              Remove this {one.toLowerCase()}
+            </button>
+          </details>
+        );
+      })}
+      <button
+        type="button"
+        onClick={() => edit((text) => append(text, path, first(field.name, fields, values)))}
+      >
+        Add {one.toLowerCase()}
+      </button>
+    </details>
+  );
+}
+
+/** Parameters of a model are known by their names. */
+function withModel(fields: Field[], table: Schema, value: Table): Field[] {
+  if (typeof value.model !== "string") return fields;
+  const own = fieldsOfModel(table, value.model);
+  return fields.map((field) =>
+    field.kind === "model_parameters" && own.length > 0
+      ? { ...field, kind: "table", table: { properties: schemasOf(table, value.model as string) } }
+      : field,
+  );
+}
+
+function schemasOf(table: Schema, model: string): Record<string, Schema> {
+  for (const { if: condition, then } of table.allOf ?? []) {
+    if (condition?.properties?.model?.const === model)
+      return Object.values(then?.properties ?? {})[0]?.properties ?? {};
+  }
+  return {};
+}
+
+/** What a new element needs to be accepted. */
+function first(name: string, fields: Field[], values: Table[]): Table {
+  const made: Table = {};
+  const taken = new Set(values.map((value) => value.name));
+  for (const field of fields.filter(({ required }) => required)) made[field.name] = example(field, taken);
+  if (name === "robots") made.count = 1;
+  if (name === "obstacle") made.circle = { center: [1, 1], radius: "20cm" };
+  if (name === "fault" || name === "event") made.at = "10s";
+  if (name === "fault") made.robots = "all";
+  return made;
+}
+
+function example({ kind, choices, units }: Field, taken: Set<Toml | undefined>): Toml {
+  if (kind === "point" || kind === "planar_point") return [0, 0];
+  if (choices[0] !== undefined) return choices[0];
+  if (kind === "quantity") return `1${units[0] === "ns" ? "s" : (units.at(-1) ?? "")}`;
+  if (kind === "count") return 0;
+  return nextName(taken);
+}
+
+/** A, B, C, ..., and then P1, P2, ... */
+export function nextName(taken: Set<unknown>): string {
+  for (let index = 0; ; index++) {
+    const name = index < 26 ? String.fromCharCode(65 + index) : `P${index - 25}`;
+    if (!taken.has(name)) return name;
+  }
+}
+
+function describe(value: Table, index: number, one: string): string {
+  const shown = ["name", "model", "kind", "at", "count"].filter(
+    (key) => value[key] !== undefined && !isTable(value[key]),
+  );
+  const words = shown.map((key) =>
+    key === "count" ? `× ${value.count}` : show({ kind: "text" }, value[key]),
+  );
+  const shape = ["circle", "rectangle", "polygon", "box"].find((key) => value[key] !== undefined);
+  return words.length > 0 ? words.join(" ") : (shape ?? `${one} ${index + 1}`);
+}
+
+const singular = (label: string) => (label === "Robots" ? "Group" : label.replace(/s$/, ""));
