@@ -4,7 +4,12 @@ import { offline } from "./build/offline.ts";
 export default defineConfig({
   // Relative addresses: the page works in any folder of any static host.
   base: "./",
-  build: { target: "es2022", modulePreload: { polyfill: false }, assetsInlineLimit: 0, chunkSizeWarningLimit: 900 },
+  build: {
+    target: "es2022",
+    modulePreload: { polyfill: false },
+    assetsInlineLimit: 0,
+    chunkSizeWarningLimit: 900,
+  },
   worker: { format: "es" },
   plugins: [offline()],
   server: { host: "127.0.0.1", fs: { allow: [".."] } },

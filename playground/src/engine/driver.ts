@@ -92,7 +92,8 @@ export class Driver {
   seek(time: number): Promise<void> {
     this.#playing = null;
     return this.#exclusive(async () => {
-      if (time < this.#status.now || this.#snapshots.before(time).time > this.#status.now) await this.#back(time);
+      if (time < this.#status.now || this.#snapshots.before(time).time > this.#status.now)
+        await this.#back(time);
       let heard = performance.now();
       while (this.#status.now < time && !this.#status.over) {
         await this.#run({ until: time, steps: this.#steps(SLICE) });
@@ -310,7 +311,8 @@ function changed<Value>(value: Value, before: string): [Value | null, string] {
 
 function lastTime(frames: Float64Array): number {
   let time = -1;
-  for (let at = 0; at < frames.length; at += 2 + (frames[at + 1] ?? 0) * POSE_NUMBERS) time = frames[at] ?? time;
+  for (let at = 0; at < frames.length; at += 2 + (frames[at + 1] ?? 0) * POSE_NUMBERS)
+    time = frames[at] ?? time;
   return time;
 }
 

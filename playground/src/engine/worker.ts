@@ -33,7 +33,9 @@ self.onmessage = async ({ data: { id, request } }: MessageEvent<ToWorker>) => {
   }
 };
 
-self.addEventListener("unhandledrejection", ({ reason }) => say({ failed: String(reason?.message ?? reason) }));
+self.addEventListener("unhandledrejection", ({ reason }) =>
+  say({ failed: String(reason?.message ?? reason) }),
+);
 
 async function answer(request: Request): Promise<unknown> {
   if ("open" in request) return open(request.open);

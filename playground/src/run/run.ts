@@ -5,7 +5,6 @@ import { batch, computed, signal } from "@preact/signals";
 import { Client, EngineError } from "../engine/client.ts";
 import type {
   Breakpoint,
-  Diagnostic,
   Intervention,
   Member,
   Opened,
@@ -271,5 +270,7 @@ export class Run {
 const momentAfter = (time: number): number => time + 1e-9;
 
 function asEngineError(error: unknown): EngineError {
-  return error instanceof EngineError ? error : new EngineError(error instanceof Error ? error.message : String(error));
+  return error instanceof EngineError
+    ? error
+    : new EngineError(error instanceof Error ? error.message : String(error));
 }

@@ -39,7 +39,7 @@ export function Timeline() {
 
   const timeAt = (event: PointerEvent) => {
     const box = (event.currentTarget as HTMLElement).getBoundingClientRect();
-    return (Math.min(1, Math.max(0, (event.clientX - box.left) / box.width)) * end());
+    return Math.min(1, Math.max(0, (event.clientX - box.left) / box.width)) * end();
   };
   const onPointerDown = (event: PointerEvent) => {
     (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);

@@ -17,7 +17,8 @@ export function toggle(): void {
 export function Transport() {
   useEffect(() => {
     const onKeyDown = (event: KeyboardEvent) => {
-      if (isTyping(event.target) || event.ctrlKey || event.metaKey || event.altKey || !run.opened.value) return;
+      if (isTyping(event.target) || event.ctrlKey || event.metaKey || event.altKey || !run.opened.value)
+        return;
       const act = KEYS[event.key];
       if (!act) return;
       event.preventDefault();
@@ -40,7 +41,13 @@ export function Transport() {
         {run.playing.value ? "Pause" : over ? "Play again" : "Play"}
       </button>
       <div class="group">
-        <button type="button" disabled={none} onClick={() => run.seek(0)} title="To the start (Home)" aria-label="To the start">
+        <button
+          type="button"
+          disabled={none}
+          onClick={() => run.seek(0)}
+          title="To the start (Home)"
+          aria-label="To the start"
+        >
           ⏮
         </button>
         <button
@@ -52,7 +59,13 @@ export function Transport() {
         >
           ◂
         </button>
-        <button type="button" disabled={none} onClick={() => run.next()} title="To the next event (.)" aria-label="To the next event">
+        <button
+          type="button"
+          disabled={none}
+          onClick={() => run.next()}
+          title="To the next event (.)"
+          aria-label="To the next event"
+        >
           ▸
         </button>
         <button
@@ -86,7 +99,9 @@ export function Transport() {
       {run.playing.value && run.pace.value > 0 && (
         <span class="muted pace">{run.pace.value.toPrecision(2)} times real time</span>
       )}
-      {over && run.outcome.value && <span class={`outcome ${run.outcome.value}`}>{OUTCOMES[run.outcome.value]}</span>}
+      {over && run.outcome.value && (
+        <span class={`outcome ${run.outcome.value}`}>{OUTCOMES[run.outcome.value]}</span>
+      )}
       {run.stopped.value && <span class="outcome stopped">Breakpoint: {run.stopped.value.text}</span>}
     </div>
   );
@@ -131,6 +146,8 @@ const KEYS: Record<string, () => void> = {
 function isTyping(target: EventTarget | null): boolean {
   return (
     target instanceof HTMLElement &&
-    (target.isContentEditable || /^(INPUT|TEXTAREA|SELECT|BUTTON|A|SUMMARY)$/.test(target.tagName) || target.role === "slider")
+    (target.isContentEditable ||
+      /^(INPUT|TEXTAREA|SELECT|BUTTON|A|SUMMARY)$/.test(target.tagName) ||
+      target.role === "slider")
   );
 }

@@ -28,18 +28,18 @@ function see(files: Record<string, string>): Seen {
 
 const given = (index: number) => STEPS[index]?.given ?? STEPS[index - 1]?.solution ?? {};
 
-describe.each(STEPS.map((step, index) => ({ title: step.title, step, index })))(
-  "$title",
-  ({ step, index }) => {
-    test("what the lesson writes does what the step asks for", () => {
-      expect(step.isDone(see(step.solution ?? {}))).toBe(true);
-    });
+describe.each(STEPS.map((step, index) => ({ title: step.title, step, index })))("$title", ({
+  step,
+  index,
+}) => {
+  test("what the lesson writes does what the step asks for", () => {
+    expect(step.isDone(see(step.solution ?? {}))).toBe(true);
+  });
 
-    // The first step asks only to run what is given.
-    test.runIf(index > 0)("is not done by what was there before", () => {
-      const before = see(given(index));
-      expect(step.isDone(before)).toBe(false);
-      expect(step.isDone({ ...before, run: null, diagnostics: null })).toBe(false);
-    });
-  },
-);
+  // The first step asks only to run what is given.
+  test.runIf(index > 0)("is not done by what was there before", () => {
+    const before = see(given(index));
+    expect(step.isDone(before)).toBe(false);
+    expect(step.isDone({ ...before, run: null, diagnostics: null })).toBe(false);
+  });
+});
