@@ -39,10 +39,10 @@ export function App() {
       <aside class="side" aria-label="Inspector">
         <Side />
       </aside>
-      <footer class="time" aria-label="Time">
+      <section class="time" aria-label="Time">
         <Transport />
         {run.opened.value && <Timeline />}
-      </footer>
+      </section>
       <nav class="parts" aria-label="Parts of the page">
         {PARTS.filter(([name]) => writes || name !== "write").map(([name, label]) => (
           <button

@@ -22,7 +22,6 @@ export function Problem() {
         {problem.diagnostics.length > 0 && (
           <ul>
             {problem.diagnostics.slice(0, 8).map((problem, index) => (
-              // biome-ignore lint/suspicious/noArrayIndexKey: the list is never changed in place
               <li key={index}>
                 {problem.file && `${problem.file}:${problem.line}:${problem.column}: `}
                 {problem.message}

@@ -1,10 +1,13 @@
-// Plays a trace: an MCAP file, read chunk by chunk through its index, from a file of the user or by ranges from the
-// server. The run is known as far as it is read; reading goes on in the background until the end.
+// Plays a trace, from a file of the user or from the server. The run is known as far as it is read; reading goes on in
+// the background until the end.
 
-import { type IReadable, McapIndexedReader } from "@mcap/core";
+import type { McapTypes } from "@mcap/core";
+import type { Recorded } from "../../../apps/starl-wasm/starl.d.mts";
 import { RECORDED } from "./engine.ts";
+import { LocalFile, lastTime, type Readable, records, ServedFile } from "./mcap.ts";
 import { Refused } from "./remote.ts";
 import {
+  type Intervention,
   type Member,
   type Opened,
   type Outcome,
@@ -19,6 +22,8 @@ import {
 const POSE = "/starl/pose";
 const ESTIMATE = "/starl/estimate";
 const SUMMARY = "/starl/summary";
+/** Begins the names of attachments that a replay needs. */
+const FILES = "starl/files/";
 /** Seconds between two frames. */
 const SAMPLE = 0.1;
 /** Real time between two updates while it plays, and while it is read, ms. */
@@ -38,6 +43,9 @@ export class Playback {
   #now = 0;
   #known = 0;
   #read = false;
+  #whole = Promise.resolve();
+  /** How the run was steered, and when, ns. */
+  #interventions: [number, Intervention][] = [];
   #closed = false;
   #playing: symbol | null = null;
   /** The times of all records so far, s. */
@@ -51,7 +59,8 @@ export class Playback {
   #fresh: TraceRecord[] = [];
 
   private constructor(
-    private readonly reader: McapIndexedReader,
+    private readonly trace: AsyncGenerator<McapTypes.TypedMcapRecord>,
+    private readonly start: Beginning,
     opened: Opened,
     private readonly post: Post,
   ) {
@@ -60,17 +69,18 @@ export class Playback {
   }
 
   static async start(source: Source & { kind: "trace" }, post: Post): Promise<Playback> {
-    const readable = typeof source.from === "string" ? await Ranges.of(source.from) : new Part(source.from);
-    const reader = await McapIndexedReader.Initialize({ readable }).catch((error: Error) => {
+    const file: Readable =
+      typeof source.from === "string" ? await ServedFile.of(source.from) : new LocalFile(source.from);
+    const trace = records(file);
+    const start = await beginning(trace).catch((error: Error) => {
       throw new Refused(`${source.name}: this is no trace that can be read: ${error.message}`);
     });
-    const about = await metadata(reader);
-    const world = await attachment(reader, "starl/world.json");
-    if (!about || !world) throw new Refused(`${source.name}: this MCAP file is no trace of StarL`);
-    const end = Number(reader.statistics?.messageEndTime ?? 0n) / 1e9;
-    const opened = describe(source.name, about, JSON.parse(world), end);
-    const playback = new Playback(reader, opened, post);
-    void playback.#load();
+    const world = start.attachments.get("starl/world.json");
+    if (!start.about || !world) throw new Refused(`${source.name}: this file is no trace of StarL`);
+    const end = await lastTime(file);
+    const opened = describe(source.name, start.about, JSON.parse(world), end ?? 0);
+    const playback = new Playback(trace, start, opened, post);
+    playback.#whole = playback.#load();
     return playback;
   }
 
@@ -116,19 +126,34 @@ export class Playback {
     this.#closed = true;
   }
 
+  /** What it takes to run it again. Waits until the trace is read. */
+  async recorded(): Promise<Recorded> {
+    const { attachments } = this.start;
+    const kept = [...attachments].filter(([name]) => name.startsWith(FILES));
+    const files = Object.fromEntries(kept.map(([name, text]) => [name.slice(FILES.length), text]));
+    const scenario = attachments.get("starl/scenario.toml");
+    if (scenario === undefined || kept.length === 0) {
+      throw new Refused("the trace does not hold what it takes to run it again");
+    }
+    await this.#whole;
+    return { scenario, files, interventions: this.#interventions };
+  }
+
   async #load(): Promise<void> {
     let due = SAMPLE;
     let heard = performance.now();
-    const topics = [POSE, ESTIMATE, SUMMARY, ...RECORDED];
+    const wanted = new Set([POSE, ESTIMATE, SUMMARY, ...RECORDED]);
     const decoder = new TextDecoder();
-    const channels = this.reader.channelsById;
-    for await (const message of this.reader.readMessages({ topics })) {
+    const { topics } = this.start;
+    for (let record = this.start.first; record; record = (await this.trace.next()).value) {
       if (this.#closed) return;
-      const time = Number(message.logTime) / 1e9;
+      if (record.type === "Channel") topics.set(record.id, record.topic);
+      const topic = record.type === "Message" ? topics.get(record.channelId) : undefined;
+      if (record.type !== "Message" || !topic || !wanted.has(topic)) continue;
+      const time = Number(record.logTime) / 1e9;
       for (; time >= due; due += SAMPLE) this.#frame(due - SAMPLE);
-      const topic = channels.get(message.channelId)?.topic ?? "";
-      this.#take(topic, Number(message.logTime), JSON.parse(decoder.decode(message.data)));
-      this.#known = Math.max(this.#known, Math.min(time, this.opened.duration));
+      this.#take(topic, Number(record.logTime), JSON.parse(decoder.decode(record.data)));
+      this.#known = Math.max(this.#known, time);
       if (performance.now() - heard < READ_FOR) continue;
       this.#update();
       await new Promise((resolve) => setTimeout(resolve));
@@ -167,6 +192,9 @@ export class Playback {
         });
         break;
       }
+      case "/starl/intervention":
+        this.#interventions.push([time_ns, JSON.parse(String(message.intervention))]);
+        break;
       case "/starl/status":
         this.#conditions[at + POSE_NUMBERS - 1] = message.status === "failed" ? 2 : 1;
         break;
@@ -295,50 +323,26 @@ function shape(obstacle: unknown): World["obstacles"][number]["obstacle"] {
   return { Polygon: { base: polygon ?? [], height } };
 }
 
-async function metadata(reader: McapIndexedReader): Promise<Map<string, string> | null> {
-  for await (const { metadata } of reader.readMetadata({ name: "starl" })) return metadata;
-  return null;
+/** What stands before the messages. */
+interface Beginning {
+  about: Map<string, string> | null;
+  attachments: Map<string, string>;
+  topics: Map<number, string>;
+  /** The first message; undefined if there is none. */
+  first: McapTypes.TypedMcapRecord | undefined;
 }
 
-async function attachment(reader: McapIndexedReader, name: string): Promise<string | null> {
-  for await (const { data } of reader.readAttachments({ name })) return new TextDecoder().decode(data);
-  return null;
-}
-
-/** A file of the user. */
-class Part implements IReadable {
-  constructor(private readonly blob: Blob) {}
-  async size(): Promise<bigint> {
-    return BigInt(this.blob.size);
+async function beginning(trace: AsyncGenerator<McapTypes.TypedMcapRecord>): Promise<Beginning> {
+  const start: Beginning = { about: null, attachments: new Map(), topics: new Map(), first: undefined };
+  const decoder = new TextDecoder();
+  for (let next = await trace.next(); !next.done; next = await trace.next()) {
+    const record = next.value;
+    if (record.type === "Metadata" && record.name === "starl") start.about = record.metadata;
+    if (record.type === "Attachment") start.attachments.set(record.name, decoder.decode(record.data));
+    if (record.type === "Channel") start.topics.set(record.id, record.topic);
+    if (record.type !== "Message") continue;
+    start.first = record;
+    break;
   }
-  async read(offset: bigint, length: bigint): Promise<Uint8Array> {
-    const part = this.blob.slice(Number(offset), Number(offset + length));
-    return new Uint8Array(await part.arrayBuffer());
-  }
-}
-
-/** A file of the server. */
-class Ranges implements IReadable {
-  private constructor(
-    private readonly url: string,
-    private readonly length: number,
-  ) {}
-
-  static async of(url: string): Promise<Ranges> {
-    const head = await fetch(url, { method: "HEAD" });
-    const length = Number(head.headers.get("content-length"));
-    if (!head.ok || !Number.isFinite(length)) throw new Refused("the trace is not served any more");
-    return new Ranges(url, length);
-  }
-
-  async size(): Promise<bigint> {
-    return BigInt(this.length);
-  }
-
-  async read(offset: bigint, length: bigint): Promise<Uint8Array> {
-    const range = `bytes=${offset}-${offset + length - 1n}`;
-    const answer = await fetch(this.url, { headers: { range } });
-    if (!answer.ok) throw new Refused("the trace is not served any more");
-    return new Uint8Array(await answer.arrayBuffer());
-  }
+  return start;
 }

@@ -34,7 +34,9 @@ export type Source =
   /** The run that `starl run --open` holds; simulated by the command. */
   | { kind: "server"; opened: ServerRun }
   /** A trace, read as it is needed. */
-  | { kind: "trace"; name: string; from: string | Blob };
+  | { kind: "trace"; name: string; from: string | Blob }
+  /** The run of the trace that is shown, simulated again in the worker. */
+  | { kind: "again" };
 
 /** The answer of the server about its run. */
 export interface ServerRun {

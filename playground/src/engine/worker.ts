@@ -58,13 +58,23 @@ async function answer(request: Request): Promise<unknown> {
 }
 
 async function open(source: Source): Promise<Opened> {
+  // Before the trace is closed.
+  const again = source.kind === "again" ? await simulateAgain() : null;
   await shown?.close().catch(() => undefined);
   shown = null;
-  shown = await start(source);
+  shown = source.kind === "again" ? again : await start(source);
+  if (!shown) throw new Refused("nothing is open");
   return shown.opened;
 }
 
-async function start(source: Source): Promise<Driver | Playback> {
+async function simulateAgain(): Promise<Driver> {
+  if (!(shown instanceof Playback)) throw new Refused("no trace is open");
+  const { title } = shown.opened;
+  const simulation = (await starl()).openRecorded(await shown.recorded(), { topics: RECORDED });
+  return Driver.start(simulation, { ...simulation, title: `${title}, run again`, simulation: 0 }, post);
+}
+
+async function start(source: Exclude<Source, { kind: "again" }>): Promise<Driver | Playback> {
   switch (source.kind) {
     case "files": {
       const simulation = (await starl()).open(source.files, { ...source.options, topics: RECORDED });

@@ -16,8 +16,11 @@ export function Recorded() {
     <div class="recorded">
       <p class="muted">
         This run is a recording. It holds poses, messages, actions and events. Variables, enabled actions,
-        timers and mailboxes are not in it: run the scenario here to see them.
+        timers and mailboxes are not in it. A simulated run can be run again here, exactly as it went.
       </p>
+      <button type="button" disabled={run.opening.value} onClick={() => run.runAgain()}>
+        {run.opening.value ? "Opening" : "Run it again here"}
+      </button>
       {run.selected.value.map((robot) => (
         <Robot key={robot} robot={robot} />
       ))}

@@ -128,6 +128,12 @@ export class Run {
     }
   }
 
+  /** Simulates the run of the trace that is shown, and goes to the moment shown. */
+  async runAgain(): Promise<void> {
+    const now = this.now.value;
+    if (await this.open({ kind: "again" })) await this.seek(now);
+  }
+
   play(speed = this.speed.value): void {
     this.speed.value = speed;
     this.stopped.value = null;

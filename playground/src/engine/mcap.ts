@@ -1,0 +1,77 @@
+// Reads MCAP files from their start, a part at a time, so that a large one is never in memory as a whole, and one whose
+// end is missing is read as far as it goes.
+
+import { McapIndexedReader, McapStreamReader, type McapTypes } from "@mcap/core";
+import { Refused } from "./remote.ts";
+
+/** Bytes that are fetched at once. */
+const PART = 1 << 20;
+
+/** A file of which ranges of bytes can be read. */
+export interface Readable extends McapTypes.IReadable {
+  size(): Promise<bigint>;
+  read(offset: bigint, length: bigint): Promise<Uint8Array>;
+}
+
+/** All records of the file in their order, those in chunks too. */
+export async function* records(file: Readable): AsyncGenerator<McapTypes.TypedMcapRecord> {
+  const reader = new McapStreamReader();
+  const size = await file.size();
+  for (let offset = 0n; offset < size; offset += BigInt(PART)) {
+    const left = size - offset;
+    reader.append(await file.read(offset, left < PART ? left : BigInt(PART)));
+    for (let record = reader.nextRecord(); record; record = reader.nextRecord()) yield record;
+  }
+}
+
+/** The time of the last message by the index at the end of the file, s; null if there is no index. */
+export async function lastTime(file: Readable): Promise<number | null> {
+  try {
+    const reader = await McapIndexedReader.Initialize({ readable: file });
+    return reader.statistics ? Number(reader.statistics.messageEndTime) / 1e9 : null;
+  } catch {
+    return null;
+  }
+}
+
+/** A file of the user. */
+export class LocalFile implements Readable {
+  constructor(private readonly blob: Blob) {}
+
+  async size(): Promise<bigint> {
+    return BigInt(this.blob.size);
+  }
+
+  async read(offset: bigint, length: bigint): Promise<Uint8Array> {
+    const part = this.blob.slice(Number(offset), Number(offset + length));
+    return new Uint8Array(await part.arrayBuffer());
+  }
+}
+
+/** A file of the server. */
+export class ServedFile implements Readable {
+  private constructor(
+    private readonly url: string,
+    private readonly length: number,
+  ) {}
+
+  static async of(url: string): Promise<ServedFile> {
+    const head = await fetch(url, { method: "HEAD" });
+    const length = Number(head.headers.get("content-length"));
+    if (!head.ok || !Number.isFinite(length)) throw gone();
+    return new ServedFile(url, length);
+  }
+
+  async size(): Promise<bigint> {
+    return BigInt(this.length);
+  }
+
+  async read(offset: bigint, length: bigint): Promise<Uint8Array> {
+    const range = `bytes=${offset}-${offset + length - 1n}`;
+    const answer = await fetch(this.url, { headers: { range } });
+    if (!answer.ok) throw gone();
+    return new Uint8Array(await answer.arrayBuffer());
+  }
+}
+
+const gone = () => new Refused("the trace is not served any more: the command was stopped");
