@@ -1,5 +1,5 @@
 # The two commands of the README, and the parts that `make test` is made of.
-.PHONY: run setup test check unit portable wasm golden wasm-module page site web trace examples faults nightly million docs deny bench editors diagrams
+.PHONY: run setup test check unit portable wasm golden wasm-module page site web trace schema examples faults nightly million docs deny bench editors diagrams
 
 VENV = target/venv/bin
 CARGO_TARGET_DIR ?= target
@@ -14,7 +14,7 @@ run:
 	cargo run --release --locked -- run race
 
 # Everything that continuous integration runs.
-test: setup check unit portable wasm web trace examples faults docs deny
+test: setup check unit portable wasm web trace schema examples faults docs deny
 
 setup:
 	tools/setup.sh
@@ -71,6 +71,10 @@ trace: $(STARL)
 	$(CARGO_TARGET_DIR)/debug/examples/every_event > target/every_event.mcap
 	$(VENV)/python crates/starl-trace/tests/python/read_trace.py target/race.mcap target/every_event.mcap
 	$(VENV)/python crates/starl-trace/tests/python/documentation.py target/race.mcap
+
+# The schema of scenarios, by a validator that is not ours: it takes every example and refuses what is wrong.
+schema: $(STARL)
+	$(VENV)/python tools/check_schema.py $(STARL)
 
 # Every example reaches its goal, in calm and in bad weather.
 examples: $(STARL)

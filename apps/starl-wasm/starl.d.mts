@@ -28,13 +28,40 @@ export class Starl {
   examples(): Example[];
   /** All that is wrong with programs and libraries (`.starl`) and scenarios (`.toml`), by file and place. */
   check(files: Files): Diagnostic[];
+  /** The fields of scenario files as a JSON Schema (draft 2020-12), with members `x-...` for forms. */
+  schema(): Schema;
+  /** What to show at a place of a program or library; null where there is no name. */
+  hover(files: Files, path: string, position: Position): Hover | null;
+  /** What may be typed at a place of a program or library, the likeliest first. */
+  complete(files: Files, path: string, position: Position): Completion[];
+  /** Where that is declared which is named at a place; null for what is built in, and where there is no name. */
+  definition(files: Files, path: string, position: Position): Definition | null;
+  /** The parts of a program or library, in the order of the text. */
+  outline(files: Files, path: string): OutlinePart[];
+  /** The text of a program or library as the formatter lays it out. */
+  format(text: string): string;
   /** Opens a scenario with its programs. Throws a StarlError with diagnostics if something is wrong with them. */
   open(files: Files, options?: Options): Simulation;
+  /**
+   * Opens the run that a trace records, at its start; it is steered as it was. Throws a StarlError if the trace does
+   * not hold what that takes.
+   */
+  openRecorded(recorded: Recorded, options?: Pick<Options, "topics">): Simulation;
   /**
    * Answers a request of the JSON service (apps/starl-catalog/src/service/request.rs), such as
    * `{ report: { simulation: 0 } }`. The methods of this class and of Simulation are made of such requests.
    */
   request(request: object): unknown;
+}
+
+/** What a trace holds of how its run was started and steered: docs/reference/trace.md. */
+export interface Recorded {
+  /** The attachment `starl/scenario.toml`. */
+  scenario: string;
+  /** The attachments `starl/files/NAME`, by name. */
+  files: Record<string, string>;
+  /** When the run was steered, nanoseconds, and how: the records on `/starl/intervention`. */
+  interventions: [number, Intervention][];
 }
 
 /** An example that comes with StarL. */
@@ -94,7 +121,159 @@ export interface Diagnostic {
   message: string;
   /** A suggested fix. */
   help: string | null;
+  /** More that is worth knowing, a line each. */
   notes: string[];
+  /** Other places of the file that matter. */
+  related: (FileRange & { message: string })[];
+  /** The changes that the suggested fix makes to the file; empty where it is for people to make. */
+  edits: (FileRange & { text: string })[];
+  /** Whether the text could be taken away without a loss. */
+  unnecessary: boolean;
+}
+
+/** A JSON Schema; properties are in the order of the reference. */
+export interface Schema {
+  [member: string]: unknown;
+  description?: string;
+  default?: unknown;
+  properties?: Record<string, Schema>;
+  required?: string[];
+  /** What a field holds. */
+  "x-kind"?:
+    | "text"
+    | "texts"
+    | "flag"
+    | "choice"
+    | "model"
+    | "count"
+    | "probability"
+    | "quantity"
+    | "point"
+    | "planar_point"
+    | "outline"
+    | "velocity"
+    | "heights"
+    | "robots"
+    | "robot_groups"
+    | "parameters"
+    | "model_parameters"
+    | "table"
+    | "tables"
+    | "switch";
+  /** What a number measures. */
+  "x-quantity"?:
+    | "probability"
+    | "duration"
+    | "length"
+    | "angle"
+    | "speed"
+    | "rate_of_turn"
+    | "acceleration"
+    | "mass"
+    | "linear_drag"
+    | "bit_rate"
+    | "rate"
+    | "ratio";
+  /** In which units it may be written, from small to great. */
+  "x-units"?: string[];
+  /** The unit of the bounds; SI if there is none. */
+  "x-unit"?: string;
+  "x-minimum"?: number;
+  "x-exclusive-minimum"?: number;
+  "x-maximum"?: number;
+  /** What holds where the field is left out, in words, if `default` does not say it. */
+  "x-default"?: string;
+}
+
+/** A part of a file, counted as in a Diagnostic. */
+export interface FileRange {
+  line: number;
+  column: number;
+  end_line: number;
+  end_column: number;
+}
+
+/** A place between two characters, as the Language Server Protocol counts: both numbers from 0. */
+export interface Position {
+  line: number;
+  /** In UTF-16 units, as the indices of strings in JavaScript. */
+  character: number;
+}
+
+/** The end is excluded. */
+export interface Range {
+  start: Position;
+  end: Position;
+}
+
+export interface Hover {
+  /** The name that it is about. */
+  range: Range;
+  markdown: string;
+}
+
+export interface Completion {
+  label: string;
+  kind: CompletionKind;
+  /** How it is declared. */
+  detail: string | null;
+  /** In Markdown. */
+  documentation: string | null;
+  /** What to put in the place of `range`. */
+  insert: string;
+  /** Where the cursor belongs in `insert`: so many UTF-16 units stand before it. */
+  cursor: number;
+  /** What it replaces: the word that is being typed. */
+  range: Range;
+}
+
+export type CompletionKind =
+  | "class"
+  | "constant"
+  | "enum"
+  | "enum_member"
+  | "event"
+  | "field"
+  | "function"
+  | "keyword"
+  | "method"
+  | "module"
+  | "property"
+  | "struct"
+  | "variable";
+
+export interface Definition {
+  /** One of the files; or, as `starl-library:/geometry.starl`, a text that is part of the language. */
+  path: string;
+  /** The name there. */
+  range: Range;
+  /** The text of what is part of the language; null for one of the files. */
+  text: string | null;
+}
+
+export interface OutlinePart {
+  name: string;
+  kind:
+    | "enum"
+    | "variant"
+    | "record"
+    | "field"
+    | "message"
+    | "parameter"
+    | "constant"
+    | "variable"
+    | "primitive"
+    | "function"
+    | "action"
+    | "handler"
+    | "role"
+    | "property";
+  /** More that is worth seeing, such as its type. */
+  detail: string | null;
+  /** All of it, without the comments above. */
+  range: Range;
+  name_range: Range;
+  parts: OutlinePart[];
 }
 
 /** How far a run is. */
@@ -106,6 +285,35 @@ export interface Status {
   outcome: Outcome | null;
   /** How many physics steps the call has made. */
   steps: number;
+  /** The breakpoint that was met in the last of these steps; null if none was. */
+  stopped: Stopped | null;
+}
+
+/** Where a run stops. A robot that is absent or null is any robot. */
+export type Breakpoint =
+  /** An action fires; one of a role is called `role.name`. */
+  | { action: { name: string; robot?: number | null } }
+  /**
+   * A datagram is delivered: any, or one that carries this message. A message is known if it comes by Unicast, by
+   * Geocast, or by Broadcast but in total order, and the receiver's program, in the StarL language, handles it.
+   */
+  | { message: { name?: string | null; robot?: number | null } }
+  /**
+   * A Bool of the StarL language becomes true, as in a property: of a robot if it has no quantifier, else of the robots
+   * that run the program. One that is true already has to become false first.
+   */
+  | { when: { expression: string } };
+
+/** Why a run has stopped. */
+export interface Stopped {
+  /** Which breakpoint, by its place in the list. */
+  breakpoint: number;
+  /** When that happened. */
+  at: number;
+  /** On which robot; null if it is about the fleet. */
+  robot: number | null;
+  /** What happened, in one line. */
+  text: string;
 }
 
 export type Outcome = "reached" | "violated" | "timed_out" | "failed";
@@ -129,11 +337,18 @@ export class Simulation {
   /** Makes one physics step, also when the run is over. */
   step(): Status;
   /**
-   * Makes physics steps until the run is over, the time `until` has come, or `steps` are made; to the end if
-   * neither is given. With a period `sample` in seconds of simulated time, it keeps a frame after each step that
+   * Makes physics steps until the run is over, the time `until` has come, `steps` are made, or a breakpoint is met; to
+   * the end if none of these is given. With a period `sample` in seconds of simulated time, it keeps a frame after each step that
    * reaches or passes a multiple of the period: see `frames()`.
    */
   run(budget?: { until?: number; steps?: number; sample?: number }): Status;
+  /**
+   * Replaces the breakpoints: `run` stops after the step in which one is met, and `step` says so. They make no
+   * difference to the run, and stay when it goes back to a snapshot. Throws a StarlError if one makes no sense; then
+   * those that there were stay. Problems of an expression are its diagnostics: their places are in the expression, and
+   * their field is `breakpoints.0.when.expression`, with the place in the list.
+   */
+  breakpoints(breakpoints: Breakpoint[]): void;
   /**
    * Steers the run: at the time `at`, or at once if that is not given or has passed. Throws a StarlError that says
    * what is wrong with the intervention.
@@ -147,6 +362,11 @@ export class Simulation {
   drop(snapshot: number): void;
   /** The scenario as a file, with all that was applied: run from the start, it goes as this run went. */
   scenario(): string;
+  /**
+   * The run up to the present moment as a trace, an MCAP file: docs/reference/trace.md. The run is made again for it,
+   * which takes as long.
+   */
+  trace(): Uint8Array;
   /** Takes up to `max` records, the oldest first; all if `max` is not given. */
   records(max?: number): Batch;
   world(): World;

@@ -59,12 +59,41 @@ export class Starl {
     return this.request({ check: { files: contents(files) } });
   }
 
+  schema() {
+    return this.request({ schema: {} });
+  }
+
+  hover(files, path, position) {
+    return this.request({ hover: { files: contents(files), path, position } });
+  }
+
+  complete(files, path, position) {
+    return this.request({ complete: { files: contents(files), path, position } });
+  }
+
+  definition(files, path, position) {
+    return this.request({ definition: { files: contents(files), path, position } });
+  }
+
+  outline(files, path) {
+    return this.request({ outline: { files: contents(files), path } });
+  }
+
+  format(text) {
+    return this.request({ format: { text } });
+  }
+
   open(files, options = {}) {
     const { topics, seed, ...rest } = options;
     if (seed !== undefined) rest.seed = String(seed);
     const open = { files: contents(files), options: rest };
     if (topics !== undefined) open.topics = [...topics];
     return new Simulation(this, this.request({ open }));
+  }
+
+  openRecorded(recorded, { topics } = {}) {
+    const open_recorded = { recorded, topics: topics && Array.from(topics) };
+    return new Simulation(this, this.request({ open_recorded }));
   }
 
   /** Hands over a request as the module takes it, and gives what it answers. */
@@ -159,6 +188,10 @@ export class Simulation {
     return this.#request("run", { until: end, steps, sample: moment(sample) });
   }
 
+  breakpoints(breakpoints) {
+    this.#request("breakpoints", { breakpoints });
+  }
+
   apply(intervention, { at } = {}) {
     this.#request("apply", { at: moment(at), intervention });
   }
@@ -177,6 +210,10 @@ export class Simulation {
 
   scenario() {
     return this.#request("scenario");
+  }
+
+  trace() {
+    return Uint8Array.from(atob(this.#request("trace")), (character) => character.charCodeAt(0));
   }
 
   records(max) {

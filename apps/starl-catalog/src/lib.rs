@@ -10,6 +10,8 @@ mod explore;
 pub mod language;
 mod parameters;
 pub mod programs;
+pub mod recording;
+pub mod schema;
 pub mod service;
 pub mod session;
 mod start;

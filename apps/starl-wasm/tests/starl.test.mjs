@@ -110,6 +110,27 @@ test("what is wrong with files has a place", async () => {
   );
 });
 
+test("an editor is told of names, completions, declarations and parts", async () => {
+  const starl = await load(module);
+  const files = { "counter.starl": COUNTER };
+  const place = (word, behind = 0) => {
+    const before = COUNTER.slice(0, COUNTER.indexOf(word) + behind).split("\n");
+    return { line: before.length - 1, character: before.at(-1).length };
+  };
+  assert.match(starl.hover(files, "counter.starl", place("count >=")).markdown, /count: Int = 0/);
+  const { path, range, text } = starl.definition(files, "counter.starl", place("count + 1"));
+  assert.deepEqual([path, range.start, text], ["counter.starl", { line: 2, character: 0 }, null]);
+  const offered = starl.complete(files, "counter.starl", place("finish()", 3));
+  const finish = offered.find((item) => item.label === "finish");
+  assert.deepEqual([finish.insert, finish.cursor, finish.range.start], ["finish", 6, place("finish()")]);
+  assert.deepEqual(
+    starl.outline(files, "counter.starl").map((part) => part.name),
+    ["count", "stop", "tick"],
+  );
+  assert.equal(starl.format(COUNTER.replace("count: Int = 0", "count:Int=0")), COUNTER);
+  assert.throws(() => starl.hover(files, "none.starl", place("count")), /none.starl: there is no such file/);
+});
+
 test("files can be bytes", async () => {
   const starl = await load(module);
   const simulation = starl.open({ "counter.starl": new TextEncoder().encode(COUNTER) }, { robots: "create=2" });
@@ -135,6 +156,33 @@ test("a run can be steered", async () => {
   assert.throws(() => simulation.apply({ fault: { crash: [77] } }), /there is no robot 77/);
   assert.throws(() => simulation.apply({ push: {} }), StarlError);
   assert.throws(() => simulation.apply({ leave: [1] }, { at: Number.NaN }), StarlError);
+});
+
+test("a run stops at breakpoints", async () => {
+  const simulation = (await load(module)).open({}, { scenario: "race", set: ["program=race.starl"] });
+  simulation.breakpoints([{ action: { name: "pick", robot: 1 } }, { when: { expression: "currentIndex >= 1" } }]);
+  const { stopped, over } = simulation.run();
+  assert.deepEqual([stopped.breakpoint, stopped.robot, over], [0, 1, false]);
+  const snapshot = simulation.snapshot();
+  simulation.breakpoints([{ when: { expression: "currentIndex >= 1" } }]);
+  const second = simulation.run().stopped;
+  assert.equal(typeof second.robot, "number");
+  simulation.restore(snapshot);
+  assert.deepEqual(simulation.run().stopped, second);
+  assert.throws(
+    () => simulation.breakpoints([{ when: { expression: "currentIndex >= 1 and lost" } }]),
+    (error) => error instanceof StarlError && error.diagnostics[0].column === 23,
+  );
+  simulation.breakpoints([]);
+  assert.equal(simulation.run().stopped, null);
+});
+
+test("the schema has every field in the order of the reference", async () => {
+  const schema = (await load(module)).schema();
+  assert.deepEqual(Object.keys(schema.properties).slice(0, 4), ["title", "program", "seed", "duration"]);
+  assert.deepEqual(schema.required, ["robots"]);
+  const { delay, loss } = schema.properties.network.properties;
+  assert.deepEqual([delay["x-quantity"], delay.default, loss["x-quantity"]], ["duration", "15ms", "probability"]);
 });
 
 test("what is no request is refused", async () => {

@@ -46,6 +46,12 @@ pub enum Command {
     Explain(ExplainArguments),
     /// Serve an editor: the Language Server Protocol on standard input and output
     Lsp(LspArguments),
+    /// Show what a trace has recorded, in a browser
+    View(ViewArguments),
+    /// Serve the page with the simulator in it, for a browser on this machine
+    Web(PageArguments),
+    /// Print the fields of scenario files as a JSON Schema, for editors of TOML files
+    Schema,
     /// Show the examples, programs, robot models and planners
     List(ListArguments),
     /// Measure the simulator's speed and memory
@@ -95,6 +101,36 @@ pub struct RunArguments {
     /// Print nothing but errors and violations
     #[arg(long)]
     pub quiet: bool,
+    /// Show the run in a browser, and steer it there
+    #[arg(long, conflicts_with_all = ["trace", "plot", "json"])]
+    pub open: bool,
+    /// The page, with `open`.
+    #[command(flatten)]
+    pub page: PageArguments,
+}
+
+/// How the page is served to a browser.
+#[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
+pub struct PageArguments {
+    /// The port on 127.0.0.1 to serve the page at [default: one that is free]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub port: Option<u16>,
+    /// Print the page's address, and open no browser
+    #[arg(long)]
+    pub no_browser: bool,
+    /// Serve the page in this folder in the place of the one that is built in
+    #[arg(long = "page", value_name = "DIR")]
+    pub folder: Option<PathBuf>,
+}
+
+/// Arguments of `starl view`.
+#[derive(Args, Debug)]
+pub struct ViewArguments {
+    /// A file that `starl run --trace` wrote
+    pub trace: PathBuf,
+    /// The page.
+    #[command(flatten)]
+    pub page: PageArguments,
 }
 
 /// What changes a target that is run many times, or drawn.
@@ -134,6 +170,8 @@ impl ChangeArguments {
             plot: None,
             json: false,
             quiet,
+            open: false,
+            page: PageArguments::default(),
         }
     }
 }

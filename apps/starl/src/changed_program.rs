@@ -1,10 +1,11 @@
 //! A recorded scenario with another text in the place of a robot's program.
 
 use crate::failure::Failure;
-use crate::{recording, target};
+use crate::target;
 use starl_catalog::Application;
 use starl_catalog::language::SUFFIX;
 use starl_catalog::programs::Registry;
+use starl_catalog::recording;
 use starl_core::RobotId;
 use starl_sim::read::{Inputs, Loader};
 use starl_trace::Header;

@@ -7,7 +7,7 @@ use crate::output::identity;
 use crate::sources::{self, Source};
 use serde::Serialize;
 use starl_lang::check::{Checked, CheckedFile, check};
-use starl_lang::compile::compile;
+use starl_lang::compile::problems;
 use starl_lang::diagnostic::{Code, Colour, Diagnostic, Severity, has_errors, render, reports};
 use starl_lang::ir::Program;
 use std::collections::BTreeSet;
@@ -18,7 +18,7 @@ pub fn run(arguments: &CheckArguments) -> Result<bool, Failure> {
     let (sources, mut failures) = sources::find(&arguments.files);
     let mut findings = Findings::new(&sources);
     for source in &sources {
-        match examine(source, what_cannot_run) {
+        match examine(source, problems) {
             Ok(examined) => {
                 failures.extend(examined.failures);
                 findings.files += 1;
@@ -96,14 +96,6 @@ pub fn examine(
         files: examinees,
         failures: libraries.failures(),
     })
-}
-
-/// What keeps a program that is correct from being run.
-fn what_cannot_run(checked: &Checked) -> Vec<Diagnostic> {
-    if checked.has_errors() {
-        return Vec::new();
-    }
-    compile(checked).err().unwrap_or_default()
 }
 
 impl Examinee {

@@ -1,4 +1,4 @@
-//! The one command of StarL: checks, explains, runs, replays, judges, tests, draws, lists and measures. See
+//! The one command of StarL: checks, explains, runs, replays, shows, judges, tests, draws, lists and measures. See
 //! `docs/reference/command.md`.
 //!
 //! As a library it is the same command with programs of one's own:
@@ -41,7 +41,6 @@ mod outputs;
 mod paths;
 mod plot;
 mod progress;
-mod recording;
 mod replay;
 mod replay_robot;
 mod report;
@@ -53,6 +52,11 @@ mod test;
 mod threads;
 mod trace_output;
 mod verify;
+#[cfg(feature = "web")]
+mod web;
+#[cfg(not(feature = "web"))]
+#[path = "no_web.rs"]
+mod web;
 
 pub use starl_catalog::Parameters;
 
@@ -60,6 +64,7 @@ use args::{Arguments, Command};
 use clap::Parser;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use starl_catalog::programs::Registry;
+use starl_catalog::schema::schema;
 use starl_core::Program;
 use std::process::ExitCode;
 
@@ -104,6 +109,7 @@ impl CommandLine {
         let registry = &self.registry;
         let result = match &arguments.command {
             Command::Explore(arguments) => return exit(explore::run(arguments, registry)),
+            Command::Run(arguments) if arguments.open => web::serve_run(arguments, registry),
             Command::Run(arguments) => run::run(arguments, registry),
             Command::Replay(arguments) => match &arguments.robot {
                 Some(name) => replay_robot::replay(arguments, name, registry),
@@ -116,6 +122,9 @@ impl CommandLine {
             Command::Fmt(arguments) => fmt::run(arguments),
             Command::Explain(arguments) => explain::run(arguments),
             Command::Lsp(_) => lsp::run(),
+            Command::View(arguments) => web::serve_trace(arguments),
+            Command::Web(arguments) => web::serve_page(arguments),
+            Command::Schema => json::print(&schema()).map(|()| true),
             Command::List(arguments) => list::list(arguments, registry),
             Command::Bench(arguments) => bench::bench(arguments),
         };

@@ -9,6 +9,8 @@ use crate::target;
 use starl_catalog::examples::Example;
 use starl_catalog::language::Findings;
 use starl_sim::read::Loader;
+#[cfg(feature = "web")]
+use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
 /// Where files come from.
@@ -100,6 +102,18 @@ impl Origin {
             (_, Scenario::Example(example)) => example.global_name(key),
             _ => key.to_string(),
         }
+    }
+
+    /// The names that an example's programs have everywhere, by those that they have in its scenario.
+    #[cfg(feature = "web")]
+    pub fn global_names(&self) -> BTreeMap<String, String> {
+        let Scenario::Example(example) = &self.scenario else {
+            return BTreeMap::new();
+        };
+        let programs = example.programs();
+        programs
+            .map(|own| (own.to_string(), example.global_name(own)))
+            .collect()
     }
 
     /// The file on disk that a path of the scenario means; none if it is part of the command.

@@ -1,6 +1,6 @@
 //! `starl run`: runs a scenario in the simulator and tells what came of it.
 
-use crate::args::RunArguments;
+use crate::args::{PageArguments, RunArguments};
 use crate::failure::Failure;
 use crate::outputs::{Outputs, Picture};
 use crate::progress::Progress;
@@ -17,6 +17,12 @@ use std::time::Instant;
 
 /// Runs what the arguments say; whether the goal was reached and no property violated.
 pub fn run(arguments: &RunArguments, registry: &Registry) -> Result<bool, Failure> {
+    if arguments.page != PageArguments::default() {
+        let options = "--port, --no-browser and --page";
+        return Err(Failure(format!(
+            "{options} say how --open shows the run; add --open"
+        )));
+    }
     let picture = arguments.plot.as_deref().map(Picture::of).transpose()?;
     let Selection {
         application, files, ..
@@ -93,13 +99,21 @@ fn drive(
 pub fn stop_on_interrupt() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = stop.clone();
+    on_interrupt(move || flag.store(true, Ordering::Relaxed));
+    stop
+}
+
+/// Does this when someone presses Ctrl-C or asks the process to end; the second time ends it at once.
+pub fn on_interrupt(stop: impl Fn() + Send + 'static) {
+    let mut is_second = false;
     // Without a handler Ctrl-C still ends the process, only less kindly.
     let _ = ctrlc::set_handler(move || {
-        if flag.swap(true, Ordering::Relaxed) {
+        if is_second {
             std::process::exit(130);
         }
+        is_second = true;
+        stop();
     });
-    stop
 }
 
 fn tell(arguments: &RunArguments, report: &Report) -> Result<(), Failure> {

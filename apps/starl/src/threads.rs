@@ -1,6 +1,7 @@
 //! On how many threads robots step. The results are the same on any number.
 
 use crate::failure::Failure;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 /// Fleets up to this size step on one thread unless told otherwise: what they would gain from more
 /// is lost again in handing work over.
@@ -17,12 +18,18 @@ pub fn count(asked: Option<u32>, robots: usize) -> usize {
 
 /// Does `job` where so many threads are at hand.
 pub fn with<T: Send>(threads: usize, job: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+    Ok(match pool(threads)? {
+        Some(pool) => pool.install(job),
+        None => job(),
+    })
+}
+
+/// So many threads; none where one is enough, which is there already.
+pub fn pool(threads: usize) -> Result<Option<ThreadPool>, Failure> {
     if threads <= 1 {
-        return Ok(job());
+        return Ok(None);
     }
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|error| Failure(format!("{threads} threads cannot be started: {error}")))?;
-    Ok(pool.install(job))
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map(Some)
+        .map_err(|error| Failure(format!("{threads} threads cannot be started: {error}")))
 }

@@ -7,7 +7,7 @@
 
 use crate::failure::Failure;
 use crate::output::create_now;
-use crate::recording;
+use starl_catalog::recording;
 use starl_core::{Record, Time};
 use starl_host::journal::{self, Packer};
 use starl_properties::Setting;

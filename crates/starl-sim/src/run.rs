@@ -125,6 +125,11 @@ impl Run {
         &self.records
     }
 
+    /// What happened in the last [`Run::step`], violations included.
+    pub fn records(&self) -> &[Record] {
+        &self.records
+    }
+
     /// Advances by one physics step for those who do not want to know what happened in it.
     pub fn advance(&mut self) {
         self.simulation.step();

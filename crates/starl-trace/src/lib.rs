@@ -30,7 +30,7 @@ mod writer;
 pub use compare::{Comparison, Difference, first_difference};
 pub use error::{Progress, TraceError, WriteError};
 pub use header::{FORMAT_VERSION, Header, RobotEntry};
-pub use list::json_list;
+pub use list::{json_bytes, json_list};
 pub use reader::{Inputs, Item, Reader, Trace, read};
 pub use summary::{Outcome, Summary};
 pub use topic::Topic;

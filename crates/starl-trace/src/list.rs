@@ -1,4 +1,4 @@
-//! Records as one JSON text, for hosts that show a run while it goes on.
+//! Records and whole traces as one JSON text, for hosts that show a run while it goes on.
 
 use crate::json::Json;
 use crate::{Topic, encode};
@@ -18,5 +18,12 @@ pub fn json_list<'a>(records: impl IntoIterator<Item = &'a Record>) -> Vec<u8> {
         json.mark(b'}');
     }
     json.mark(b']');
+    json.bytes().to_vec()
+}
+
+/// Bytes as a JSON text in base 64 (RFC 4648, section 4).
+pub fn json_bytes(bytes: &[u8]) -> Vec<u8> {
+    let mut json = Json::default();
+    json.base64(bytes);
     json.bytes().to_vec()
 }

@@ -1,5 +1,7 @@
 // What there is to know of the run, and how to steer it.
 
+import { Breakpoints } from "../breakpoints/Breakpoints.tsx";
+import { Compare } from "../compare/Compare.tsx";
 import { Log } from "../inspect/Log.tsx";
 import { Properties } from "../inspect/Properties.tsx";
 import { Robots } from "../inspect/Robots.tsx";
@@ -19,6 +21,10 @@ export function Side() {
     { name: "log", label: "Log", panel: Log },
     { name: "plots", label: "Plots", panel: Plots },
   ];
-  if (run.live.value) tabs.push({ name: "steer", label: "Steer", panel: Steer });
+  if (run.live.value) {
+    tabs.push({ name: "steer", label: "Steer", panel: Steer });
+    tabs.push({ name: "breakpoints", label: "Breakpoints", panel: Breakpoints });
+  }
+  tabs.push({ name: "compare", label: "Compare", panel: Compare });
   return <Tabs tabs={tabs} chosen={sideTab} label="Inspector" />;
 }

@@ -45,6 +45,13 @@ export class Client {
     this.#worker = this.#start();
   }
 
+  /** Ends the worker for good. */
+  end(): void {
+    this.#worker.terminate();
+    for (const { reject } of this.#waiting.values()) reject(new EngineError("the run was ended"));
+    this.#waiting.clear();
+  }
+
   #start(): Worker {
     const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
     worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.#hear(data);

@@ -154,8 +154,17 @@ export class Playback {
         this.#summary = message as unknown as Summary;
         return;
       case "/starl/violation": {
-        const { property, text, robot } = message as unknown as { property: string; text: string; robot?: number };
-        this.#violations.push({ property, text, at: time_ns / 1e9, robots: robot === undefined ? [] : [robot] });
+        const { property, text, robot } = message as unknown as {
+          property: string;
+          text: string;
+          robot?: number;
+        };
+        this.#violations.push({
+          property,
+          text,
+          at: time_ns / 1e9,
+          robots: robot === undefined ? [] : [robot],
+        });
         break;
       }
       case "/starl/status":
@@ -256,7 +265,11 @@ function describe(
     warnings: [],
     fleet: world.robots.map((robot) => ({ ...robot, program, condition: "running" })),
     world: {
-      obstacles: world.obstacles.map((obstacle, index) => ({ index, obstacle: shape(obstacle), hidden: false })),
+      obstacles: world.obstacles.map((obstacle, index) => ({
+        index,
+        obstacle: shape(obstacle),
+        hidden: false,
+      })),
       way_points: world.way_points,
       things: [],
     },
@@ -266,7 +279,12 @@ function describe(
 
 /** An obstacle of a trace, as the simulator gives it. */
 function shape(obstacle: unknown): World["obstacles"][number]["obstacle"] {
-  const { circle, polygon, box, height = null } = obstacle as {
+  const {
+    circle,
+    polygon,
+    box,
+    height = null,
+  } = obstacle as {
     circle?: { center: { x: number; y: number; z: number }; radius: number };
     polygon?: { x: number; y: number; z: number }[];
     box?: { low: { x: number; y: number; z: number }; high: { x: number; y: number; z: number } };

@@ -8,8 +8,8 @@ import { seconds } from "../app/format.ts";
 import type { Event } from "../run/events.ts";
 import { describe } from "../timeline/lanes.ts";
 import { Filtered } from "./filtered.ts";
-import { KINDS, kindNameOf } from "./kinds.ts";
-import { kindOf, nameOf } from "./names.ts";
+import { KINDS, kindNameOf, kindOf } from "./kinds.ts";
+import { nameOf } from "./names.ts";
 import { VirtualList } from "./VirtualList.tsx";
 import "../styles/log.css";
 

@@ -1,6 +1,6 @@
 // All that is known of the chosen robots at the moment shown, beside each other, with what has just changed marked.
 
-import { signal } from "@preact/signals";
+import { signal, useSignal } from "@preact/signals";
 import { colorOf } from "../app/colors.ts";
 import { run } from "../app/context.ts";
 import { Quick } from "../meddle/Quick.tsx";
@@ -84,16 +84,24 @@ function Cell({ fact, change }: { fact: Fact | undefined; change: { before: stri
   const was = change && (change.before === null ? "new" : `was ${short(change.before)}`);
   return (
     <td class={`${mark ?? ""} ${change ? "changed" : ""}`} title={hint}>
-      {value.length > LONG ? (
-        <details>
-          <summary>{short(value)}</summary>
-          <pre>{unfold(value.slice(0, MOST))}</pre>
-        </details>
-      ) : (
-        <span class="value">{value}</span>
-      )}
+      {value.length > LONG ? <Long value={value} /> : <span class="value">{value}</span>}
       {was && <span class="was"> {was}</span>}
     </td>
+  );
+}
+
+/** A value that is folded up until a person wants to see all of it. */
+function Long({ value }: { value: string }) {
+  const open = useSignal(false);
+  return (
+    <details
+      onToggle={(event) => {
+        open.value = event.currentTarget.open;
+      }}
+    >
+      <summary>{short(value)}</summary>
+      {open.value && <pre>{unfold(value.slice(0, MOST))}</pre>}
+    </details>
   );
 }
 

@@ -1,7 +1,5 @@
 // The kinds of events that a person can choose between.
 
-import { kindOf } from "./names.ts";
-
 export interface Kind {
   name: string;
   topics: string[];
@@ -17,6 +15,9 @@ export const KINDS: Kind[] = [
   { name: "Messages", topics: ["sent", "delivered", "dropped"] },
   { name: "Drawings", topics: ["mark"] },
 ];
+
+/** `/starl/action` as `action`. */
+export const kindOf = (topic: string): string => topic.slice(topic.lastIndexOf("/") + 1);
 
 const KIND_OF = new Map(KINDS.flatMap(({ name, topics }) => topics.map((topic) => [topic, name])));
 

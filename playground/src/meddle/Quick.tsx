@@ -14,7 +14,7 @@ export function Quick({ robot, condition }: { robot: number; condition: Conditio
           type="button"
           class="small"
           aria-label={`Crash ${nameOf(robot)}`}
-          onClick={() => steer({ fault: { crash: [robot] } }, `crash of ${nameOf(robot)}`)}
+          onClick={() => steer({ fault: { crash: [robot] } })}
         >
           Crash
         </button>
@@ -23,7 +23,7 @@ export function Quick({ robot, condition }: { robot: number; condition: Conditio
         type="button"
         class="small"
         aria-label={`Restart ${nameOf(robot)}`}
-        onClick={() => steer({ fault: { restart: [robot] } }, `restart of ${nameOf(robot)}`)}
+        onClick={() => steer({ fault: { restart: [robot] } })}
       >
         Restart
       </button>

@@ -4,19 +4,25 @@ import { signal } from "@preact/signals";
 import { run } from "../app/context.ts";
 import { seconds } from "../app/format.ts";
 import type { Intervention } from "../engine/types.ts";
+import { nameOf } from "../inspect/names.ts";
+import { wordsOf } from "./words.ts";
 
 /** What became of the last act. */
 export const said = signal<{ good: boolean; text: string } | null>(null);
 
-/** Applies an intervention at the moment shown; `what` says it in words. Returns whether it was accepted. */
-export async function steer(intervention: Intervention, what: string): Promise<boolean> {
+/** Applies an intervention at the moment shown. Returns whether it was accepted. */
+export async function steer(intervention: Intervention): Promise<boolean> {
+  const what = wordsOf(intervention, nameOf);
   try {
     await run.apply(intervention);
-    said.value = { good: true, text: `${seconds(run.now.value)}: ${what}.` };
+    said.value = {
+      good: true,
+      text: `At ${seconds(run.now.value)}: ${what}. It takes effect in the next step.`,
+    };
     return true;
   } catch (error) {
     const reason = error instanceof Error ? error.message : String(error);
-    said.value = { good: false, text: `Not done (${what}): ${reason}` };
+    said.value = { good: false, text: `Refused (${what}): ${reason}` };
     return false;
   }
 }

@@ -40,7 +40,7 @@ export interface Frame {
 }
 
 /** More events are not looked at for one picture. */
-const MOST = 20_000;
+const MOST = 8_000;
 /** How far a message with no end goes, px. */
 const STUB = 22;
 /** Where on its way a lost message ends, as a share. */

@@ -8,7 +8,7 @@ import { end } from "../timeline/Transport.tsx";
 export const AXIS = 62;
 export const HEAD = 26;
 const NARROWEST = 58;
-const WIDEST = 170;
+const WIDEST = 320;
 /** Where the moment shown is while the diagram follows it: a share of the height. */
 const NOW_AT = 0.8;
 /** s */

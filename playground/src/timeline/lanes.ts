@@ -1,6 +1,7 @@
 // What the timeline marks, in lanes from top to bottom, each with a colour and a shape of its own.
 
 import type { TraceRecord } from "../engine/types.ts";
+import { recorded, wordsOf } from "../meddle/words.ts";
 
 export interface Lane {
   name: string;
@@ -13,12 +14,19 @@ export interface Lane {
 export const LANES: Lane[] = [
   { name: "Violations", topics: ["violation", "collision"], shape: "cross", color: "--violation" },
   { name: "Faults", topics: ["fault", "intervention"], shape: "triangle", color: "--fault" },
-  { name: "Programs", topics: ["program", "status", "thing", "discovered"], shape: "diamond", color: "--program" },
+  {
+    name: "Programs",
+    topics: ["program", "status", "thing", "discovered"],
+    shape: "diamond",
+    color: "--program",
+  },
   { name: "Primitives", topics: ["primitive"], shape: "dot", color: "--primitive" },
   { name: "Log", topics: ["log"], shape: "bar", color: "--log" },
 ];
 
-const LANE_OF = new Map(LANES.flatMap((lane, index) => lane.topics.map((topic) => [`/starl/${topic}`, index])));
+const LANE_OF = new Map(
+  LANES.flatMap((lane, index) => lane.topics.map((topic) => [`/starl/${topic}`, index])),
+);
 
 export const laneOf = ({ topic }: TraceRecord): number | undefined => LANE_OF.get(topic);
 
@@ -36,7 +44,7 @@ export function describe({ topic, message }: TraceRecord, name: (robot: number) 
     case "/starl/fault":
       return `${who}${text("text")}`;
     case "/starl/intervention":
-      return `${who}steered: ${text("intervention")}`;
+      return `${who}steered: ${steered(message.intervention, name)}`;
     case "/starl/status":
       return `${who}${text("status")}${message.reason ? `: ${text("reason")}` : ""}`;
     case "/starl/primitive":
@@ -62,6 +70,11 @@ export function describe({ topic, message }: TraceRecord, name: (robot: number) 
   }
 }
 
+function steered(text: unknown, name: (robot: number) => string): string {
+  const intervention = recorded(text);
+  return intervention ? wordsOf(intervention, name) : String(text);
+}
+
 /** The fields of an event: ` target=r2, at=(1.00, 2.00)`. */
 function fields(list: unknown): string {
   if (!Array.isArray(list) || list.length === 0) return "";
@@ -70,7 +83,8 @@ function fields(list: unknown): string {
 
 function short(value: unknown): string {
   if (typeof value === "number") return Number.isInteger(value) ? String(value) : value.toFixed(2);
-  if (Array.isArray(value)) return value.length > 4 ? `${value.length} values` : `[${value.map(short).join(", ")}]`;
+  if (Array.isArray(value))
+    return value.length > 4 ? `${value.length} values` : `[${value.map(short).join(", ")}]`;
   if (value && typeof value === "object" && "x" in value && "y" in value) {
     return `(${short(value.x)}, ${short(value.y)})`;
   }

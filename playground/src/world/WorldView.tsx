@@ -30,6 +30,7 @@ export function WorldView() {
         ref={element}
         class="world-picture"
         role="application"
+        // biome-ignore lint/a11y/noNoninteractiveTabindex: an application takes keys
         tabIndex={0}
         aria-label={`World with ${robots} ${robots === 1 ? "robot" : "robots"}`}
         aria-describedby="world-keys"

@@ -8,11 +8,13 @@ import type { Box, Place } from "./view.ts";
 
 /** How far back movement counts, s. */
 const RECENT = 6;
+/** Of larger fleets, so many are looked at. */
+const LOOKED_AT = 250;
 /** Of more robots than this, those far from the others do not count. */
 const FEW = 12;
-const SHARE_OF_MANY = 0.6;
-/** Way-points and obstacles count while they make the view at most this many times as large. */
-const SURROUNDINGS = 2.5;
+const SHARE_OF_MANY = 0.5;
+/** Way-points and obstacles around few robots, and around many, count while the view is at most so many times as large. */
+const [AROUND_FEW, AROUND_MANY] = [6, 1.5];
 
 export function boxOf(places: Place[]): Box | null {
   const [first] = places;
@@ -35,7 +37,8 @@ export function movingBox(poses: ArrayLike<number>, history: History, now: numbe
   const earlier = history.frames[Math.max(0, history.indexAt(now - RECENT))]?.poses ?? poses;
   const moved: Place[] = [];
   const present: Place[] = [];
-  for (let robot = 0; robot < count; robot++) {
+  const step = Math.ceil(count / LOOKED_AT);
+  for (let robot = 0; robot < count; robot += step) {
     const at = robot * POSE_NUMBERS;
     const condition = poses[at + POSE_NUMBERS - 1];
     if (condition === LEFT) continue;
@@ -48,10 +51,13 @@ export function movingBox(poses: ArrayLike<number>, history: History, now: numbe
   const places = moved.length > 0 ? central(moved, 2 * FEW) : central(present, FEW);
   const robots = boxOf(places);
   if (!robots) return surroundings(world);
-  const around = present.length <= FEW ? joined(robots, boxOf(present) ?? robots) : robots;
+  const few = present.length <= FEW;
+  const around = few ? joined(robots, boxOf(present) ?? robots) : robots;
   const stands = surroundings(world);
   const whole = stands && joined(around, stands);
-  return padded(whole && size(whole) <= Math.max(4, SURROUNDINGS * size(around)) ? whole : around);
+  return padded(
+    whole && size(whole) <= Math.max(4, (few ? AROUND_FEW : AROUND_MANY) * size(around)) ? whole : around,
+  );
 }
 
 /** Around everything there is. */
@@ -64,7 +70,7 @@ export function wholeBox(poses: ArrayLike<number>, world: World): Box | null {
 }
 
 /** The corners of an obstacle's base. */
-export function footprint({ shape }: Obstacle): { x: number; y: number }[] {
+export function footprint(shape: Obstacle): { x: number; y: number }[] {
   if ("Polygon" in shape) return shape.Polygon.base;
   if ("Cuboid" in shape) {
     const { low, high } = shape.Cuboid;
@@ -78,7 +84,7 @@ export function footprint({ shape }: Obstacle): { x: number; y: number }[] {
 }
 
 /** From where to where an obstacle reaches; one without a height is drawn up to `sky`. */
-export function heights({ shape }: Obstacle, sky: number): { low: number; high: number } {
+export function heights(shape: Obstacle, sky: number): { low: number; high: number } {
   if ("Cuboid" in shape) return { low: shape.Cuboid.low.z, high: shape.Cuboid.high.z };
   const span = "Polygon" in shape ? shape.Polygon.height : shape.Circle.height;
   return span ? { low: Math.max(span.low, -sky), high: Math.min(span.high, 1e4) } : { low: 0, high: sky };

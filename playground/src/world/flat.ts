@@ -137,8 +137,7 @@ export class Flat implements Painter {
     for (const { robot, shape, points, radius } of happenings.marks.current.values()) {
       const [center] = points;
       if (shape === "text" || !center) continue;
-      if (shape === "circle")
-        this.#line(view, footprint({ shape: { Circle: { center, radius, height: null } } }));
+      if (shape === "circle") this.#line(view, footprint({ Circle: { center, radius, height: null } }));
       else this.#line(view, shape === "dot" ? [center, center] : points);
       this.#stroke(colors.css[robot] ?? "", shape === "dot" ? 9 : 4);
     }

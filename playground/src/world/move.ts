@@ -44,14 +44,14 @@ export function movedBy(target: Target, by: { x: number; y: number }, { world }:
   }
 }
 
-function shift({ shape }: Obstacle, shifted: (point: Point) => Point): Obstacle {
+function shift(shape: Obstacle, shifted: (point: Point) => Point): Obstacle {
   if ("Polygon" in shape) {
     const { base, height } = shape.Polygon;
-    return { shape: { Polygon: { base: base.map(shifted), height } } };
+    return { Polygon: { base: base.map(shifted), height } };
   }
   if ("Circle" in shape) {
-    return { shape: { Circle: { ...shape.Circle, center: shifted(shape.Circle.center) } } };
+    return { Circle: { ...shape.Circle, center: shifted(shape.Circle.center) } };
   }
   const { low, high } = shape.Cuboid;
-  return { shape: { Cuboid: { low: shifted(low), high: shifted(high) } } };
+  return { Cuboid: { low: shifted(low), high: shifted(high) } };
 }

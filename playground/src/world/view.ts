@@ -14,6 +14,7 @@ export interface Box {
 
 /** The angle of the picture's height, radians. */
 export const FIELD = (36 * Math.PI) / 180;
+const FIELD_TANGENT = 2 * Math.tan(FIELD / 2);
 /** Angles from the vertical in 3-D, radians. */
 const [STEEPEST, FLATTEST] = [0.02, 1.52];
 /** Metres across the shorter side of the picture. */
@@ -23,8 +24,9 @@ export class View {
   readonly target: Place = { x: 0, y: 0, z: 0 };
   /** Metres across the shorter side of the picture, at the place that is looked at. */
   span = 8;
-  /** The direction that is up on the screen from above, radians from the x axis. */
-  azimuth = Math.PI / 2;
+  /** The direction that is up on the screen, radians from the x axis: from above, and in 3-D. */
+  #north = Math.PI / 2;
+  #azimuth = 1.9;
   /** The angle between the line of sight and the vertical in 3-D, radians. */
   tilt = 0.87;
   flat = false;
@@ -47,7 +49,11 @@ export class View {
 
   /** From the eye to the place that is looked at, m. */
   get distance(): number {
-    return (this.pixel * this.height) / (2 * Math.tan(FIELD / 2));
+    return (this.pixel * this.height) / FIELD_TANGENT;
+  }
+
+  get azimuth(): number {
+    return this.flat ? this.#north : this.#azimuth;
   }
 
   setFlat(flat: boolean): void {
@@ -56,8 +62,11 @@ export class View {
   }
 
   turn(azimuth: number, tilt: number): void {
-    this.azimuth += azimuth;
-    this.tilt = Math.min(FLATTEST, Math.max(STEEPEST, this.tilt + tilt));
+    if (this.flat) this.#north += azimuth;
+    else {
+      this.#azimuth += azimuth;
+      this.tilt = Math.min(FLATTEST, Math.max(STEEPEST, this.tilt + tilt));
+    }
     const [sin, cos] = [Math.sin(this.azimuth), Math.cos(this.azimuth)];
     const [down, along] = this.flat ? [1, 0] : [Math.cos(this.tilt), Math.sin(this.tilt)];
     Object.assign(this.right, { x: sin, y: -cos, z: 0 });
@@ -88,8 +97,10 @@ export class View {
    * Written into `out` at `index`, without a new object: it is called for every robot and frame.
    */
   project(x: number, y: number, z: number, out: Float32Array, index = 0): void {
-    const [dx, dy, dz] = [x - this.target.x, y - this.target.y, z - this.target.z];
-    const { right, up, forward } = this;
+    const { target, right, up, forward } = this;
+    const dx = x - target.x;
+    const dy = y - target.y;
+    const dz = z - target.z;
     let scale = 1 / this.pixel;
     if (!this.flat) {
       const distance = this.distance;
@@ -124,37 +135,54 @@ export class View {
   }
 
   /** Looks at all of a box, with a margin in pixels at each side. */
-  fit({ low, high }: Box, margin = { x: 40, top: 60, bottom: 50 }): void {
-    const center = { x: (low.x + high.x) / 2, y: (low.y + high.y) / 2, z: (low.z + high.z) / 2 };
-    const half = { x: (high.x - low.x) / 2, y: (high.y - low.y) / 2, z: (high.z - low.z) / 2 };
-    const reach = (axis: Place) =>
-      Math.abs(axis.x) * half.x + Math.abs(axis.y) * half.y + Math.abs(axis.z) * half.z;
+  fit(box: Box, margin = { x: 36, top: 64, bottom: 44 }): void {
+    const { low, high } = box;
+    this.target.x = (low.x + high.x) / 2;
+    this.target.y = (low.y + high.y) / 2;
+    this.target.z = (low.z + high.z) / 2;
     const room = {
       x: Math.max(60, this.width - 2 * margin.x),
       y: Math.max(60, this.height - margin.top - margin.bottom),
     };
-    const pixel = Math.max((2 * reach(this.right)) / room.x, (2 * reach(this.up)) / room.y);
-    // Perspective makes the near half larger.
-    const larger = this.flat
-      ? 1
-      : 1 + reach(this.forward) / Math.max(1e-9, (pixel * this.height) / (2 * Math.tan(FIELD / 2)));
-    this.span = Math.min(MOST_SPAN, Math.max(0.5, pixel * larger * Math.min(this.width, this.height)));
-    Object.assign(this.target, center);
-    const shift = ((margin.top - margin.bottom) / 2) * this.pixel;
-    this.target.x += this.up.x * shift;
-    this.target.y += this.up.y * shift;
-    this.target.z += this.up.z * shift;
+    this.span = Math.max(0.5, 2 * Math.hypot(high.x - low.x, high.y - low.y, high.z - low.z));
+    // Perspective makes what is near larger, so the size is found step by step.
+    for (let step = 0; step < 6; step++) {
+      const { left, right, top, bottom } = this.#seen(box);
+      const factor = Math.max((right - left) / room.x, (bottom - top) / room.y, 0.5 / this.span);
+      this.span = Math.min(MOST_SPAN, this.span * factor);
+      const middle = { x: this.width / 2, y: margin.top + room.y / 2 };
+      this.#shift(middle.x - (left + right) / 2, middle.y - (top + bottom) / 2, factor);
+    }
   }
 
-  /** Whether a box is on the screen, all of it. */
-  holds(box: Box): boolean {
+  /** Moves what is seen by so many pixels, as they were before the view showed `factor` times as much. */
+  #shift(x: number, y: number, factor: number): void {
+    const pixel = this.pixel / factor;
+    for (const axis of ["x", "y", "z"] as const) {
+      this.target[axis] += (this.up[axis] * y - this.right[axis] * x) * pixel;
+    }
+  }
+
+  /** The part of the screen that a box takes, px. */
+  #seen(box: Box): { left: number; right: number; top: number; bottom: number } {
     const at = new Float32Array(3);
+    const seen = { left: Infinity, right: -Infinity, top: Infinity, bottom: -Infinity };
     for (let corner = 0; corner < 8; corner++) {
       const place = (axis: "x" | "y" | "z", bit: number) => (corner & bit ? box.high : box.low)[axis];
       this.project(place("x", 1), place("y", 2), place("z", 4), at);
       const [x = 0, y = 0, scale = 0] = at;
-      if (scale === 0 || x < 0 || y < 0 || x > this.width || y > this.height) return false;
+      if (scale === 0) return { left: -1e4, right: 1e4, top: -1e4, bottom: 1e4 };
+      seen.left = Math.min(seen.left, x);
+      seen.right = Math.max(seen.right, x);
+      seen.top = Math.min(seen.top, y);
+      seen.bottom = Math.max(seen.bottom, y);
     }
-    return true;
+    return seen;
+  }
+
+  /** Whether a box is on the screen, all of it. */
+  holds(box: Box): boolean {
+    const { left, right, top, bottom } = this.#seen(box);
+    return left >= 0 && top >= 0 && right <= this.width && bottom <= this.height;
   }
 }

@@ -19,7 +19,8 @@ const TYPES = {
 
 /** Serves a folder on a free port of the loopback interface; `close` ends it. */
 export async function serve(folder = DIST) {
-  if (!existsSync(join(folder, "index.html"))) throw new Error(`${folder} holds no page: run "make page" first`);
+  if (!existsSync(join(folder, "index.html")))
+    throw new Error(`${folder} holds no page: run "make page" first`);
   const server = createServer((request, answer) => {
     const path = normalize(decodeURIComponent(new URL(request.url, "http://localhost").pathname));
     const file = join(folder, path.endsWith("/") ? `${path}index.html` : path);
@@ -27,7 +28,9 @@ export async function serve(folder = DIST) {
       answer.writeHead(404).end();
       return;
     }
-    answer.writeHead(200, { "content-type": TYPES[extname(file)] ?? "application/octet-stream" }).end(readFileSync(file));
+    answer
+      .writeHead(200, { "content-type": TYPES[extname(file)] ?? "application/octet-stream" })
+      .end(readFileSync(file));
   });
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
   const close = () => {

@@ -3,11 +3,13 @@
 //! A program is known by its path relative to the scenario that names it. It is compiled once, however
 //! many robots run it.
 
+mod condition;
 mod invariant;
 mod monitor;
 mod source;
 mod values;
 
+pub use condition::FleetCondition;
 pub use source::Findings;
 
 use crate::parameters::Complaint;
@@ -16,6 +18,7 @@ use monitor::ProgramMonitor;
 use source::Compiled;
 use starl_core::{Port, RobotId};
 use starl_explore::Invariant;
+use starl_lang::diagnostic::Diagnostic;
 use starl_lang::robot::{Code, RobotProgram};
 use starl_properties::Monitor;
 use starl_sim::Scenario;
@@ -97,6 +100,32 @@ impl Programs {
         invariants
             .map(|invariant| Box::new(invariant) as Box<dyn Invariant>)
             .collect()
+    }
+
+    /// The condition over the robots of each program for which it has no errors.
+    ///
+    /// # Errors
+    /// What is wrong with it for the first program, if it has errors for all; places are bytes of it. Nothing if there
+    /// is no program.
+    pub fn conditions(&self, condition: &str) -> Result<Vec<FleetCondition>, Vec<Diagnostic>> {
+        let mut conditions = Vec::new();
+        let mut problems = Vec::new();
+        for (path, compiled) in &self.0 {
+            match FleetCondition::new(path, compiled, condition) {
+                Ok(condition) => conditions.push(condition),
+                Err(found) if problems.is_empty() => problems = found,
+                Err(_) => {}
+            }
+        }
+        match conditions.is_empty() {
+            true => Err(problems),
+            false => Ok(conditions),
+        }
+    }
+
+    /// The code of the programs.
+    pub fn codes(&self) -> impl Iterator<Item = &Code> {
+        self.0.values().map(|compiled| &compiled.code)
     }
 
     /// Where the programs' failure detectors listen.

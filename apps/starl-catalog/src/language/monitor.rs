@@ -64,9 +64,9 @@ impl Monitor for ProgramMonitor {
 }
 
 /// The robots that run the program, in the simulation.
-struct Members<'a> {
-    witness: &'a dyn Witness,
-    robots: &'a [RobotId],
+pub struct Members<'a> {
+    pub witness: &'a dyn Witness,
+    pub robots: &'a [RobotId],
 }
 
 impl Members<'_> {

@@ -30,6 +30,10 @@ pub struct Compiled {
     /// What the program calls itself.
     pub name: String,
     pub code: Code,
+    /// Its text.
+    pub text: String,
+    /// The texts of the libraries that it imports, by name.
+    pub libraries: BTreeMap<String, String>,
 }
 
 impl fmt::Debug for Compiled {
@@ -105,7 +109,14 @@ pub fn compile(
     }
     let name = bytecode.name.clone();
     let code = Code::load(bytecode).map_err(|error| format!("{path:?} cannot be run: {error}"))?;
-    Ok((Some(Compiled { name, code }), findings))
+    let libraries = checked.files.into_iter().skip(1);
+    let compiled = Compiled {
+        name,
+        code,
+        text,
+        libraries: libraries.map(|file| (file.name, file.source)).collect(),
+    };
+    Ok((Some(compiled), findings))
 }
 
 /// What was found in each file, by the names that people have for the files.

@@ -5,12 +5,17 @@ mod request;
 
 use crate::examples::{self, EXAMPLES};
 use crate::programs::Registry;
-use crate::session::{Budget, Refused, Session, Status, World, check, fleet, states};
+use crate::schema::schema;
+use crate::session::{
+    Budget, Document, Refused, Session, Status, World, check, fleet, formatted, states,
+};
 use request::Request;
 use serde::Serialize;
 use serde_json::{Value, json};
 use starl_core::Time;
 use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// Simulations by number, of programs in the StarL language and those in Rust that ship with StarL.
 #[derive(Default)]
@@ -18,9 +23,41 @@ pub struct Service {
     registry: Registry,
     sessions: BTreeMap<u32, Session>,
     next: u32,
+    interrupt: Arc<AtomicBool>,
 }
 
 impl Service {
+    /// Without simulations at first. Programs in Rust are those of the registry.
+    pub fn new(registry: Registry) -> Service {
+        Service {
+            registry,
+            ..Service::default()
+        }
+    }
+
+    /// A flag that stops what is under way: while it is set, no simulation runs on. Any thread may set it.
+    pub fn interrupt(&self) -> Arc<AtomicBool> {
+        self.interrupt.clone()
+    }
+
+    /// Takes in a simulation that was opened elsewhere. Returns what the request `open` answers.
+    pub fn adopt(&mut self, mut session: Session) -> Value {
+        session.set_interrupt(self.interrupt.clone());
+        let number = self.next;
+        self.next += 1;
+        let scenario = session.run().simulation().scenario();
+        let opened = json!({
+            "simulation": number,
+            "title": scenario.title,
+            "seed": scenario.seed.to_string(),
+            "duration": scenario.duration.seconds(),
+            "step_length": scenario.physics.step.seconds(),
+            "warnings": session.warnings(),
+        });
+        self.sessions.insert(number, session);
+        opened
+    }
+
     /// The answer to a request, both in JSON: `{"ok": ...}`, or `{"error": {"message": ..., "diagnostics": ...}}`.
     pub fn answer(&mut self, request: &[u8]) -> Vec<u8> {
         let answered = serde_json::from_slice(request)
@@ -55,7 +92,27 @@ impl Service {
     fn carry_out(&mut self, request: Request) -> Result<Answer, Refused> {
         let answer = match request {
             Request::Examples {} => answer(&all_examples()),
+            Request::Schema {} => answer(&schema()),
             Request::Check { files } => answer(&check(&files.into(), &self.registry)),
+            Request::Hover {
+                files,
+                path,
+                position,
+            } => answer(&Document::open(&files.into(), &path)?.hover(position)),
+            Request::Complete {
+                files,
+                path,
+                position,
+            } => answer(&Document::open(&files.into(), &path)?.complete(position)),
+            Request::Definition {
+                files,
+                path,
+                position,
+            } => answer(&Document::open(&files.into(), &path)?.definition(position)),
+            Request::Outline { files, path } => {
+                answer(&Document::open(&files.into(), &path)?.outline())
+            }
+            Request::Format { text } => answer(&formatted(&text)),
             Request::Open {
                 files,
                 options,
@@ -65,7 +122,17 @@ impl Service {
                 if let Some(topics) = topics {
                     session.set_topics(&topics)?;
                 }
-                return Ok(self.keep(session));
+                Answer::Json(self.adopt(session))
+            }
+            Request::OpenRecorded { recorded, topics } => {
+                let mut session = Session::open_recorded(recorded, &self.registry)?;
+                if let Some(topics) = topics {
+                    session.set_topics(&topics)?;
+                }
+                Answer::Json(self.adopt(session))
+            }
+            Request::Trace { simulation } => {
+                Answer::Text(starl_trace::json_bytes(&self.find(simulation)?.trace()?))
             }
             Request::Close { simulation } => {
                 self.find(simulation)?;
@@ -86,6 +153,13 @@ impl Service {
                 };
                 let sample = sample.map(|sample| sample.0);
                 answer(&self.find(simulation)?.advance(budget, sample))
+            }
+            Request::Breakpoints {
+                simulation,
+                breakpoints,
+            } => {
+                self.find(simulation)?.set_breakpoints(breakpoints)?;
+                Answer::Json(Value::Null)
             }
             Request::Apply {
                 simulation,
@@ -133,22 +207,6 @@ impl Service {
         let session = self.sessions.get_mut(&simulation);
         session
             .ok_or_else(|| format!("there is no simulation {simulation}; it may have been closed"))
-    }
-
-    fn keep(&mut self, session: Session) -> Answer {
-        let number = self.next;
-        self.next += 1;
-        let scenario = session.run().simulation().scenario();
-        let opened = json!({
-            "simulation": number,
-            "title": scenario.title,
-            "seed": scenario.seed.to_string(),
-            "duration": scenario.duration.seconds(),
-            "step_length": scenario.physics.step.seconds(),
-            "warnings": session.warnings(),
-        });
-        self.sessions.insert(number, session);
-        Answer::Json(opened)
     }
 }
 

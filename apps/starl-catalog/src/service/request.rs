@@ -1,8 +1,9 @@
 //! What can be asked of the service, as JSON: an object whose only member is the name of the request.
 
-use crate::session::{Files, Options};
+use crate::session::{Breakpoint, Files, Options, Recorded};
 use serde::Deserialize;
 use starl_core::{Duration, Intervention, RobotId, Time};
+use starl_lang::editor::Utf16Position;
 use std::collections::BTreeMap;
 
 /// A request.
@@ -10,8 +11,31 @@ use std::collections::BTreeMap;
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Request {
     Examples {},
+    Schema {},
     Check {
         files: Contents,
+    },
+    Hover {
+        files: Contents,
+        path: String,
+        position: Utf16Position,
+    },
+    Complete {
+        files: Contents,
+        path: String,
+        position: Utf16Position,
+    },
+    Definition {
+        files: Contents,
+        path: String,
+        position: Utf16Position,
+    },
+    Outline {
+        files: Contents,
+        path: String,
+    },
+    Format {
+        text: String,
     },
     Open {
         #[serde(default)]
@@ -19,6 +43,13 @@ pub enum Request {
         #[serde(default)]
         options: Options,
         topics: Option<Vec<String>>,
+    },
+    OpenRecorded {
+        recorded: Recorded,
+        topics: Option<Vec<String>>,
+    },
+    Trace {
+        simulation: u32,
     },
     Close {
         simulation: u32,
@@ -34,6 +65,10 @@ pub enum Request {
         until: Option<Seconds>,
         steps: Option<u64>,
         sample: Option<Period>,
+    },
+    Breakpoints {
+        simulation: u32,
+        breakpoints: Vec<Breakpoint>,
     },
     Apply {
         simulation: u32,

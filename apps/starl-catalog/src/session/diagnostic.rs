@@ -5,9 +5,8 @@ use crate::Refusal;
 use crate::language::{Findings, SUFFIX};
 use crate::programs::Registry;
 use serde::Serialize;
-use starl_lang::check::check as check_program;
-use starl_lang::compile::compile;
-use starl_lang::diagnostic::{LineIndex, Severity};
+use starl_lang::diagnostic::{LineIndex, Severity, Span};
+use starl_lang::editor::Analysis;
 use starl_sim::read::{Place, Problem, Request, Source};
 
 /// The ending of scenarios' names.
@@ -38,8 +37,44 @@ pub struct Diagnostic {
     pub message: String,
     /// A suggested fix.
     pub help: Option<String>,
-    /// More that is worth knowing.
+    /// More that is worth knowing, a line each.
     pub notes: Vec<String>,
+    /// Other places that matter.
+    pub related: Vec<Related>,
+    /// The changes that the suggested fix makes to the file; none where it is for people to make.
+    pub edits: Vec<Edit>,
+    /// Whether the text could be taken away without a loss.
+    pub unnecessary: bool,
+}
+
+/// Another place of the file that helps to understand a problem; counted as in [`Diagnostic`].
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct Related {
+    /// The line, from 1.
+    pub line: u32,
+    /// The first character concerned, from 1.
+    pub column: u32,
+    /// The line of the end.
+    pub end_line: u32,
+    /// The character after the last.
+    pub end_column: u32,
+    /// What is to be seen there.
+    pub message: String,
+}
+
+/// A change of the file; counted as in [`Diagnostic`].
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct Edit {
+    /// The line, from 1.
+    pub line: u32,
+    /// The first character that is replaced, from 1.
+    pub column: u32,
+    /// The line of the end.
+    pub end_line: u32,
+    /// The character after the last that is replaced.
+    pub end_column: u32,
+    /// What stands there instead.
+    pub text: String,
 }
 
 impl Diagnostic {
@@ -58,6 +93,9 @@ impl Diagnostic {
             message,
             help: None,
             notes: Vec::new(),
+            related: Vec::new(),
+            edits: Vec::new(),
+            unnecessary: false,
         }
     }
 
@@ -93,11 +131,34 @@ impl Diagnostic {
         diagnostics: &'a [starl_lang::diagnostic::Diagnostic],
     ) -> impl Iterator<Item = Diagnostic> + use<'a> {
         let lines = LineIndex::new(source);
-        diagnostics.iter().map(move |diagnostic| {
+        let place = move |span: Span| {
             let last = source.len() as u32;
-            let start = lines.position(source, diagnostic.span.start.min(last));
-            let end = lines.position(source, diagnostic.span.end.min(last));
-            let said = diagnostic.note_at_span.iter();
+            let position = |offset: u32| lines.position(source, offset.min(last));
+            (position(span.start), position(span.end))
+        };
+        diagnostics.iter().map(move |diagnostic| {
+            let (start, end) = place(diagnostic.span);
+            let related = diagnostic.labels.iter().map(|label| {
+                let (start, end) = place(label.span);
+                Related {
+                    line: start.line,
+                    column: start.column,
+                    end_line: end.line,
+                    end_column: end.column,
+                    message: label.message.clone(),
+                }
+            });
+            let edits = diagnostic.mend.iter().flat_map(|mend| &mend.edits);
+            let edits = edits.map(|edit| {
+                let (start, end) = place(edit.span);
+                Edit {
+                    line: start.line,
+                    column: start.column,
+                    end_line: end.line,
+                    end_column: end.column,
+                    text: edit.text.clone(),
+                }
+            });
             Diagnostic {
                 line: start.line,
                 column: start.column,
@@ -110,9 +171,26 @@ impl Diagnostic {
                 },
                 code: Some(diagnostic.code.number()),
                 help: diagnostic.mend.as_ref().map(|mend| mend.message.clone()),
-                notes: said.chain(&diagnostic.notes).cloned().collect(),
+                notes: diagnostic.remarks().collect(),
+                related: related.collect(),
+                edits: edits.collect(),
+                unnecessary: diagnostic.code.is_needless(),
                 ..Diagnostic::of_file(file, diagnostic.message.clone())
             }
+        })
+    }
+
+    /// The problems of the condition of a breakpoint, by its place in the list; places are those in the expression.
+    pub(super) fn of_condition<'a>(
+        breakpoint: usize,
+        expression: &'a str,
+        diagnostics: &'a [starl_lang::diagnostic::Diagnostic],
+    ) -> impl Iterator<Item = Diagnostic> + use<'a> {
+        let found = Diagnostic::of_findings("", expression, diagnostics);
+        found.map(move |found| Diagnostic {
+            file: None,
+            field: Some(format!("breakpoints.{breakpoint}.when.expression")),
+            ..found
         })
     }
 
@@ -155,12 +233,8 @@ pub fn check(files: &Files, registry: &Registry) -> Vec<Diagnostic> {
 }
 
 fn program(files: &Files, path: &str, text: &str) -> Vec<Diagnostic> {
-    let checked = check_program(text, &Beside::new(files, path));
-    let mut diagnostics = checked.files[0].diagnostics.clone();
-    if !checked.has_errors() {
-        diagnostics.extend(compile(&checked).err().unwrap_or_default());
-    }
-    Diagnostic::of_findings(path, text, &diagnostics).collect()
+    let analysis = Analysis::new(text, &Beside::new(files, path));
+    Diagnostic::of_findings(path, text, analysis.diagnostics()).collect()
 }
 
 /// Everything that is wrong with a scenario. The programs among the files are checked by themselves.

@@ -3,7 +3,9 @@
 //! Paths are relative, with `/` between their parts; `.` and `..` are resolved.
 
 use crate::examples::Example;
+use crate::language::SUFFIX;
 use starl_lang::check::{Libraries, StandardLibraries};
+use starl_lang::editor::is_library;
 use starl_sim::read::Loader;
 use std::collections::BTreeMap;
 
@@ -109,11 +111,24 @@ impl Loader for Beside<'_> {
 /// Libraries beside the program go before those of the standard library.
 impl Libraries for Beside<'_> {
     fn source(&self, name: &str) -> Option<String> {
-        let path = self.resolve(&format!("{name}{}", crate::language::SUFFIX));
+        let path = self.resolve(&format!("{name}{}", SUFFIX));
         match self.files.text(&path) {
             Ok(text) => Some(text.to_string()),
             Err(_) => StandardLibraries.source(name),
         }
+    }
+
+    fn names(&self) -> Vec<String> {
+        let mut names = StandardLibraries.names();
+        for path in self.files.ending_with(SUFFIX) {
+            let name = self.name(path);
+            let name = name.strip_suffix(SUFFIX).filter(|name| !name.contains('/'));
+            let is_library = self.files.text(path).is_ok_and(is_library);
+            names.extend(name.filter(|_| is_library).map(str::to_string));
+        }
+        names.sort();
+        names.dedup();
+        names
     }
 }
 

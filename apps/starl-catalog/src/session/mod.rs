@@ -4,14 +4,19 @@
 //! Everything that goes out is plain data that can be serialised. Nothing here makes a difference to what a run
 //! does: its digest is that of `starl run`.
 
+mod breakpoint;
 mod diagnostic;
+mod editor;
 mod files;
 mod inspect;
 mod open;
 mod poses;
+mod recorded;
 mod report;
 
-pub use diagnostic::{Diagnostic, check};
+pub use breakpoint::{Breakpoint, Stopped};
+pub use diagnostic::{Diagnostic, Edit, Related, check};
+pub use editor::{Completion, Definition, Document, Hover, Part, formatted};
 pub use files::{Beside, Files};
 pub use inspect::{
     ActionReport, ClockReport, MailReport, PrimitiveReport, RobotReport, TimerReport,
@@ -19,29 +24,38 @@ pub use inspect::{
 };
 pub use open::{Options, Refused};
 pub use poses::{MOST_FRAME_NUMBERS, POSE_NUMBERS};
+pub use recorded::Recorded;
 pub use report::{
     Excused, Failure, Member, Messages, Progress, Property, Report, Standing, Status, Thing,
     Violation, World, fleet, states,
 };
 
+use crate::Application;
 use crate::programs::Registry;
+use breakpoint::Breakpoints;
 use poses::Frames;
 use starl_core::{Duration, Intervention, Record, RobotId, Time};
 use starl_sim::{Run, write};
 use starl_trace::Topic;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// So many records are kept until they are taken; then the oldest are dropped.
 pub const MOST_RECORDS: usize = 200_000;
 
-/// A simulation with the moments of it that are kept.
+/// A simulation with the moments of it that are kept. A copy goes on exactly as the original would.
+#[derive(Clone)]
 pub struct Session {
+    application: Application,
     global_names: BTreeMap<String, String>,
     warnings: Vec<Diagnostic>,
     topics: Option<BTreeSet<Topic>>,
+    breakpoints: Breakpoints,
     live: Live,
     kept: BTreeMap<u32, Live>,
     next: u32,
+    interrupt: Arc<AtomicBool>,
 }
 
 /// All that changes as time goes on. A copy goes on exactly as the original would.
@@ -89,20 +103,61 @@ impl Session {
     /// All that is wrong with the options, the scenario and its programs.
     pub fn open(files: &Files, options: &Options, registry: &Registry) -> Result<Session, Refused> {
         let opened = open::open(files, options, registry)?;
-        let run = opened.application.run();
-        Ok(Session {
-            global_names: opened.global_names,
-            warnings: opened.warnings,
+        Session::of(opened.application, opened.global_names, opened.warnings)
+    }
+
+    /// The run of an application at its start.
+    fn of(
+        application: Application,
+        global_names: BTreeMap<String, String>,
+        warnings: Vec<Diagnostic>,
+    ) -> Result<Session, Refused> {
+        let run = application.run().map_err(|error| error.message)?;
+        Ok(Session::new(run, application, warnings, global_names))
+    }
+
+    /// A session of a run that was started elsewhere, such as from files on disk. `global_names` are the names that
+    /// programs have everywhere, by those that they have in the scenario, see [`Session::scenario`].
+    pub fn of_run(
+        run: Run,
+        application: &Application,
+        global_names: BTreeMap<String, String>,
+    ) -> Session {
+        let files = Files::default();
+        let beside = Beside::new(&files, "");
+        let warnings = application.warnings().iter();
+        let warnings = warnings.flat_map(|findings| Diagnostic::of_program(findings, &beside));
+        let warnings = warnings.collect();
+        Session::new(run, application.clone(), warnings, global_names)
+    }
+
+    fn new(
+        run: Run,
+        application: Application,
+        warnings: Vec<Diagnostic>,
+        global_names: BTreeMap<String, String>,
+    ) -> Session {
+        Session {
+            application,
+            global_names,
+            warnings,
             topics: None,
+            breakpoints: Breakpoints::default(),
             live: Live {
-                run: run.map_err(|error| error.message)?,
+                run,
                 records: VecDeque::new(),
                 dropped: 0,
                 frames: Frames::default(),
             },
             kept: BTreeMap::new(),
             next: 0,
-        })
+            interrupt: Arc::default(),
+        }
+    }
+
+    /// While this flag is set, [`Session::advance`] makes no step.
+    pub fn set_interrupt(&mut self, interrupt: Arc<AtomicBool>) {
+        self.interrupt = interrupt;
     }
 
     /// Keeps the records of these topics only, by their names in traces such as `/starl/action`; of all topics
@@ -141,25 +196,35 @@ impl Session {
 
     /// Makes one physics step, also when the run is over.
     pub fn step(&mut self) -> Status {
-        self.live.step(self.topics.as_ref());
-        Status::of(&self.live.run, 1)
+        let stopped = self.live.step(self.topics.as_ref(), &mut self.breakpoints);
+        Status {
+            stopped,
+            ..Status::of(&self.live.run, 1)
+        }
     }
 
-    /// Makes physics steps until the run is over or the budget is spent. With a period to `sample` by, which must not
-    /// be zero, it keeps a frame after each step that reaches or passes a multiple of the period, see
-    /// [`Session::take_frames`].
+    /// Makes physics steps until the run is over, the budget is spent, a breakpoint is met, or it is interrupted. With a
+    /// period to `sample` by, which must not be zero, it keeps a frame after each step that reaches or passes a multiple
+    /// of the period, see [`Session::take_frames`].
     pub fn advance(&mut self, budget: Budget, sample: Option<Duration>) -> Status {
         let mut steps = 0;
         let live = &mut self.live;
         loop {
             let before = live.run.simulation().now();
-            if steps >= budget.steps || before >= budget.until || live.run.is_over() {
+            let is_spent = steps >= budget.steps || before >= budget.until;
+            if is_spent || live.run.is_over() || self.interrupt.load(Ordering::Relaxed) {
                 return Status::of(&live.run, steps);
             }
-            live.step(self.topics.as_ref());
+            let stopped = live.step(self.topics.as_ref(), &mut self.breakpoints);
             steps += 1;
             if let Some(period) = sample {
                 live.frames.sample(&live.run, before, period);
+            }
+            if stopped.is_some() {
+                return Status {
+                    stopped,
+                    ..Status::of(&live.run, steps)
+                };
             }
         }
     }
@@ -172,6 +237,15 @@ impl Session {
         self.live.run.apply(at, what)
     }
 
+    /// Replaces the breakpoints, see [`Session::advance`].
+    ///
+    /// # Errors
+    /// What is wrong with one of them; those that there were stay.
+    pub fn set_breakpoints(&mut self, breakpoints: Vec<Breakpoint>) -> Result<(), Refused> {
+        self.breakpoints = Breakpoints::new(breakpoints, &self.application, &self.live.run)?;
+        Ok(())
+    }
+
     /// Keeps the present moment, records and frames that were not taken included; gives its number.
     pub fn snapshot(&mut self) -> u32 {
         let number = self.next;
@@ -180,13 +254,15 @@ impl Session {
         number
     }
 
-    /// Goes back, or forth, to a moment that was kept. It stays kept.
+    /// Goes back, or forth, to a moment that was kept. It stays kept. Breakpoints stay as they are; a condition that is
+    /// true at that moment has to become false before it is met.
     ///
     /// # Errors
     /// Where there is no such moment.
     pub fn restore(&mut self, number: u32) -> Result<Status, String> {
         let kept = self.kept.get(&number);
         self.live = kept.ok_or_else(|| unknown(number))?.clone();
+        self.breakpoints.look_anew(&self.live.run);
         Ok(self.status())
     }
 
@@ -249,15 +325,25 @@ impl Session {
 }
 
 impl Live {
-    fn step(&mut self, topics: Option<&BTreeSet<Topic>>) {
-        let records = self.run.step().iter();
-        let wanted = records.filter(|record| {
+    /// Makes a step; gives the breakpoint that was met in it.
+    fn step(
+        &mut self,
+        topics: Option<&BTreeSet<Topic>>,
+        breakpoints: &mut Breakpoints,
+    ) -> Option<Stopped> {
+        self.run.step();
+        let records = self.run.records();
+        let wanted = records.iter().filter(|record| {
             topics.is_none_or(|topics| topics.contains(&Topic::of(&record.event)))
         });
         self.records.extend(wanted.cloned());
         let excess = self.records.len().saturating_sub(MOST_RECORDS);
         self.records.drain(..excess);
         self.dropped += excess as u64;
+        match breakpoints.are_none() {
+            true => None,
+            false => breakpoints.look(&self.run, records),
+        }
     }
 }
 

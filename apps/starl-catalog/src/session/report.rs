@@ -1,5 +1,6 @@
 //! What there is to say of a run at any time: how far it is, its verdicts and counts, its fleet and its world.
 
+use super::breakpoint::Stopped;
 use super::inspect::condition;
 use serde::Serialize;
 use starl_core::{Obstacle, Point, RobotId, WayPoint};
@@ -18,6 +19,8 @@ pub struct Status {
     pub outcome: Option<&'static str>,
     /// How many steps the call has made.
     pub steps: u64,
+    /// The breakpoint that was met in the last of them.
+    pub stopped: Option<Stopped>,
 }
 
 /// What has come of a run so far.
@@ -185,6 +188,7 @@ impl Status {
             over,
             outcome: over.then(|| run.outcome().word()),
             steps,
+            stopped: None,
         }
     }
 }

@@ -18,3 +18,4 @@ mod race_thousand_seeds;
 mod search_shares_rooms;
 mod shared_variables_are_consistent;
 mod support;
+mod traces_of_sessions;

@@ -68,9 +68,18 @@ fn sound() -> Vec<Value> {
         json!({"run": {"simulation": 0, "until": 2.0, "steps": 20, "sample": 0.1}}),
         json!({"records": {"simulation": 0, "max": 7}}),
         json!({"robot": {"simulation": 0, "robot": 1}}),
+        json!({"breakpoints": {"simulation": 0, "breakpoints": [
+            {"action": {"name": "pick", "robot": 0}}, {"message": {"name": null, "robot": 1}},
+            {"when": {"expression": "forall r: r.up"}},
+        ]}}),
         json!({"restore": {"simulation": 0, "snapshot": 0}}),
         json!({"drop": {"simulation": 0, "snapshot": 1}}),
         json!({"check": {"files": {"a.starl": "program A\n", "b.toml": "title = 1\n", "c.bin": [1, 2]}}}),
+        json!({"hover": {"files": {"a.starl": "program A\n"}, "path": "a.starl", "position": {"line": 0, "character": 9}}}),
+        json!({"complete": {"files": {"a.starl": "program A\n"}, "path": "a.starl", "position": {"line": 1, "character": 0}}}),
+        json!({"definition": {"files": {"a.starl": "program A\n"}, "path": "a.starl", "position": {"line": 0, "character": 9}}}),
+        json!({"outline": {"files": {"a.starl": "program A\n"}, "path": "a.starl"}}),
+        json!({"format": {"text": "program A\n"}}),
         json!({"open": {
             "files": {"a.starl": "program A\n", "b.toml": "program = \"a.starl\"\n[[robots]]\nmodel = \"create\"\n"},
             "options": {"scenario": "b.toml", "program": "a.starl", "seed": "1", "set": ["network.loss=0.1"]},

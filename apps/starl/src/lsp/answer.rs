@@ -3,7 +3,7 @@
 use super::capabilities::Client;
 use super::documents::{Checked, Documents};
 use super::transport::Fault;
-use super::{assist, diagnostics, location, navigate, rename, show};
+use super::{assist, diagnostics, navigate, rename, show};
 use lsp_types::request as ask;
 use lsp_types::request::Request;
 use lsp_types::{
@@ -13,6 +13,7 @@ use lsp_types::{
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use starl_lang::check::{Libraries, PRELUDE, StandardLibraries};
+use starl_lang::editor::BUILT_IN;
 use std::rc::Rc;
 
 /// The request for a text that is part of the command.
@@ -182,7 +183,7 @@ pub fn read<T: DeserializeOwned>(params: Value) -> Result<T, (Fault, String)> {
 
 /// A text that is part of the command.
 fn built_in_text(uri: &Uri) -> Option<String> {
-    let name = uri.as_str().strip_prefix(location::BUILT_IN)?;
+    let name = uri.as_str().strip_prefix(BUILT_IN)?;
     match name.strip_suffix(".starl")? {
         "prelude" => Some(PRELUDE.to_string()),
         name => StandardLibraries.source(name),

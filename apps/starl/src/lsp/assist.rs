@@ -7,29 +7,16 @@ use lsp_types::{
     HoverContents, InsertTextFormat, MarkupContent, MarkupKind, ParameterInformation,
     ParameterLabel, Position, SignatureHelp, SignatureInformation, TextEdit,
 };
-use starl_lang::check::Symbol;
-use starl_lang::editor::{self, Call, Completion, Description};
+use starl_lang::editor::{self, Completion, CompletionKind, Insertion};
 
 /// What is shown at a place.
 pub fn hover(checked: &Checked, position: Position) -> Option<Hover> {
     let text = Text::new(checked.analysis.text());
     let (span, description) = checked.analysis.hover(text.offset(position))?;
     Some(Hover {
-        contents: HoverContents::Markup(markdown(shown(&description))),
+        contents: HoverContents::Markup(markdown(description.markdown())),
         range: Some(text.range(span)),
     })
-}
-
-fn shown(description: &Description) -> String {
-    let mut parts = vec![format!("```starl\n{}\n```", description.signature)];
-    let kind = description
-        .of_locals
-        .filter(|kind| *kind != "a local variable");
-    parts.extend(kind.map(|kind| format!("_{kind}_")));
-    if !description.documentation.is_empty() {
-        parts.push(description.documentation.clone());
-    }
-    parts.join("\n\n")
 }
 
 fn markdown(value: String) -> MarkupContent {
@@ -80,12 +67,11 @@ pub fn completions(
     let libraries = documents.libraries(&checked.uri);
     let found = editor::completions(source, text.offset(position), &libraries);
     let range = text.range(found.span);
-    let is_called = source[found.span.end as usize..].starts_with('(');
+    let has_brackets = found.has_brackets;
     let items = found.items.into_iter().enumerate().map(|(number, item)| {
-        let call = if is_called { Call::No } else { item.call };
-        let (inserted, format) = inserted(&item.label, call, snippets);
+        let (inserted, format) = inserted(&item, has_brackets, snippets);
         CompletionItem {
-            kind: Some(kind(&item)),
+            kind: Some(kind(item.kind())),
             detail: (!item.detail.is_empty()).then(|| item.detail.clone()),
             documentation: (!item.documentation.is_empty())
                 .then(|| Documentation::MarkupContent(markdown(item.documentation.clone()))),
@@ -102,46 +88,30 @@ pub fn completions(
     }
 }
 
-fn inserted(label: &str, call: Call, snippets: bool) -> (String, InsertTextFormat) {
-    match call {
-        Call::Empty => (format!("{label}()"), InsertTextFormat::PLAIN_TEXT),
-        Call::Given => (format!("{label} = "), InsertTextFormat::PLAIN_TEXT),
-        Call::Arguments if snippets => (format!("{label}($0)"), InsertTextFormat::SNIPPET),
-        _ => (label.to_string(), InsertTextFormat::PLAIN_TEXT),
+/// An editor that cannot put the cursor between brackets gets none: they would be in the way.
+fn inserted(item: &Completion, has_brackets: bool, snippets: bool) -> (String, InsertTextFormat) {
+    let Insertion { text, cursor } = item.insertion(has_brackets);
+    match (text.split_at(cursor), snippets) {
+        ((_, ""), _) => (text, InsertTextFormat::PLAIN_TEXT),
+        ((before, behind), true) => (format!("{before}$0{behind}"), InsertTextFormat::SNIPPET),
+        (_, false) => (item.label.clone(), InsertTextFormat::PLAIN_TEXT),
     }
 }
 
-fn kind(item: &Completion) -> CompletionItemKind {
-    match item.symbol {
-        None if item.call == Call::Given => CompletionItemKind::FIELD,
-        None if item.detail.starts_with("library ") && item.documentation.is_empty() => {
-            CompletionItemKind::MODULE
-        }
-        None => CompletionItemKind::KEYWORD,
-        Some(symbol) => match symbol {
-            Symbol::Enum(_) => CompletionItemKind::ENUM,
-            Symbol::Variant(..) => CompletionItemKind::ENUM_MEMBER,
-            Symbol::Record(_) | Symbol::Type(_) => CompletionItemKind::STRUCT,
-            Symbol::Field(..) | Symbol::Coordinate(_) | Symbol::RobotMember(_) => {
-                CompletionItemKind::FIELD
-            }
-            Symbol::Constant(_) => CompletionItemKind::CONSTANT,
-            Symbol::Function(_) => CompletionItemKind::FUNCTION,
-            Symbol::Builtin(_) if item.call == Call::No => CompletionItemKind::VARIABLE,
-            Symbol::Builtin(_) => CompletionItemKind::FUNCTION,
-            Symbol::Method(_) => CompletionItemKind::METHOD,
-            Symbol::Member(..) if item.call == Call::No => CompletionItemKind::PROPERTY,
-            Symbol::Member(..) => CompletionItemKind::METHOD,
-            Symbol::Primitive(_) => CompletionItemKind::CLASS,
-            Symbol::Event(..) | Symbol::Action(_) | Symbol::Input(_) => CompletionItemKind::EVENT,
-            Symbol::File(_) => CompletionItemKind::MODULE,
-            Symbol::Parameter(_)
-            | Symbol::Variable(_)
-            | Symbol::Shared(_)
-            | Symbol::Binding(_)
-            | Symbol::Local(_)
-            | Symbol::Argument(..)
-            | Symbol::Property(_) => CompletionItemKind::VARIABLE,
-        },
+fn kind(kind: CompletionKind) -> CompletionItemKind {
+    match kind {
+        CompletionKind::Class => CompletionItemKind::CLASS,
+        CompletionKind::Constant => CompletionItemKind::CONSTANT,
+        CompletionKind::Enum => CompletionItemKind::ENUM,
+        CompletionKind::EnumMember => CompletionItemKind::ENUM_MEMBER,
+        CompletionKind::Event => CompletionItemKind::EVENT,
+        CompletionKind::Field => CompletionItemKind::FIELD,
+        CompletionKind::Function => CompletionItemKind::FUNCTION,
+        CompletionKind::Keyword => CompletionItemKind::KEYWORD,
+        CompletionKind::Method => CompletionItemKind::METHOD,
+        CompletionKind::Module => CompletionItemKind::MODULE,
+        CompletionKind::Property => CompletionItemKind::PROPERTY,
+        CompletionKind::Struct => CompletionItemKind::STRUCT,
+        CompletionKind::Variable => CompletionItemKind::VARIABLE,
     }
 }

@@ -17,12 +17,6 @@ impl<'a> Text<'a> {
         Text { text, lines }
     }
 
-    /// A place.
-    pub fn position(&self, offset: u32) -> Position {
-        let place = self.lines.position(self.text, offset);
-        Position::new(place.line, place.column)
-    }
-
     /// The byte at a place.
     pub fn offset(&self, position: Position) -> u32 {
         self.lines.offset(self.text, place(position))
@@ -30,7 +24,9 @@ impl<'a> Text<'a> {
 
     /// A part.
     pub fn range(&self, span: Span) -> Range {
-        Range::new(self.position(span.start), self.position(span.end))
+        let range = self.lines.range(self.text, span);
+        let position = |place: Utf16Position| Position::new(place.line, place.column);
+        Range::new(position(range.start), position(range.end))
     }
 
     /// A part in bytes.

@@ -6,7 +6,7 @@ use lsp_types::{
     CodeAction, CodeActionKind, Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity,
     DiagnosticTag, Location, NumberOrString, Range, WorkspaceEdit,
 };
-use starl_lang::diagnostic::{self, Code, Severity, Span};
+use starl_lang::diagnostic::{self, Severity, Span};
 use std::collections::HashMap;
 
 /// What is wrong with a text, by rising place.
@@ -37,33 +37,19 @@ fn converted(checked: &Checked, text: &Text<'_>, problem: &diagnostic::Diagnosti
         source: Some("starl".to_string()),
         message: message(problem),
         related_information: (!related.is_empty()).then_some(related),
-        tags: is_needless(problem.code).then(|| vec![DiagnosticTag::UNNECESSARY]),
+        tags: problem
+            .code
+            .is_needless()
+            .then(|| vec![DiagnosticTag::UNNECESSARY]),
         ..Diagnostic::default()
     }
 }
 
 /// The message with what it says besides, a line each.
 fn message(problem: &diagnostic::Diagnostic) -> String {
-    let mut lines = vec![problem.message.clone()];
-    lines.extend(problem.note_at_span.clone());
-    let told = [("expected", &problem.expected), ("found", &problem.found)];
-    for (what, value) in told {
-        lines.extend(value.as_ref().map(|value| format!("{what}: {value}")));
-    }
-    lines.extend(problem.notes.iter().cloned());
+    let message = [problem.message.clone()].into_iter();
+    let lines: Vec<String> = message.chain(problem.remarks()).collect();
     lines.join("\n")
-}
-
-/// Whether the text could be taken away.
-fn is_needless(code: Code) -> bool {
-    matches!(
-        code,
-        Code::NeverRead
-            | Code::UnusedLocal
-            | Code::UnusedDeclaration
-            | Code::UnusedImport
-            | Code::Unreachable
-    )
 }
 
 /// What would put right the problems in a part of a text.

@@ -3,7 +3,7 @@
 use super::location;
 use lsp_types::Uri;
 use starl_lang::check::{Libraries, StandardLibraries};
-use starl_lang::editor::Analysis;
+use starl_lang::editor::{Analysis, is_library};
 use starl_lang::syntax::MAX_LENGTH;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -270,13 +270,6 @@ impl Libraries for Beside<'_> {
         names.dedup();
         names
     }
-}
-
-/// Whether the text says that it is a library.
-fn is_library(text: &str) -> bool {
-    let mut lines = text.lines().map(str::trim_start);
-    let first = lines.find(|line| !line.is_empty() && !line.starts_with("//"));
-    first.is_some_and(|line| line.starts_with("library"))
 }
 
 /// The files of the language in a folder, in order.

@@ -3,9 +3,6 @@
 use lsp_types::Uri;
 use std::path::{Path, PathBuf};
 
-/// How the texts that are part of the command are named; the editor may ask for them.
-pub const BUILT_IN: &str = "starl-library:/";
-
 /// The file that a URI names; none if it names something else.
 pub fn path(uri: &Uri) -> Option<PathBuf> {
     let rest = uri.as_str().strip_prefix("file://")?;

@@ -2,10 +2,9 @@
 
 use super::convert::Text;
 use super::documents::{Checked, Documents};
-use super::location;
 use lsp_types::{DocumentHighlight, Location, Position, Uri};
 use starl_lang::check::Symbol;
-use starl_lang::editor::Occurrence;
+use starl_lang::editor::{BUILT_IN, Occurrence};
 use starl_lang::ir::Site;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -21,7 +20,7 @@ pub fn name_at(checked: &Checked, position: Position) -> Option<Occurrence> {
 fn location(checked: &Checked, site: Site, knows_built_in: bool) -> Option<Location> {
     let file = checked.analysis.checked.files.get(site.file as usize)?;
     let built_in = || {
-        let name = format!("{}{}.starl", location::BUILT_IN, file.name);
+        let name = format!("{}{}.starl", BUILT_IN, file.name);
         name.parse().ok().filter(|_| knows_built_in)
     };
     let uri: Uri = checked.uri_of(site.file).or_else(built_in)?;

@@ -13,14 +13,29 @@ mod interrupted_run;
 mod json_report;
 mod list_what_there_is;
 mod lsp;
+mod lsp_agrees_with_pages;
 mod lsp_files;
 mod lsp_support;
 mod output_files;
+mod reference_of_the_command;
 mod replay_robot;
 mod replay_trace;
 mod run_programs;
 mod same_seed_same_run;
+mod schema_command;
 mod support;
 mod test_command;
 mod trace_is_never_lost;
 mod verify_trace;
+#[cfg(feature = "web")]
+mod web_bad_clients;
+#[cfg(feature = "web")]
+mod web_command;
+#[cfg(feature = "web")]
+mod web_engine;
+#[cfg(feature = "web")]
+mod web_guard;
+#[cfg(feature = "web")]
+mod web_support;
+#[cfg(feature = "web")]
+mod web_trace;

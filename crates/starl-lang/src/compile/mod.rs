@@ -8,6 +8,7 @@
 //! diagnostics.
 
 mod body;
+mod breakpoint;
 mod call;
 mod code;
 mod computed;
@@ -24,9 +25,21 @@ mod unit;
 
 use alloc::vec::Vec;
 
+pub use breakpoint::with_condition;
+
 use crate::check::Checked;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::machine::Bytecode;
+
+/// What keeps a program, or a library, that the checker finds correct from being run; nothing if the checker has found
+/// errors.
+#[must_use]
+pub fn problems(checked: &Checked) -> Vec<Diagnostic> {
+    match checked.has_errors() {
+        true => Vec::new(),
+        false => compile(checked).err().unwrap_or_default(),
+    }
+}
 
 /// Compiles a program that was checked. Of a library all functions are compiled, of a program those
 /// that it uses.

@@ -256,6 +256,19 @@ impl Code {
             Severity::Error
         }
     }
+
+    /// Whether the text that it is about could be taken away without a loss.
+    #[must_use]
+    pub fn is_needless(self) -> bool {
+        matches!(
+            self,
+            Code::NeverRead
+                | Code::UnusedLocal
+                | Code::UnusedDeclaration
+                | Code::UnusedImport
+                | Code::Unreachable
+        )
+    }
 }
 
 impl fmt::Display for Code {

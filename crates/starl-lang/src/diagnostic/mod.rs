@@ -10,6 +10,7 @@ mod position;
 mod render;
 mod similar;
 
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -131,6 +132,18 @@ impl Diagnostic {
     #[must_use]
     pub fn severity(&self) -> Severity {
         self.code.severity()
+    }
+
+    /// All that is said besides the message, a line each: what is said at the place, what should stand there and what
+    /// does, and more that is worth knowing.
+    pub fn remarks(&self) -> impl Iterator<Item = String> {
+        let should = self.expected.iter().map(|what| format!("expected: {what}"));
+        let stands = self.found.iter().map(|what| format!("found: {what}"));
+        let at_place = self.note_at_span.iter().cloned();
+        at_place
+            .chain(should)
+            .chain(stands)
+            .chain(self.notes.iter().cloned())
     }
 
     /// The same, saying what should stand there.

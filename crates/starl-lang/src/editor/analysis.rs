@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use super::describe::{Description, describe};
 use super::index::{Index, Occurrence, headers};
 use crate::check::{Checked, Libraries, Symbol, check};
+use crate::compile::problems;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ir::Site;
 
@@ -18,6 +19,7 @@ pub struct Analysis {
     /// What the checker found.
     pub checked: Checked,
     pub(super) index: Index,
+    diagnostics: Vec<Diagnostic>,
 }
 
 impl Analysis {
@@ -26,7 +28,14 @@ impl Analysis {
     pub fn new(text: &str, libraries: &dyn Libraries) -> Self {
         let checked = check(text, libraries);
         let index = Index::new(&checked);
-        Self { checked, index }
+        let mut diagnostics = checked.diagnostics().to_vec();
+        diagnostics.extend(problems(&checked));
+        diagnostics.sort_by_key(|diagnostic| diagnostic.span);
+        Self {
+            checked,
+            index,
+            diagnostics,
+        }
     }
 
     /// The text.
@@ -35,10 +44,10 @@ impl Analysis {
         &self.checked.files[0].source
     }
 
-    /// What is wrong with the text, by rising place.
+    /// What is wrong with the text, that which keeps it from being run included, by rising place.
     #[must_use]
     pub fn diagnostics(&self) -> &[Diagnostic] {
-        self.checked.diagnostics()
+        &self.diagnostics
     }
 
     /// Every name of the text by rising place.

@@ -5,10 +5,12 @@
 
 mod candidates;
 mod context;
+mod kind;
 mod label;
 mod members;
 
 use alloc::collections::BTreeSet;
+use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
@@ -17,6 +19,8 @@ use crate::diagnostic::Span;
 use crate::syntax::{SyntaxKind, SyntaxToken, parse};
 use candidates::Candidates;
 use context::Context;
+
+pub use kind::CompletionKind;
 
 /// How something is called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +52,31 @@ pub struct Completion {
     pub rank: u8,
 }
 
+/// What to put in the place of the word that is being typed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Insertion {
+    /// The text.
+    pub text: String,
+    /// The byte of it that the cursor belongs before: its end, or between brackets.
+    pub cursor: usize,
+}
+
+impl Completion {
+    /// What to insert; without brackets if they stand there already.
+    #[must_use]
+    pub fn insertion(&self, has_brackets: bool) -> Insertion {
+        let label = &self.label;
+        let (text, behind) = match self.call {
+            Call::Empty if !has_brackets => (format!("{label}()"), 0),
+            Call::Arguments if !has_brackets => (format!("{label}()"), 1),
+            Call::Given => (format!("{label} = "), 0),
+            _ => (label.clone(), 0),
+        };
+        let cursor = text.len() - behind;
+        Insertion { text, cursor }
+    }
+}
+
 /// What may be typed at a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Completions {
@@ -55,6 +84,8 @@ pub struct Completions {
     pub span: Span,
     /// By rising rank, and then by label.
     pub items: Vec<Completion>,
+    /// Whether brackets stand behind the word already.
+    pub has_brackets: bool,
 }
 
 /// What may be typed at a place of a text.
@@ -68,7 +99,11 @@ pub fn completions(text: &str, offset: u32, libraries: &dyn Libraries) -> Comple
     items.sort_by(|a, b| (a.rank, &a.label).cmp(&(b.rank, &b.label)));
     let mut seen = BTreeSet::new();
     items.retain(|item| seen.insert((item.label.clone(), item.symbol)));
-    Completions { span, items }
+    Completions {
+        has_brackets: text[span.end as usize..].starts_with('('),
+        span,
+        items,
+    }
 }
 
 /// The word that a place is in, or at an end of.

@@ -33,6 +33,18 @@ impl Description {
             of_locals: None,
         }
     }
+
+    /// All of it in Markdown.
+    #[must_use]
+    pub fn markdown(&self) -> String {
+        let mut parts = Vec::from([format!("```starl\n{}\n```", self.signature)]);
+        let kind = self.of_locals.filter(|kind| *kind != "a local variable");
+        parts.extend(kind.map(|kind| format!("_{kind}_")));
+        if !self.documentation.is_empty() {
+            parts.push(self.documentation.clone());
+        }
+        parts.join("\n\n")
+    }
 }
 
 pub(super) fn describe(checked: &Checked, symbol: Symbol) -> Description {

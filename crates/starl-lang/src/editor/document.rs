@@ -1,8 +1,19 @@
-//! Changes of a text as editors send them.
+//! Texts as editors have them: how they are named, what they are, how they change.
 
 use alloc::string::String;
 
 use super::{Utf16Lines, Utf16Position};
+
+/// What the names of texts begin with that are no files but part of the language: `starl-library:/prelude.starl`.
+pub const BUILT_IN: &str = "starl-library:/";
+
+/// Whether the text says that it is a library, without reading all of it.
+#[must_use]
+pub fn is_library(text: &str) -> bool {
+    let mut lines = text.lines().map(str::trim_start);
+    let first = lines.find(|line| !line.is_empty() && !line.starts_with("//"));
+    first.is_some_and(|line| line.starts_with("library"))
+}
 
 /// The text with the part from `start` to `end` replaced. Places outside of the text are its nearest
 /// ones; an end before its start is the start.

@@ -26,13 +26,13 @@ mod token;
 mod words;
 
 pub use analysis::Analysis;
-pub use completion::{Call, Completion, Completions, completions};
+pub use completion::{Call, Completion, CompletionKind, Completions, Insertion, completions};
 pub use describe::Description;
-pub use document::replaced;
+pub use document::{BUILT_IN, is_library, replaced};
 pub use index::Occurrence;
 pub use layout::layout;
 pub use outline::{OutlineEntry, OutlineKind, outline};
-pub use position::{Utf16Lines, Utf16Position};
+pub use position::{Utf16Lines, Utf16Position, Utf16Range};
 pub use rename::{FileEdits, Renamed};
 pub use signature::CallHelp;
 pub use token::{Token, TokenKind, TokenModifiers, tokens};

@@ -3,13 +3,15 @@
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
+use serde::Serialize;
 
 use crate::diagnostic::Span;
 use crate::syntax::Parse;
 use crate::syntax::ast::{self, AstNode, Item, Named};
 
 /// What a part of the text is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum OutlineKind {
     /// An enum.
     Enum,

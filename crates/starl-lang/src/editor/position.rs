@@ -3,15 +3,29 @@
 
 use alloc::vec::Vec;
 
+use serde::{Deserialize, Serialize};
+
 use crate::diagnostic::Span;
 
 /// A place between two characters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Utf16Position {
     /// The line, from 0.
     pub line: u32,
     /// How many units of UTF-16 stand before it in the line.
+    #[serde(rename = "character")]
     pub column: u32,
+}
+
+/// A part of a text; the end is excluded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Utf16Range {
+    /// Where it starts.
+    pub start: Utf16Position,
+    /// Where it ends.
+    pub end: Utf16Position,
 }
 
 /// Where each line of a text starts and ends.
@@ -60,6 +74,15 @@ impl Utf16Lines {
         Utf16Position {
             line: number as u32,
             column: before.chars().map(|part| part.len_utf16() as u32).sum(),
+        }
+    }
+
+    /// The place of a part of `text`.
+    #[must_use]
+    pub fn range(&self, text: &str, span: Span) -> Utf16Range {
+        Utf16Range {
+            start: self.position(text, span.start),
+            end: self.position(text, span.end),
         }
     }
 

@@ -150,6 +150,19 @@ impl Code {
         &self.0.inbox
     }
 
+    /// The name of the message that a datagram of Unicast, Broadcast or Geocast carries; none if the program handles no
+    /// such message, and where the datagram carries none or several, as acknowledgements and what keeps a total order
+    /// do.
+    pub fn message_in(&self, datagram: &[u8]) -> Option<&str> {
+        let program = self.program();
+        let handlers = self.0.inbox.at_end_of(program, datagram)?;
+        let handler = program
+            .bytecode()
+            .handlers
+            .get(*handlers.first()? as usize)?;
+        Some(&handler.event)
+    }
+
     /// The inputs that the program handles.
     pub(super) fn orders(&self) -> &Orders {
         &self.0.orders

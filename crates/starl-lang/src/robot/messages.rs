@@ -105,6 +105,13 @@ impl Inbox {
         Some(inbox)
     }
 
+    /// The handlers of the message that these bytes end with; none if they end with no message of the program. What
+    /// primitives send holds the message at its end.
+    pub fn at_end_of(&self, program: &Program, bytes: &[u8]) -> Option<&[u32]> {
+        let mut ends = (0..bytes.len()).filter_map(|start| bytes.get(start..));
+        ends.find_map(|end| Some(self.decode(program, end)?.handlers))
+    }
+
     /// The message that these bytes are; none if they are no message of the program.
     pub fn decode(&self, program: &Program, bytes: &[u8]) -> Option<Arrival<'_>> {
         let (tag, fields) = bytes.split_first_chunk::<TAG>()?;

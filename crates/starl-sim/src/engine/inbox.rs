@@ -132,6 +132,12 @@ impl Inboxes {
         }
     }
 
+    /// What came in the present step of the datagram that `from` sent under this number.
+    pub fn find(&self, from: RobotId, sequence: u32) -> Option<&Transmission> {
+        let mut all = self.transmissions.iter();
+        all.find(|content| content.from == from && content.sequence == sequence)
+    }
+
     /// The content of an arrival.
     pub fn transmission(&self, delivery: &Delivery) -> &Transmission {
         &self.transmissions[delivery.transmission as usize]

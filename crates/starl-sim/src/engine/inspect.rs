@@ -46,6 +46,12 @@ impl Simulation {
         .collect()
     }
 
+    /// The payload of a datagram that arrived in the step made last; none if none of this number did.
+    pub fn arrived(&self, from: RobotId, sequence: u32) -> Option<&[u8]> {
+        let content = self.shared.inboxes.find(from, sequence)?;
+        Some(&content.payload)
+    }
+
     /// The obstacles that stand, the walls around the world included, by index.
     pub fn standing_obstacles(&self) -> impl Iterator<Item = Standing<'_>> {
         let shared = &self.shared;

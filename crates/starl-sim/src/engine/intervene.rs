@@ -54,6 +54,11 @@ impl Simulation {
         }
     }
 
+    /// What has been applied to this run and when, what is yet to happen included, in the order in which it was applied.
+    pub fn applied(&self) -> &[(Time, Intervention)] {
+        self.agenda.applied()
+    }
+
     /// The scenario with all that has been applied to this run as events on schedule: run from the start, it
     /// goes as this run went.
     pub fn as_scenario(&self) -> Scenario {

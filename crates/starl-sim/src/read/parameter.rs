@@ -124,20 +124,8 @@ pub(super) fn model(table: Section<'_>, name: &str) -> Option<Arc<dyn Model>> {
 
 /// A quantity in the unit that a model wants it in; one that is written in that unit is taken as it
 /// is, so that no bit is lost between degrees and radians.
-fn in_unit(node: &Node, unit: &str) -> Result<f64, Complaint> {
-    let (unit, dimension) = match unit {
-        "m" => (unit, Dimension::Length),
-        "m/s" => (unit, Dimension::Speed),
-        "m/s2" => (unit, Dimension::Acceleration),
-        "kg" => (unit, Dimension::Mass),
-        "kg/s" => (unit, Dimension::Drag),
-        "s" => (unit, Dimension::Time),
-        "rad" => (unit, Dimension::Angle),
-        "rad/s" => (unit, Dimension::TurnRate),
-        "degrees" => ("deg", Dimension::Angle),
-        "degrees/s" => ("deg/s", Dimension::TurnRate),
-        _ => ("", Dimension::Ratio),
-    };
+fn in_unit(node: &Node, unit: &'static str) -> Result<f64, Complaint> {
+    let (dimension, unit) = Dimension::of_model_unit(unit);
     let in_si = value::quantity(node, dimension, Range::Any)?;
     let as_written = match &node.value {
         Value::Text(text) => Quantity::split(text).filter(|quantity| quantity.unit == unit),

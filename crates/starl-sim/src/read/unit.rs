@@ -66,13 +66,40 @@ impl Dimension {
         }
     }
 
+    /// The names of its units, the smallest first.
+    pub fn unit_names(self) -> impl Iterator<Item = &'static str> {
+        let own = UNITS.iter().filter(move |unit| unit.dimension == self);
+        own.map(|unit| unit.name)
+    }
+
+    /// All that may be written for its units, such as `us` and `\u{b5}s`.
+    pub fn spellings(self) -> impl Iterator<Item = &'static str> {
+        self.unit_names().flat_map(|name| {
+            let others = ALIASES.iter().filter(move |(_, plain)| *plain == name);
+            [name].into_iter().chain(others.map(|(alias, _)| *alias))
+        })
+    }
+
+    /// What a parameter of a model measures, whose unit the model calls so, and how scenarios write that unit.
+    pub fn of_model_unit(unit: &'static str) -> (Dimension, &'static str) {
+        match unit {
+            "m" => (Dimension::Length, unit),
+            "m/s" => (Dimension::Speed, unit),
+            "m/s2" => (Dimension::Acceleration, unit),
+            "kg" => (Dimension::Mass, unit),
+            "kg/s" => (Dimension::Drag, unit),
+            "s" => (Dimension::Time, unit),
+            "rad" => (Dimension::Angle, unit),
+            "rad/s" => (Dimension::TurnRate, unit),
+            "degrees" => (Dimension::Angle, "deg"),
+            "degrees/s" => (Dimension::TurnRate, "deg/s"),
+            _ => (Dimension::Ratio, ""),
+        }
+    }
+
     /// Its units, e.g. `ns, us, ms, s, min or h`.
-    pub fn units(self) -> String {
-        let names: Vec<&str> = UNITS
-            .iter()
-            .filter(|unit| unit.dimension == self)
-            .map(|unit| unit.name)
-            .collect();
+    pub(super) fn units(self) -> String {
+        let names: Vec<&str> = self.unit_names().collect();
         match names.split_last() {
             Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
             Some((last, _)) => last.to_string(),
@@ -133,6 +160,16 @@ const UNITS: &[Unit] = &[
     unit("ppm", Dimension::Ratio, 1.0, 1e6),
 ];
 
+/// Other spellings of units: the micro sign, the degree sign and the superscript two.
+const ALIASES: &[(&str, &str)] = &[
+    ("\u{b5}s", "us"),
+    ("\u{3bc}s", "us"),
+    ("\u{b0}", "deg"),
+    ("\u{b0}/s", "deg/s"),
+    ("m/s\u{b2}", "m/s2"),
+    ("m/s^2", "m/s2"),
+];
+
 /// A number and its unit, read from a text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Quantity<'a> {
@@ -173,14 +210,8 @@ impl<'a> Quantity<'a> {
 
     /// The dimension of the unit and the quantity in SI; none if the unit is not known.
     pub fn in_si(self) -> Option<(Dimension, f64)> {
-        // Also the micro sign, the degree sign and the superscript two.
-        let name = match self.unit {
-            "\u{b5}s" | "\u{3bc}s" => "us",
-            "\u{b0}" => "deg",
-            "\u{b0}/s" => "deg/s",
-            "m/s\u{b2}" | "m/s^2" => "m/s2",
-            name => name,
-        };
+        let alias = ALIASES.iter().find(|(alias, _)| *alias == self.unit);
+        let name = alias.map_or(self.unit, |(_, name)| name);
         let unit = UNITS.iter().find(|unit| unit.name == name)?;
         Some((unit.dimension, self.number * unit.times / unit.over))
     }

@@ -19,7 +19,10 @@ export class Labels {
   #cells = new Uint8Array();
   #columns = 0;
   #rows = 0;
-  #widths = new Map<string, number>();
+  #widths: Record<string, Map<string, number>> = {
+    [FONT]: new Map<string, number>(),
+    [BOLD]: new Map<string, number>(),
+  };
   #shown: number[] = [];
   #at = new Float32Array(3);
 
@@ -64,12 +67,14 @@ export class Labels {
     const member = scene.fleet[robot];
     if (scale === 0 || condition === LEFT || !member) return false;
     const state = CONDITIONS[condition] || (scene.states[robot] ?? "");
-    const gap = state ? 5 : 0;
-    const width =
-      this.#width(context, BOLD, member.name) + gap + (state ? this.#width(context, FONT, state) : 0);
     const off = member.radius * scene.enlarged * scale + 6;
     const left = x + off * 0.75;
     const top = y - off * 0.75 - 6;
+    // Most of a crowd end here, before they cost more.
+    if (!always && !this.#isFree(left, top)) return false;
+    const gap = state ? 5 : 0;
+    const width =
+      this.#width(context, BOLD, member.name) + gap + (state ? this.#width(context, FONT, state) : 0);
     if (!this.#take(left - 2, top - 8, width + 4, 16, always)) return false;
     this.#write(context, scene, BOLD, member.name, left, top, scene.palette.css.text);
     if (state) {
@@ -94,7 +99,7 @@ export class Labels {
   #places(context: CanvasRenderingContext2D, scene: Scene, view: View): void {
     const points = scene.world.way_points;
     // Where there are many, a name keeps others away.
-    const margin = points.length > 40 ? 60 : 2;
+    const margin = points.length > 40 ? 60 : points.length > 16 ? 10 : 2;
     let left = MOST_PLACES;
     for (const { name, position } of points) {
       view.project(position.x, position.y, position.z, this.#at);
@@ -138,14 +143,14 @@ export class Labels {
   }
 
   #width(context: CanvasRenderingContext2D, font: string, text: string): number {
-    const key = `${font}${text}`;
-    let width = this.#widths.get(key);
+    const widths = this.#widths[font] ?? new Map<string, number>();
+    let width = widths.get(text);
     if (width === undefined) {
       // States may be any number of texts.
-      if (this.#widths.size > 5000) this.#widths.clear();
+      if (widths.size > 5000) widths.clear();
       context.font = font;
       width = context.measureText(text).width;
-      this.#widths.set(key, width);
+      widths.set(text, width);
     }
     return width;
   }
@@ -156,6 +161,12 @@ export class Labels {
     const cells = this.#columns * this.#rows;
     if (this.#cells.length === cells) this.#cells.fill(0);
     else this.#cells = new Uint8Array(cells);
+  }
+
+  #isFree(x: number, y: number): boolean {
+    const [column, row] = [Math.floor(x / CELL), Math.floor(y / CELL)];
+    const inside = column >= 0 && row >= 0 && column < this.#columns && row < this.#rows;
+    return inside && !this.#cells[row * this.#columns + column];
   }
 
   /** Takes a place on the screen, unless it is taken or off the screen. */

@@ -11,10 +11,18 @@ const MOST = 150;
 /** Lines and crosses of one broadcast. */
 const MOST_RECEIVERS = 60;
 
+/** How far a ring goes on the screen, px. */
+const RING = 90;
+
+/** The rings that are drawn now, by sender and span of time: one that sends all the time has one ring at a time. */
+const rings = new Map<number, Sent>();
+
 export function drawMessages(pen: Pen, scene: Scene, screen: Float32Array): void {
   const { happenings, now, linger, message } = scene;
   if (!scene.hidden.has("messages")) {
+    rings.clear();
     happenings.traffic.near(now, linger, MOST, (sent) => drawSent(pen, scene, screen, sent));
+    for (const sent of rings.values()) drawRing(pen, scene, screen, sent);
   }
   const chosen = message && happenings.traffic.find(message.from, message.sequence);
   if (chosen) lightUp(pen, scene, screen, chosen);
@@ -23,12 +31,14 @@ export function drawMessages(pen: Pen, scene: Scene, screen: Float32Array): void
 function drawSent(pen: Pen, scene: Scene, screen: Float32Array, sent: Sent): void {
   const color = scene.colors.css[sent.from] ?? "#888";
   const age = scene.now - sent.time;
-  if (sent.to === null) drawBroadcast(pen, scene, sent, color, age);
+  if (sent.to === null && age < scene.linger) {
+    // Those before it in the same span come later and take its place.
+    rings.set(sent.from + Math.floor(sent.time / scene.linger) * scene.count, sent);
+  }
   for (const { robot, time, reason } of sent.arrivals.slice(0, MOST_RECEIVERS)) {
     const since = scene.now - time;
-    if (since >= scene.linger) continue;
+    if (since >= scene.linger || (sent.to === null && reason === null)) continue;
     const fade = 1 - Math.max(0, since) / scene.linger;
-    if (sent.to === null && reason === null) continue;
     const share = Math.min(1, age / Math.max(1e-6, time - sent.time));
     flight(pen, scene, screen, sent.from, robot, share, fade, reason !== null && since >= 0, color);
   }
@@ -39,9 +49,11 @@ function drawSent(pen: Pen, scene: Scene, screen: Float32Array, sent: Sent): voi
   }
 }
 
-/** A ring that grows to the radio's range, or to the furthest receiver. */
-function drawBroadcast(pen: Pen, scene: Scene, sent: Sent, color: string, age: number): void {
+/** A ring that grows towards the radio's range, or the furthest receiver. */
+function drawRing(pen: Pen, scene: Scene, screen: Float32Array, sent: Sent): void {
   const at = sent.from * POSE_NUMBERS;
+  const scale = screen[sent.from * 3 + 2] ?? 0;
+  if (scale === 0) return;
   const { poses, range } = scene;
   const [x, y, z] = [poses[at] ?? 0, poses[at + 1] ?? 0, poses[at + 2] ?? 0];
   let reach = 0;
@@ -49,11 +61,13 @@ function drawBroadcast(pen: Pen, scene: Scene, sent: Sent, color: string, age: n
     const to = robot * POSE_NUMBERS;
     reach = Math.max(reach, Math.hypot((poses[to] ?? x) - x, (poses[to + 1] ?? y) - y));
   }
-  reach = Math.min(reach || (range ?? 1), range ?? Number.POSITIVE_INFINITY);
-  const share = Math.min(1, age / scene.linger);
+  reach = Math.min(reach || (range ?? 1), range ?? Number.POSITIVE_INFINITY, RING / scale);
+  const share = Math.min(1, (scene.now - sent.time) / scene.linger);
+  const radius = (scene.fleet[sent.from]?.radius ?? 0.1) * scene.enlarged;
   pen.context.beginPath();
-  pen.circle(x, y, z, Math.max(0.02, reach * Math.sqrt(share)));
-  pen.stroke(color, 2, 0.85 * (1 - share) ** 0.6);
+  pen.circle(x, y, z, radius + Math.max(0, reach - radius) * share, 48);
+  const crowd = Math.min(1, 14 / rings.size);
+  pen.stroke(scene.colors.css[sent.from] ?? "#888", 1.8, (1 - share) * (0.35 + 0.55 * crowd));
 }
 
 function flight(

@@ -12,7 +12,9 @@ import { Pen } from "./pen.ts";
 
 /** From here on true and believed position differ visibly: px, radians. */
 const [APART, TURNED] = [3.5, 0.2];
-/** How often a flash blinks out of where something happened, s at normal speed: see `linger`. */
+/** More outlines of believed positions are not drawn. */
+const MOST_OUTLINES = 400;
+/** How much longer than a message a flash lasts. */
 const FLASH = 1.6;
 
 export class Overlay {
@@ -73,8 +75,9 @@ export class Overlay {
   /** An outline where a robot believes to be, if that is visibly elsewhere. */
   #beliefs({ poses, count, fleet, enlarged, palette }: Scene): void {
     const pen = this.#pen;
+    let left = MOST_OUTLINES;
     this.context.beginPath();
-    for (let robot = 0; robot < count; robot++) {
+    for (let robot = 0; robot < count && left > 0; robot++) {
       const at = robot * POSE_NUMBERS;
       const scale = this.#screen[robot * 3 + 2] ?? 0;
       if (scale === 0) continue;
@@ -84,7 +87,8 @@ export class Overlay {
       const turn = Math.abs(Math.sin((yaw - (poses[at + 3] ?? 0)) / 2)) * 2;
       const radius = (fleet[robot]?.radius ?? 0.1) * enlarged;
       if (off < APART && (turn < TURNED || radius * scale < 10)) continue;
-      pen.circle(x, y, z, radius, 18);
+      left--;
+      pen.circle(x, y, z, radius, radius * scale < 10 ? 8 : 20);
       pen.to(x, y, z, true);
       pen.to(x + radius * 1.3 * Math.cos(yaw), y + radius * 1.3 * Math.sin(yaw), z);
     }

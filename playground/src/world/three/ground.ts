@@ -36,8 +36,8 @@ void main() {
   float coarse = lines(pace * 5.0);
   vec3 color = mix(floorColor, gridColor, max(fine, coarse) * shown);
   vec2 axis = clamp(1.5 - abs(place) / max(fwidth(place), 1e-6), 0.0, 1.0) * shown;
-  color = mix(color, vec3(0.80, 0.33, 0.27), axis.y * 0.7);
-  color = mix(color, vec3(0.25, 0.60, 0.35), axis.x * 0.7);
+  color = mix(color, vec3(0.80, 0.33, 0.27), axis.y * 0.5);
+  color = mix(color, vec3(0.25, 0.60, 0.35), axis.x * 0.5);
   float far = smoothstep(0.35, 1.0, distance(place, center.xy) / reach);
   gl_FragColor = vec4(mix(color, skyColor, far), 1.0);
 }`;

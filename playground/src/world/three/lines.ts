@@ -3,6 +3,7 @@
 
 import {
   type BufferGeometry,
+  DoubleSide,
   Float32BufferAttribute,
   InstancedBufferGeometry,
   InstancedInterleavedBuffer,
@@ -113,6 +114,7 @@ export function lineMaterial(palette?: Texture, width = 1): ShaderMaterial {
     defines: palette ? { PALETTE: "" } : {},
     transparent: true,
     depthWrite: false,
+    side: DoubleSide,
   });
 }
 

@@ -81,13 +81,14 @@ export class Places {
     if (!hidden.has("obstacles")) for (const obstacle of world.obstacles) this.#stand(obstacle, scene);
     if (!hidden.has("areas")) this.#areas(scene);
     if (!hidden.has("wayPoints")) {
-      const small = world.way_points.length > 40;
+      const [large, small] = [world.way_points.length <= 16, world.way_points.length > 40];
       for (const { position } of world.way_points) {
         const at = { ...position, z: position.z + 0.003 };
         if (position.z > 0.05) this.#lines.add({ ...at, z: 0 }, at, palette.rgb["way-point"], 0.35, 1);
-        this.#lines.add(at, at, palette.rgb["way-point"], 1, small ? 6 : 13);
-        this.#lines.add(at, at, palette.rgb.floor, 1, small ? 3 : 8);
-        if (!small) this.#lines.add(at, at, palette.rgb["way-point"], 1, 3.5);
+        this.#lines.add(at, at, palette.rgb["way-point"], small ? 0.8 : 1, small ? 4 : large ? 13 : 8.5);
+        if (small) continue;
+        this.#lines.add(at, at, palette.rgb.floor, 1, large ? 8 : 4.5);
+        if (large) this.#lines.add(at, at, palette.rgb["way-point"], 1, 3.5);
       }
     }
     this.#lines.end();
@@ -160,10 +161,9 @@ export class Places {
 const color = (rgb: [number, number, number]) => new Color().setRGB(...rgb, "srgb");
 
 export function outline(area: Area): { x: number; y: number }[] {
-  const none = null;
-  if ("circle" in area) return footprint({ shape: { Circle: { ...area.circle, height: none } } });
+  if ("circle" in area) return footprint({ Circle: { ...area.circle, height: null } });
   if ("polygon" in area) return area.polygon;
-  return footprint({ shape: { Cuboid: area.box } });
+  return footprint({ Cuboid: area.box });
 }
 
 /** A wall as a thin box. */

@@ -9,6 +9,9 @@ import { shapeOf } from "./shapes.ts";
 /** How far a robot that is down leans over, radians. */
 const FALLEN = 1.1;
 
+/** Robots of larger fleets have coarser shapes. */
+const FINE_FLEET = 250;
+
 interface Kind {
   robots: number[];
   paint: InstancedMesh;
@@ -56,7 +59,7 @@ export class Robots {
     this.#clear();
     for (const model of new Set(fleet.map(({ model }) => model))) {
       const robots = fleet.filter((member) => member.model === model).map(({ id }) => id);
-      const shape = shapeOf(model);
+      const shape = shapeOf(model, fleet.length > FINE_FLEET);
       const paint = new InstancedMesh(shape.paint, this.#paint, robots.length);
       const trim = new InstancedMesh(shape.trim, this.#trim, robots.length);
       trim.instanceMatrix = paint.instanceMatrix;

@@ -22,8 +22,12 @@ const METAL = "#8b95a0";
 const LIGHT = "#fdfdfb";
 const LAMP = "#ffe08a";
 
+/** Sides of what is round; fewer in large fleets, where a robot is a few pixels. */
+const [FINE, COARSE] = [24, 9];
+let round = FINE;
+
 /** An upright cylinder between two heights. */
-function disc(radius: number, low: number, high: number, sides = 24, top = radius): BufferGeometry {
+function disc(radius: number, low: number, high: number, sides = round, top = radius): BufferGeometry {
   return new CylinderGeometry(top, radius, high - low, sides)
     .rotateX(Math.PI / 2)
     .translate(0, 0, (low + high) / 2);
@@ -31,7 +35,9 @@ function disc(radius: number, low: number, high: number, sides = 24, top = radiu
 
 /** A wheel with its axle along y. */
 function wheel(x: number, y: number, radius: number, width: number, tall: number): BufferGeometry {
-  return new CylinderGeometry(radius, radius, width, 14).scale(1, 1, tall).translate(x, y, radius * tall);
+  return new CylinderGeometry(radius, radius, width, Math.ceil(round * 0.6))
+    .scale(1, 1, tall)
+    .translate(x, y, radius * tall);
 }
 
 function box(length: number, width: number, low: number, high: number, x = 0, y = 0): BufferGeometry {
@@ -48,7 +54,9 @@ function arrow(size: number, z: number, x = 0): BufferGeometry {
 }
 
 function ring(radius: number, thickness: number, z: number, arc = 2 * Math.PI, turn = 0): BufferGeometry {
-  return new TorusGeometry(radius, thickness, 5, 22, arc).rotateZ(turn).translate(0, 0, z);
+  return new TorusGeometry(radius, thickness, round === FINE ? 5 : 3, round, arc)
+    .rotateZ(turn)
+    .translate(0, 0, z);
 }
 
 function colored(geometry: BufferGeometry, color: string): BufferGeometry {
@@ -75,7 +83,7 @@ const shape = (paint: BufferGeometry[], trim: [string, BufferGeometry][]): Shape
 /** The iRobot Create: a low disc on two wheels, with a bumper around its front. */
 function create(): Shape {
   return shape(
-    [disc(0.96, 0.12, 0.86), disc(0.96, 0.86, 1, 24, 0.88)],
+    [disc(0.96, 0.12, 0.86), disc(0.96, 0.86, 1, round, 0.88)],
     [
       [DARK, wheel(0, 0.78, 0.3, 0.22, 0.9)],
       [DARK, wheel(0, -0.78, 0.3, 0.22, 0.9)],
@@ -88,7 +96,7 @@ function create(): Shape {
 /** A tall robot on two wheels, such as the foot-bot. */
 function differential(): Shape {
   return shape(
-    [disc(0.86, 0.14, 0.52), disc(0.78, 0.62, 0.96, 24, 0.7)],
+    [disc(0.86, 0.14, 0.52), disc(0.78, 0.62, 0.96, round, 0.7)],
     [
       [METAL, disc(0.7, 0.52, 0.62)],
       [DARK, wheel(0, 0.86, 0.42, 0.22, 0.55)],
@@ -164,4 +172,8 @@ function other(): Shape {
 
 const SHAPES: Record<string, () => Shape> = { create, differential, holonomic, car, drone };
 
-export const shapeOf = (model: string): Shape => (SHAPES[model] ?? other)();
+/** The shape of a model; `coarse` for large fleets. */
+export function shapeOf(model: string, coarse: boolean): Shape {
+  round = coarse ? COARSE : FINE;
+  return (SHAPES[model] ?? other)();
+}

@@ -94,7 +94,7 @@ export class Stage implements Painter {
     this.#shade.position.set(x, y, 0.001);
     this.#shade.scale.set(reach, reach, 1);
     this.#sun.target.position.set(x, y, 0);
-    this.#sun.position.set(x - reach * 0.5, y - reach * 0.8, reach * 2);
+    this.#sun.position.set(x - reach * 0.3, y - reach * 0.5, reach * 2);
     const camera = this.#sun.shadow.camera;
     camera.left = camera.bottom = -reach;
     camera.right = camera.top = reach;

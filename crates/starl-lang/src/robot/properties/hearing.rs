@@ -208,7 +208,7 @@ impl Hearing<'_> {
 }
 
 /// A property may look at all robots, and at all pairs of them if they are not too many.
-fn limits(robots: usize) -> Limits {
+pub(super) fn limits(robots: usize) -> Limits {
     let least = Limits::default();
     Limits {
         fuel: 10 * least.fuel + 10_000 * robots as u64,

@@ -14,12 +14,14 @@
 //! which a robot occurs twice included, and is reported once for each for which it does not hold.
 //! Robots count from when their programs have started.
 
+mod condition;
 mod docket;
 mod hearing;
 mod judge;
 mod observables;
 mod violation;
 
+pub use condition::Condition;
 pub use judge::{Judge, Standing};
 pub(super) use observables::{OBSERVABLES, Run};
 pub use violation::{Reason, Violation};

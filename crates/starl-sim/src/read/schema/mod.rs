@@ -174,8 +174,8 @@ const RATIO: Kind = Kind::Quantity(Dimension::Ratio, Range::NotNegative);
 /// Events in a second.
 const RATE: Kind = Kind::Quantity(Dimension::Rate, Range::NotNegative);
 
-/// The robot models there are.
-pub(super) fn model_names() -> impl Iterator<Item = &'static str> {
+/// The names of the robot models.
+pub fn model_names() -> impl Iterator<Item = &'static str> {
     starl_motion::models::NAMES
         .into_iter()
         .map(|(name, _)| name)
