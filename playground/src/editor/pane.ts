@@ -115,7 +115,7 @@ export class Pane {
       highlightSelectionMatches(),
       EditorState.tabSize.of(4),
       EditorState.readOnly.of(readOnly),
-      EditorView.contentAttributes.of({ "aria-label": path }),
+      EditorView.contentAttributes.of({ "aria-label": path, tabindex: "0" }),
       EditorView.updateListener.of((update) => {
         if (update.docChanged && !readOnly) this.onEdit(path, update.state.doc.toString());
       }),

@@ -93,7 +93,7 @@ test("what is written is there after a reload, and beside other projects", async
   await tab(page, "Examples");
   await page.getByRole("button", { name: /^Kept/ }).click();
   await page.waitForFunction(() =>
-    document.querySelector(".code-pane").shadowRoot.textContent.includes("// mine"),
+    document.querySelector(".code-pane")?.shadowRoot?.textContent.includes("// mine"),
   );
   await context.close();
 });
@@ -132,7 +132,7 @@ test("what is drawn on the map is in the text, and the other way round", async (
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   assert.equal(await page.locator(".map .item.way-point").count(), before + 1);
   await page.waitForFunction(() =>
-    document.querySelector(".text-side .code-pane").shadowRoot.textContent.includes("way_point"),
+    document.querySelector(".text-side .code-pane")?.shadowRoot?.textContent.includes("way_point"),
   );
   await page.getByRole("button", { name: "Undo" }).click();
   await page.waitForFunction(
