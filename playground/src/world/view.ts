@@ -26,9 +26,9 @@ export class View {
   span = 8;
   /** The direction that is up on the screen, radians from the x axis: from above, and in 3-D. */
   #north = Math.PI / 2;
-  #azimuth = 1.9;
+  #azimuth = 1.8;
   /** The angle between the line of sight and the vertical in 3-D, radians. */
-  tilt = 0.87;
+  tilt = 0.72;
   flat = false;
   /** px */
   width = 1;

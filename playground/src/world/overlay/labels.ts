@@ -68,13 +68,15 @@ export class Labels {
     if (scale === 0 || condition === LEFT || !member) return false;
     const state = CONDITIONS[condition] || (scene.states[robot] ?? "");
     const off = member.radius * scene.enlarged * scale + 6;
-    const left = x + off * 0.75;
+    let left = x + off * 0.75;
     const top = y - off * 0.75 - 6;
     // Most of a crowd end here, before they cost more.
     if (!always && !this.#isFree(left, top)) return false;
     const gap = state ? 5 : 0;
     const width =
       this.#width(context, BOLD, member.name) + gap + (state ? this.#width(context, FONT, state) : 0);
+    // At the right edge it stands on the other side.
+    if (left + width > this.#columns * CELL) left = x - off * 0.75 - width;
     if (!this.#take(left - 2, top - 8, width + 4, 16, always)) return false;
     this.#write(context, scene, BOLD, member.name, left, top, scene.palette.css.text);
     if (state) {

@@ -190,7 +190,7 @@ export class Overlay {
     this.#pen.stroke(palette.css.accent, 2, 1, [5, 4]);
     this.#note(
       palette,
-      `${nameOf(move.target)} ${metres(Math.hypot(to.x - from.x, to.y - from.y))}`,
+      `${nameOf(move.target)}${metres(Math.hypot(to.x - from.x, to.y - from.y))}`,
       from,
       to,
     );
@@ -259,4 +259,4 @@ export class Overlay {
   }
 }
 
-const nameOf = (target: Target): string => ("name" in target ? target.name : "");
+const nameOf = (target: Target): string => ("name" in target ? `${target.name} ` : "");

@@ -30,7 +30,7 @@ export class Places {
   #lines = new Lines(1);
   #solid = new MeshLambertMaterial();
   #hidden = new MeshLambertMaterial({ transparent: true, opacity: 0.25, depthWrite: false });
-  #thing = new MeshLambertMaterial({ color: "#e0a100", flatShading: true });
+  #thing = new MeshLambertMaterial({ color: "#e0a100", emissive: "#7a5600", flatShading: true });
   #obstacles: Mesh[] = [];
   #things: Mesh[] = [];
   #made: unknown[] = [];

@@ -1,0 +1,52 @@
+// The world in a browser: it is painted, only when something changes, and answers to the mouse.
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { launch, serve, visit } from "./support.mjs";
+
+let [browser, server] = [null, null];
+before(async () => {
+  [browser, server] = [await launch(), await serve()];
+});
+after(async () => {
+  await browser?.close();
+  await server?.close();
+});
+
+test("the view of the world stands still when nothing happens, and measures with two clicks", async () => {
+  const { page, context, errors } = await visit(browser, `${server.url}?example=race`);
+  await page.getByRole("button", { name: "From above" }).click();
+  await page.waitForTimeout(1500);
+  const frames = await page.evaluate(async () => {
+    let count = 0;
+    const clear = CanvasRenderingContext2D.prototype.clearRect;
+    CanvasRenderingContext2D.prototype.clearRect = function (...box) {
+      count++;
+      return clear.apply(this, box);
+    };
+    await new Promise((resolve) => setTimeout(resolve, 1000));
+    return count;
+  });
+  assert.equal(frames, 0, "no picture without a change");
+
+  await page.getByRole("button", { name: "Measure" }).click();
+  await page.getByText("Click the first place.").waitFor();
+  const box = await page.getByRole("application").boundingBox();
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  await page.getByText("Click the second place.").waitFor();
+  await page.mouse.click(box.x + box.width / 2 + 60, box.y + box.height / 2 + 60);
+  await page.getByText("Click to measure again.").waitFor();
+  await page.keyboard.press("Escape");
+
+  await page.getByRole("button", { name: "Layers" }).click();
+  await page.getByLabel("Paths so far").uncheck();
+  await page.reload();
+  await page.getByRole("button", { name: "Layers" }).click();
+  assert.equal(await page.getByLabel("Paths so far").isChecked(), false, "hidden layers are remembered");
+  // A static host has no start.json.
+  assert.deepEqual(
+    errors.filter((error) => !error.includes("404")),
+    [],
+  );
+  await context.close();
+});
