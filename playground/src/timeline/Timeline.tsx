@@ -7,7 +7,8 @@ import { run } from "../app/context.ts";
 import { seconds } from "../app/format.ts";
 import { theme } from "../app/theme.ts";
 import type { Event } from "../run/events.ts";
-import { describe, LANES, laneOf } from "./lanes.ts";
+import { describe, LANES } from "./lanes.ts";
+import { first, Marks } from "./marks.ts";
 import { end } from "./Transport.tsx";
 
 const LANE_HEIGHT = 11;
@@ -16,6 +17,8 @@ const AXIS = 16;
 const HEIGHT = TOP + LANES.length * LANE_HEIGHT + AXIS;
 /** A mark answers to a pointer this near, px. */
 const NEAR = 6;
+/** While the run goes on, marks are drawn this often, ms; the line of the moment shown moves with it. */
+const DRAW_EVERY = 250;
 
 export function Timeline() {
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -32,10 +35,19 @@ export function Timeline() {
     return () => observer.disconnect();
   }, []);
 
+  const drawn = useRef({ at: 0, later: 0 });
   useSignalEffect(() => {
-    void [run.grown.value, run.now.value, run.over.value, theme.value, width.value];
-    if (canvas.current && width.value > 0) draw(canvas.current, width.value);
+    void [run.grown.value, run.over.value, run.opened.value, theme.value, width.value];
+    const redraw = () => {
+      drawn.current = { at: performance.now(), later: 0 };
+      if (canvas.current && width.peek() > 0) draw(canvas.current, width.peek());
+    };
+    const wait = drawn.current.at + DRAW_EVERY - performance.now();
+    if (drawn.current.later) return;
+    if (wait <= 0 || !run.playing.peek()) redraw();
+    else drawn.current.later = window.setTimeout(redraw, wait);
   });
+  useEffect(() => () => clearTimeout(drawn.current.later), []);
 
   const timeAt = (event: PointerEvent) => {
     const box = (event.currentTarget as HTMLElement).getBoundingClientRect();
@@ -80,6 +92,7 @@ export function Timeline() {
         }}
         onKeyDown={onKeyDown}
       />
+      <div class="now" style={{ left: `${(100 * run.now.value) / Math.max(1e-9, end())}%` }} />
       {hint.value && (
         <div class="hint" style={{ left: `${hint.value.x}px` }}>
           {hint.value.text}
@@ -91,22 +104,14 @@ export function Timeline() {
 
 const nameOf = (robot: number) => run.fleet.value[robot]?.name ?? `robot ${robot}`;
 
+const marks = new Marks();
+
 function markAt(event: PointerEvent): Event | null {
   const box = (event.currentTarget as HTMLElement).getBoundingClientRect();
   const lane = Math.floor((event.clientY - box.top - TOP) / LANE_HEIGHT);
   const scale = box.width / end();
-  const x = event.clientX - box.left;
-  const events = run.events;
-  let found: Event | null = null;
-  let distance = NEAR;
-  for (let index = events.from((x - NEAR) / scale); index < events.list.length; index++) {
-    const mark = events.list[index];
-    if (!mark || mark.time * scale > x + NEAR) break;
-    const off = Math.abs(mark.time * scale - x);
-    if (laneOf(mark) !== lane || off > distance) continue;
-    [found, distance] = [mark, off];
-  }
-  return found;
+  marks.follow(run.events);
+  return marks.nearest(lane, (event.clientX - box.left) / scale, NEAR / scale);
 }
 
 function draw(canvas: HTMLCanvasElement, width: number): void {
@@ -127,24 +132,18 @@ function draw(canvas: HTMLCanvasElement, width: number): void {
   for (let lane = 0; lane <= LANES.length; lane++) context.fillRect(0, TOP + lane * LANE_HEIGHT, width, 1);
   drawAxis(context, width, scale, color("--muted"));
 
-  const colors = LANES.map((lane) => color(lane.color));
-  // A mark that would cover another one entirely is left out.
-  const last = LANES.map(() => -1);
-  for (const event of run.events.list) {
-    const lane = laneOf(event);
-    if (lane === undefined) continue;
-    const x = Math.round(event.time * scale * 2) / 2;
-    if (x === last[lane]) continue;
-    last[lane] = x;
-    context.fillStyle = context.strokeStyle = colors[lane] ?? "";
-    drawMark(context, LANES[lane]?.shape ?? "dot", x, TOP + (lane + 0.5) * LANE_HEIGHT);
+  marks.follow(run.events);
+  for (const [index, lane] of LANES.entries()) {
+    context.fillStyle = context.strokeStyle = color(lane.color);
+    const list = marks.lanes[index] ?? [];
+    // Of marks that would cover each other one is drawn.
+    for (let at = 0; at < list.length; ) {
+      const x = Math.round((list[at]?.time ?? 0) * scale * 2) / 2;
+      drawMark(context, lane.shape, x, TOP + (index + 0.5) * LANE_HEIGHT);
+      const next = first(list, (x + 0.5) / scale);
+      at = Math.max(at + 1, next);
+    }
   }
-  const now = run.now.value * scale;
-  context.fillStyle = color("--accent");
-  context.fillRect(now - 1, 0, 2, TOP + lanes + 3);
-  context.beginPath();
-  context.arc(now, TOP + lanes + 4, 4, 0, 2 * Math.PI);
-  context.fill();
 }
 
 /** Draws a mark with its middle at a place, in the present colours. */

@@ -3,6 +3,7 @@
 import { useEffect } from "preact/hooks";
 import { run } from "../app/context.ts";
 import { seconds } from "../app/format.ts";
+import { Back, Forward, ToEnd, ToStart } from "./icons.tsx";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 50, Infinity];
 
@@ -48,7 +49,7 @@ export function Transport() {
           title="To the start (Home)"
           aria-label="To the start"
         >
-          ⏮
+          <ToStart />
         </button>
         <button
           type="button"
@@ -57,7 +58,7 @@ export function Transport() {
           title="To the event before (,)"
           aria-label="To the event before"
         >
-          ◂
+          <Back />
         </button>
         <button
           type="button"
@@ -66,7 +67,7 @@ export function Transport() {
           title="To the next event (.)"
           aria-label="To the next event"
         >
-          ▸
+          <Forward />
         </button>
         <button
           type="button"
@@ -75,7 +76,7 @@ export function Transport() {
           title="To the furthest known moment (End)"
           aria-label="To the furthest known moment"
         >
-          ⏭
+          <ToEnd />
         </button>
       </div>
       <label class="speed">
