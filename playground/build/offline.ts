@@ -1,25 +1,34 @@
 // Adds a service worker to the build, so that the page works without a network once it has been loaded.
 
 import { createHash } from "node:crypto";
+import { readdirSync, readFileSync } from "node:fs";
+import { join } from "node:path";
 import type { Plugin } from "vite";
 
 export function offline(): Plugin {
+  let publicDir = "";
   return {
     name: "offline",
     apply: "build",
+    configResolved(config) {
+      publicDir = config.publicDir;
+    },
     generateBundle: {
       order: "post",
       handler(_options, bundle) {
         const files = Object.keys(bundle).filter((name) => !name.endsWith(".map"));
-        // The names in assets/ contain a hash of their content; index.html does not, so its content counts too.
+        const copied = readdirSync(publicDir);
+        // The names in assets/ contain a hash of their content; others do not, so their contents count too.
         const version = createHash("sha256");
         for (const name of files.sort()) {
           const file = bundle[name];
           version.update(name);
           if (file?.type === "asset") version.update(file.source);
         }
+        for (const name of copied.sort()) version.update(name).update(readFileSync(join(publicDir, name)));
         const cache = `starl-${version.digest("hex").slice(0, 16)}`;
-        this.emitFile({ type: "asset", fileName: "sw.js", source: serviceWorker(cache, ["./", ...files]) });
+        const all = ["./", ...files, ...copied];
+        this.emitFile({ type: "asset", fileName: "sw.js", source: serviceWorker(cache, all) });
       },
     },
   };

@@ -22,6 +22,7 @@ switch (start.value.mode) {
     break;
   case "web":
     await begin();
-    if (import.meta.env.PROD) await navigator.serviceWorker?.register("./sw.js").catch(() => undefined);
+    // The command serves no service worker: another command may use the same port later.
+    if (start.value.static && import.meta.env.PROD) await navigator.serviceWorker?.register("./sw.js");
     break;
 }

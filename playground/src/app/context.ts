@@ -8,13 +8,14 @@ export const run = new Run();
 
 /** What the page was opened for: by a static host or `starl web`, by `starl run --open`, or by `starl view`. */
 export type Start =
-  | { mode: "web" }
+  /** `static`: by a host of files, which can be done without once the page is loaded. */
+  | { mode: "web"; static?: boolean }
   | { mode: "run"; opened: ServerRun; files: Record<string, string> }
   | { mode: "trace"; name: string; size: number };
 
 export const start = signal<Start>({ mode: "web" });
 
-/** Asks the host of the page what it was opened for. A static host does not know. */
+/** Asks the host of the page what it was opened for. A static host answers with public/start.json. */
 export async function askHost(): Promise<Start> {
   try {
     const answer = await fetch("start.json", { cache: "no-store" });

@@ -94,12 +94,12 @@ function Result({ first, second, found }: { first: Recording; second: Recording;
   }
   return (
     <>
-      <h3>The first difference is at {seconds(found.time, 3)}</h3>
+      <h2>The first difference is at {seconds(found.time, 3)}</h2>
       <div class="sides">
         <Side recording={first} index={found.index} time={found.time} />
         <Side recording={second} index={found.index} time={found.time} />
       </div>
-      <h3>Paths of both</h3>
+      <h2>Paths of both</h2>
       <p class="muted">The kept run is drawn thin and dashed.</p>
       <Picture chart={pathsOf(first, second)} />
     </>
@@ -111,7 +111,7 @@ function Side({ recording, index, time }: { recording: Recording; index: number;
   const differs = recording.list.find((event) => event.index >= index)?.index;
   return (
     <section aria-label={recording.name}>
-      <h4>{recording.name}</h4>
+      <h3>{recording.name}</h3>
       <button type="button" class="small" onClick={() => openAt(recording, time)}>
         Show this moment
       </button>

@@ -93,7 +93,7 @@ function Summary({ report }: { report: Report }) {
       </dl>
       {report.failures.length > 0 && (
         <section aria-label="Failures">
-          <h3>Programs that failed</h3>
+          <h2>Programs that failed</h2>
           <ul class="plain">
             {report.failures.slice(0, 50).map(({ at, robot, text }) => (
               <li key={`${robot}-${at}`}>
@@ -122,9 +122,9 @@ function Violations() {
   if (list.length === 0) return null;
   return (
     <section aria-label="Violations">
-      <h3>
+      <h2>
         {list.length} {list.length === 1 ? "violation" : "violations"}
-      </h3>
+      </h2>
       <p class="muted">Choose one to go to its moment and to see what could have led to it.</p>
       <div style={{ height: `${Math.min(list.length, MOST_ROWS) * ROW + 2}px`, display: "grid" }}>
         <VirtualList

@@ -34,7 +34,7 @@ function Robot({ robot }: { robot: number }) {
   const point = (place: number) => [0, 1, 2].map((axis) => at(place + axis).toFixed(3)).join(", ");
   return (
     <section>
-      <h3>{nameOf(robot)}</h3>
+      <h2>{nameOf(robot)}</h2>
       <dl>
         <dt>position</dt>
         <dd>({point(0)}) m</dd>
@@ -43,7 +43,7 @@ function Robot({ robot }: { robot: number }) {
         <dt>believes to be at</dt>
         <dd>({point(6)}) m</dd>
       </dl>
-      <h4>Last events</h4>
+      <h3>Last events</h3>
       <ul>
         {lastOf(robot).map((event) => (
           <li key={event.index}>

@@ -55,7 +55,7 @@ function Part({
   return (
     <details open={open}>
       <summary>
-        <h3>{title}</h3>
+        <h2>{title}</h2>
       </summary>
       {children}
     </details>

@@ -43,9 +43,9 @@ function Message({ datagram, traffic }: { datagram: Datagram; traffic: Traffic }
   const to = sent.message.to;
   return (
     <>
-      <h3>
+      <h2>
         Message {sequence} of {nameOf(from)}
-      </h3>
+      </h2>
       <dl class="facts">
         <dt>Sent</dt>
         <dd>

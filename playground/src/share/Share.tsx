@@ -73,7 +73,7 @@ function Sharing() {
           The link is long ({link.href.length} characters). Some mail programs cut long links.
         </p>
       )}
-      <h3>Download</h3>
+      <h2>Download</h2>
       <div class="row">
         <button
           type="button"

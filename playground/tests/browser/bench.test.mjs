@@ -14,13 +14,10 @@ after(async () => {
   await site?.close();
 });
 
-/** A static host has no start.json, which the browser reports. */
-const NO_START = "status of 404";
-
 const open = async (address = "", options = {}) => {
   const visited = await visit(browser, site.url + address, options);
   await visited.page.waitForSelector(".bench");
-  return { ...visited, faults: () => visited.errors.filter((error) => !error.includes(NO_START)) };
+  return { ...visited, faults: () => visited.errors };
 };
 const tab = (page, name) => page.getByRole("tab", { name }).click();
 const editor = (page) => page.locator(".cm-content");

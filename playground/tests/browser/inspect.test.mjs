@@ -31,11 +31,7 @@ async function example(name) {
   };
   const over = () => page.locator(".transport .outcome").waitFor();
   const end = async () => {
-    // A static host does not say what it was opened for.
-    assert.deepEqual(
-      errors.filter((error) => !error.includes("404")),
-      [],
-    );
+    assert.deepEqual(errors, []);
     await context.close();
   };
   return { page, tab, play, over, end };
