@@ -46,12 +46,16 @@ wasm: wasm-module $(STARL)
 golden: wasm-module $(STARL)
 	node apps/starl-wasm/golden.mjs $(STARL) $(ANSWER) --write
 
+# The module as the page loads it: made for size, then tidied.
+MODULE = playground/wasm/starl.wasm
+WASM_FEATURES = --enable-bulk-memory --enable-sign-ext --enable-mutable-globals --enable-nontrapping-float-to-int
 wasm-module:
 	cargo build --locked --profile page -p starl-wasm --target wasm32-unknown-unknown
+	mkdir -p $(dir $(MODULE))
+	wasm-opt $(WASM_FEATURES) -O1 $(CARGO_TARGET_DIR)/wasm32-unknown-unknown/page/starl_wasm.wasm -o $(MODULE)
 
 # The page: built into playground/dist, where a `starl` that is built afterwards finds it.
 page: setup wasm-module
-	cp $(CARGO_TARGET_DIR)/wasm32-unknown-unknown/page/starl_wasm.wasm playground/wasm/starl.wasm
 	cd playground && npm run --silent build
 
 # The page as a folder for any static host.
@@ -61,8 +65,9 @@ site: page
 	@echo "the page is in $(CARGO_TARGET_DIR)/site"
 
 # The page in a real browser.
-web: page
-	cd playground && npm run --silent check && npm run --silent unit && npm run --silent browser
+web: page $(STARL)
+	cd playground && npm run --silent check && npm run --silent unit
+	cd playground && STARL=$(abspath $(STARL)) npm run --silent browser
 
 # Traces read with libraries that are not ours.
 trace: $(STARL)
@@ -123,8 +128,10 @@ editors: $(RELEASE)
 diagrams: $(RELEASE)
 	tools/diagrams.sh $(RELEASE)
 
-bench: $(RELEASE)
+bench: $(RELEASE) wasm-module
 	cargo bench --locked --workspace
+	cargo build --locked --release -p starl-wasm --example answer
+	node apps/starl-wasm/speed.mjs $(CARGO_TARGET_DIR)/release/examples/answer
 	$(RELEASE) bench swarm
 	$(RELEASE) bench radio
 	$(RELEASE) bench race

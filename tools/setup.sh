@@ -39,6 +39,7 @@ fi
 # The page: what it is built from, and the browser that tests it.
 need npm npm
 need chromium chromium
+need wasm-opt binaryen
 if ! node -e 'const [a, b] = process.versions.node.split("."); process.exit(a > 20 || (a == 20 && b >= 19) ? 0 : 1)'; then
     echo "setup: the page needs Node.js 20.19 or later; this is $(node --version)" >&2
     exit 1
@@ -47,4 +48,3 @@ if ! cmp -s playground/package-lock.json playground/node_modules/package-lock.js
     (cd playground && npm ci --no-audit --no-fund)
     cp playground/package-lock.json playground/node_modules/package-lock.json
 fi
-mkdir -p playground/wasm

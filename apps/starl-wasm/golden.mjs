@@ -6,7 +6,7 @@
 // Usage: node golden.mjs PATH-OF-STARL PATH-OF-ANSWER [--write]
 //
 // With --write the digests of the native runs are written down instead; those of WebAssembly must be
-// the same even so. The module is taken from $CARGO_TARGET_DIR, or else from target/.
+// the same even so.
 
 import { spawnSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";

@@ -1,5 +1,3 @@
-// Where the module is: in $CARGO_TARGET_DIR, or else in target/.
+// Where the module is: `make wasm-module` puts it where the page takes it from.
 
-const target = process.env.CARGO_TARGET_DIR ?? new URL("../../../target", import.meta.url).pathname;
-
-export const moduleFile = `${target}/wasm32-unknown-unknown/page/starl_wasm.wasm`;
+export const moduleFile = new URL("../../../playground/wasm/starl.wasm", import.meta.url).pathname;
