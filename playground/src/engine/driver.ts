@@ -163,6 +163,11 @@ export class Driver {
     return this.#exclusive(async () => this.engine.scenario());
   }
 
+  /** The run up to the moment shown as a trace. */
+  trace(): Promise<Uint8Array> {
+    return this.#exclusive(async () => this.engine.trace());
+  }
+
   report() {
     return this.#exclusive(async () => this.engine.report());
   }

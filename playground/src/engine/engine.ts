@@ -31,6 +31,7 @@ export type Engine = Asynchronous<
     | "apply"
     | "breakpoints"
     | "scenario"
+    | "trace"
     | "close"
   >
 >;

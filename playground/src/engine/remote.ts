@@ -96,6 +96,7 @@ export function remote(socket: Socket, simulation: number): Engine {
     apply: (intervention, { at } = {}) => ask("apply", { at, intervention }),
     breakpoints: (breakpoints) => ask("breakpoints", { breakpoints }),
     scenario: () => ask("scenario"),
+    trace: async () => Uint8Array.from(atob(await ask<string>("trace")), (letter) => letter.charCodeAt(0)),
     close: () => ask("close"),
   };
 }

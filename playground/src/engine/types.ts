@@ -125,6 +125,7 @@ export type Request =
   | { apply: starl.Intervention }
   | { scenario: true }
   | { report: true }
+  | { trace: true }
   | { check: starl.Files }
   | { examples: true }
   /** A request of the simulator that is handed on as it is. */

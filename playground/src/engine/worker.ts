@@ -53,6 +53,7 @@ async function answer(request: Request): Promise<unknown> {
   if (!(run instanceof Driver)) throw new Refused("a recorded run cannot be steered");
   if ("breakpoints" in request) return run.breakpoints(request.breakpoints);
   if ("apply" in request) return run.apply(request.apply);
+  if ("trace" in request) return run.trace();
   if ("scenario" in request) return run.scenario();
   return run.report();
 }

@@ -7,6 +7,7 @@ import { seconds } from "../app/format.ts";
 import type { Report } from "../engine/types.ts";
 import { CausalPast } from "./CausalPast.tsx";
 import { nameOf } from "./names.ts";
+import { SaveTrace } from "./SaveTrace.tsx";
 import { VirtualList } from "./VirtualList.tsx";
 import { chosenViolation, showViolation, violations } from "./violations.ts";
 import "../styles/properties.css";
@@ -91,6 +92,7 @@ function Summary({ report }: { report: Report }) {
         </dt>
         <dd class="mono">{upToDate ? report.digest || "not recorded" : "shown when paused"}</dd>
       </dl>
+      {live && <SaveTrace />}
       {report.failures.length > 0 && (
         <section aria-label="Failures">
           <h2>Programs that failed</h2>

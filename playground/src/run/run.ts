@@ -204,11 +204,21 @@ export class Run {
     return this.client.ask<string>({ scenario: true });
   }
 
+  /** The run up to the moment shown as a trace, the content of an MCAP file. */
+  trace(): Promise<Uint8Array<ArrayBuffer>> {
+    return this.client.ask<Uint8Array<ArrayBuffer>>({ trace: true });
+  }
+
   /** The present report, its digest up to date. */
   async freshReport(): Promise<Report> {
     const report = await this.client.ask<Report>({ report: true });
     this.report.value = report;
     return report;
+  }
+
+  /** Shows what went wrong. */
+  complain(error: unknown): void {
+    this.problem.value = asEngineError(error);
   }
 
   /** Ends a run that does not answer. */

@@ -2,12 +2,13 @@
 
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { download } from "../app/download.ts";
 import { Dialog } from "../project/Dialog.tsx";
 import { project } from "../project/project.ts";
 import { seed } from "../project/running.ts";
-import { download, fileName, zip } from "./download.ts";
 import { Incoming } from "./Incoming.tsx";
 import { write } from "./link.ts";
+import { fileName, zip } from "./zip.ts";
 import "../styles/share.css";
 
 const open = signal(false);
@@ -77,14 +78,14 @@ function Sharing() {
       <div class="row">
         <button
           type="button"
-          onClick={() => download(`${fileName(name)}.zip`, zip(files), "application/zip")}
+          onClick={() => download(`${fileName(name)}.zip`, "application/zip", new Blob([zip(files)]))}
         >
           All files (.zip)
         </button>
         {scenario !== null && text !== undefined && (
           <button
             type="button"
-            onClick={() => download(scenario.replace(/^.*\//, ""), text, "application/toml")}
+            onClick={() => download(scenario.replace(/^.*\//, ""), "application/toml", text)}
           >
             The scenario (.toml)
           </button>

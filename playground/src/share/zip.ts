@@ -1,16 +1,6 @@
-// Files that leave the page.
+// Files as one, and names for them.
 
 import { strToU8, zipSync } from "fflate";
-
-export function download(name: string, content: BlobPart, type: string): void {
-  const url = URL.createObjectURL(new Blob([content], { type }));
-  const link = document.createElement("a");
-  link.href = url;
-  link.download = name;
-  link.click();
-  // The browser begins to read it in its own time.
-  setTimeout(() => URL.revokeObjectURL(url), 10_000);
-}
 
 export function zip(files: Record<string, string>): Uint8Array<ArrayBuffer> {
   const contents = Object.entries(files).map(([path, text]): [string, Uint8Array] => [path, strToU8(text)]);

@@ -1,0 +1,111 @@
+// The page as the command serves it: a run that the command simulates, and a trace. STARL names the command.
+
+import assert from "node:assert/strict";
+import { spawn, spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, statSync, truncateSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { createInterface } from "node:readline";
+import { after, before, test } from "node:test";
+import { DIST, launch, visit } from "./support.mjs";
+
+const { STARL } = process.env;
+const skip = STARL ? false : "STARL names no command";
+const RUN = ["run", "race", "--seed", "7", "--set", "network.loss=0.1"];
+
+let browser;
+let folder;
+before(async () => {
+  browser = await launch();
+  folder = mkdtempSync(join(tmpdir(), "starl-"));
+});
+after(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true });
+});
+
+/** Starts a command that serves the page; gives its address. */
+async function served(...command) {
+  const child = spawn(STARL, [...command, "--no-browser", "--page", DIST]);
+  const lines = createInterface({ input: child.stdout });
+  const address = await new Promise((resolve, reject) => {
+    lines.on("line", (line) => line.includes("http://") && resolve(line.match(/http:\S+/)[0]));
+    child.on("exit", (status) => reject(new Error(`${command.join(" ")} ended with ${status}`)));
+  });
+  return { address, stop: () => child.kill() };
+}
+
+async function playToTheEnd(page) {
+  await page.locator(".play:enabled").waitFor();
+  await page.getByLabel("Speed of playback").selectOption("Infinity");
+  await page.locator(".play").click();
+  await page.locator(".transport .outcome.reached").waitFor();
+}
+
+async function digest(page) {
+  await page.getByRole("tab", { name: "Properties" }).click();
+  const shown = page.locator("dt", { hasText: "Digest" }).locator("+ dd");
+  await page.waitForFunction((dd) => /^[0-9a-f]{16}$/.test(dd.textContent), await shown.elementHandle());
+  return shown.textContent();
+}
+
+const report = (...options) =>
+  JSON.parse(spawnSync(STARL, [...RUN, "--json", ...options], { encoding: "utf8" }).stdout);
+
+test("a run of the command plays in the page with its digest, and a robot crashes in it", {
+  skip,
+}, async () => {
+  const { address, stop } = await served(...RUN, "--open");
+  const { page, context, errors } = await visit(browser, address);
+  await playToTheEnd(page);
+  assert.equal(await digest(page), report().digest);
+  await page.getByLabel("To the start").click();
+  await page.getByRole("tab", { name: "Robots" }).click();
+  await page.getByRole("option").first().click();
+  await page.getByRole("button", { name: "Crash" }).first().click();
+  await page.getByLabel("To the next event").click();
+  await page.getByRole("option").first().getByText("down").waitFor();
+  assert.deepEqual(errors, []);
+  await context.close();
+  stop();
+});
+
+test("a trace is shown as far as it goes, and can be run again with the same digest", { skip }, async () => {
+  const trace = join(folder, "race.mcap");
+  const { digest: recorded } = report("--trace", trace);
+  const { address, stop } = await served("view", trace);
+  const { page, context, errors } = await visit(browser, address);
+  await playToTheEnd(page);
+  assert.equal(await digest(page), recorded);
+  await page.getByRole("tab", { name: "Robots" }).click();
+  await page.getByRole("option").first().click();
+  await page.getByRole("button", { name: "Run it again here" }).click();
+  await page.waitForFunction(() => document.querySelector("h1")?.textContent.endsWith("run again"));
+  await playToTheEnd(page);
+  assert.equal(await digest(page), recorded);
+  assert.deepEqual(errors, []);
+  await context.close();
+  stop();
+});
+
+test("a trace whose end is missing is shown up to there", { skip }, async () => {
+  const trace = join(folder, "cut.mcap");
+  report("--trace", trace);
+  truncateSync(trace, Math.floor(statSync(trace).size * 0.6));
+  const { address, stop } = await served("view", trace);
+  const { page, context, errors } = await visit(browser, address);
+  await page.locator(".play:enabled").waitFor();
+  await page.getByLabel("To the furthest known moment").click();
+  await page.waitForFunction(() => parseFloat(document.querySelector(".clock").textContent) > 1);
+  assert.deepEqual(errors, []);
+  await context.close();
+  stop();
+});
+
+test("a file that is no trace is refused before anything is served", { skip }, () => {
+  const file = join(folder, "no.mcap");
+  writeFileSync(file, readFileSync(new URL(import.meta.url)));
+  const { status, stderr } = spawnSync(STARL, ["view", file, "--no-browser"], { encoding: "utf8" });
+  assert.equal(status, 2);
+  assert.match(stderr, /no\.mcap/);
+});
