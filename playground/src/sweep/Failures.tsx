@@ -20,7 +20,7 @@ export function Failures() {
   const { wrong } = current.results;
   if (wrong.length === 0)
     return (
-      <p role="status" class="good">
+      <p role="status" class="fine">
         {running.value ? "Nothing went wrong so far." : "Nothing went wrong."}
       </p>
     );

@@ -48,9 +48,9 @@ function Row({ profile, counts }: { profile: string; counts: Counts }) {
           </td>
         ))}
       </tr>
-      <tr aria-hidden="true" class="bars">
+      <tr class="bars">
         <td colSpan={2 + OUTCOMES.length}>
-          <div class="bar">
+          <div class="stack" aria-hidden="true">
             {OUTCOMES.map((outcome) => (
               <span
                 key={outcome}

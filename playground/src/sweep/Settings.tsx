@@ -14,7 +14,8 @@ export function Settings() {
         <Whole label="Seeds" value={seeds} problem={seedsProblem.value} />
         <Whole label="First seed" value={firstSeed} problem={firstSeedProblem.value} />
       </div>
-      <div role="group" aria-label="Profiles of faults" class="profiles">
+      <fieldset class="profiles">
+        <legend class="visually-hidden">Profiles of faults</legend>
         {profiles.value.map(({ name, summary }) => (
           <label key={name}>
             <input
@@ -26,7 +27,7 @@ export function Settings() {
             <span class="muted">{summary}</span>
           </label>
         ))}
-      </div>
+      </fieldset>
     </fieldset>
   );
 }
