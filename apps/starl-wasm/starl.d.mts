@@ -40,6 +40,26 @@ export class Starl {
   outline(files: Files, path: string): OutlinePart[];
   /** The text of a program or library as the formatter lays it out. */
   format(text: string): string;
+  /** The profiles of faults that runs can be tried under. */
+  profiles(): Profile[];
+  /**
+   * Runs a scenario with the faults that a profile draws from a seed, until it ends or something goes wrong, as
+   * `starl test` does. The files and options of the last call stay compiled, so that many trials of them cost little.
+   */
+  try(files: Files, options: TrialOptions, profile: string, seed: number | bigint | string): Tried;
+  /** The scenario of such a run as a file for the folder of the scenario: it goes as the run goes. */
+  profileScenario(files: Files, options: TrialOptions, profile: string, seed: number | bigint | string): string;
+  /**
+   * Makes such a run that goes wrong smaller: tries up to `most` scenarios, 1,000 by default. Another call about the
+   * same run, with a greater `most`, goes on from where the last one ended. Throws a StarlError if nothing goes wrong.
+   */
+  shrink(
+    files: Files,
+    options: TrialOptions,
+    profile: string,
+    seed: number | bigint | string,
+    limits?: { most?: number },
+  ): Shrunk;
   /** Opens a scenario with its programs. Throws a StarlError with diagnostics if something is wrong with them. */
   open(files: Files, options?: Options): Simulation;
   /**
@@ -98,6 +118,60 @@ export interface Options {
   faults?: string;
   /** Keep the records of these topics only, such as `"/starl/action"`. All by default. */
   topics?: Iterable<string>;
+}
+
+export type TrialOptions = Omit<Options, "topics">;
+
+/** A profile of faults: docs/reference/testing.md. */
+export interface Profile {
+  name: string;
+  /** The faults, in one line. */
+  summary: string;
+  /** Whether `starl test` tries it unless others are named. */
+  usual: boolean;
+  /** Whether a run that does not reach its goal is held to be wrong. */
+  demands_goal: boolean;
+}
+
+/** What came of a run that ended, or was ended by what went wrong. */
+export interface Tried {
+  profile: string;
+  /** The seed of 64 bits, as text. */
+  seed: string;
+  outcome: Outcome;
+  /** The property that was violated, `failed` or `unreached`; null where nothing is wrong. */
+  wrong: string | null;
+  /** What was seen, in a sentence; empty where nothing is wrong. */
+  text: string;
+  /** When the run ended. */
+  now: number;
+  digest: string;
+  progress: Report["progress"];
+  messages: Report["messages"];
+  collisions: number;
+  violations: Report["violations"];
+  failures: Report["failures"];
+}
+
+/** The smallest scenario that was found to fail in the same way. */
+export interface Shrunk {
+  /** Its file, for the folder of the scenario that was tried. */
+  scenario: string;
+  /** What comes of it; its seed may be another one. */
+  tried: Tried;
+  /** How many scenarios were tried. */
+  trials: number;
+  /** Whether no robot, fault or network trouble can be left out; otherwise `most` came first. */
+  minimal: boolean;
+  before: Extent;
+  after: Extent;
+}
+
+/** How large a scenario is. */
+export interface Extent {
+  robots: number;
+  faults: number;
+  duration_seconds: number;
 }
 
 /** One problem of a file. */

@@ -83,10 +83,25 @@ export class Starl {
     return this.request({ format: { text } });
   }
 
+  profiles() {
+    return this.request({ profiles: {} });
+  }
+
+  try(files, options, profile, seed) {
+    return this.request({ try: trial(files, options, profile, seed) });
+  }
+
+  profileScenario(files, options, profile, seed) {
+    return this.request({ profile_scenario: trial(files, options, profile, seed) });
+  }
+
+  shrink(files, options, profile, seed, { most } = {}) {
+    return this.request({ shrink: { ...trial(files, options, profile, seed), most } });
+  }
+
   open(files, options = {}) {
-    const { topics, seed, ...rest } = options;
-    if (seed !== undefined) rest.seed = String(seed);
-    const open = { files: contents(files), options: rest };
+    const { topics, ...rest } = options;
+    const open = target(files, rest);
     if (topics !== undefined) open.topics = [...topics];
     return new Simulation(this, this.request({ open }));
   }
@@ -257,6 +272,15 @@ function moment(seconds) {
 
 function read(exports, length) {
   return new TextDecoder().decode(new Uint8Array(exports.memory.buffer, exports.answer(), length));
+}
+
+function target(files, options = {}) {
+  const { seed } = options;
+  return { files: contents(files), options: seed === undefined ? options : { ...options, seed: String(seed) } };
+}
+
+function trial(files, options, profile, seed) {
+  return { ...target(files, options), profile, seed: String(seed) };
 }
 
 function contents(files) {

@@ -15,6 +15,7 @@ pub mod schema;
 pub mod service;
 pub mod session;
 mod start;
+pub mod trial;
 
 pub use parameters::{Complaint, Parameters};
 pub use start::{Application, Refusal, read};

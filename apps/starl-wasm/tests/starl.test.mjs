@@ -177,6 +177,23 @@ test("a run stops at breakpoints", async () => {
   assert.equal(simulation.run().stopped, null);
 });
 
+test("a failure is found and shrunk in pieces", async () => {
+  const starl = await load(module);
+  const program = "program Shy\n\ninvariant shy: not spoken\n\nspoken: Bool = false\n\nspeak()\n    pre not spoken\n    eff spoken = true\n";
+  const files = { "shy.starl": program };
+  assert.ok(starl.profiles().some(({ name, usual }) => name === "corruption" && !usual));
+  const tried = starl.try(files, {}, "lossy", 7n);
+  assert.deepEqual([tried.outcome, tried.wrong, tried.seed], ["violated", "Shy.shy", "7"]);
+  const first = starl.shrink(files, {}, "lossy", 7, { most: 1 });
+  const last = starl.shrink(files, {}, "lossy", 7);
+  assert.deepEqual([first.trials, first.minimal, last.minimal, last.after.robots], [1, false, true, 1]);
+  const again = starl.open({ ...files, "small.toml": last.scenario });
+  again.run({ until: last.tried.now });
+  assert.equal(again.report().digest, last.tried.digest);
+  assert.match(starl.profileScenario(files, {}, "lossy", 7), /loss = /);
+  assert.throws(() => starl.try(files, {}, "lossi", 7), /there is no profile "lossi"/);
+});
+
 test("the schema has every field in the order of the reference", async () => {
   const schema = (await load(module)).schema();
   assert.deepEqual(Object.keys(schema.properties).slice(0, 4), ["title", "program", "seed", "duration"]);

@@ -74,6 +74,17 @@ fn unreached(run: &Run) -> String {
     )
 }
 
+impl Finding {
+    /// The property that was violated, `failed` or `unreached`.
+    pub fn name(&self) -> &str {
+        match self {
+            Finding::Violated(property) => property,
+            Finding::Failed => "failed",
+            Finding::Unreached => "unreached",
+        }
+    }
+}
+
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -6,6 +6,7 @@ import { Gallery } from "../gallery/Gallery.tsx";
 import { Lesson } from "../lesson/Lesson.tsx";
 import { LessonStrip } from "../lesson/LessonStrip.tsx";
 import { Scenario } from "../scenario/Scenario.tsx";
+import { Sweep } from "../sweep/Sweep.tsx";
 import { type Tab, Tabs } from "./Tabs.tsx";
 
 export const benchTab = signal("gallery");
@@ -15,6 +16,7 @@ const TABS: Tab[] = [
   { name: "lesson", label: "Lesson", panel: Lesson },
   { name: "program", label: "Program", panel: Editor },
   { name: "scenario", label: "Scenario", panel: Scenario },
+  { name: "sweep", label: "Sweep", panel: Sweep },
 ];
 
 export function Bench() {

@@ -28,7 +28,9 @@ export function csvOf({ lines, xLabel, yLabel }: Chart): string {
   return [["series", quoted(xLabel), quoted(yLabel)].join(","), ...rows, ""].join("\r\n");
 }
 
-const quoted = (text: string): string => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+/** A cell of a table. */
+export const quoted = (text: string): string =>
+  /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 
 /** Lines with at most so many points: every so manyth of them, and the last. */
 export function thin(line: Line, most: number): Line {

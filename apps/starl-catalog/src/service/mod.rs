@@ -9,10 +9,12 @@ use crate::schema::schema;
 use crate::session::{
     Budget, Document, Refused, Session, Status, World, check, fleet, formatted, states,
 };
+use crate::trial::{Trials, profiles};
 use request::Request;
 use serde::Serialize;
 use serde_json::{Value, json};
 use starl_core::Time;
+use starl_sim::shrink::Limits;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -23,6 +25,7 @@ pub struct Service {
     registry: Registry,
     sessions: BTreeMap<u32, Session>,
     next: u32,
+    trials: Trials,
     interrupt: Arc<AtomicBool>,
 }
 
@@ -113,6 +116,36 @@ impl Service {
                 answer(&Document::open(&files.into(), &path)?.outline())
             }
             Request::Format { text } => answer(&formatted(&text)),
+            Request::Profiles {} => answer(&profiles()),
+            Request::Try {
+                files,
+                options,
+                profile,
+                seed,
+            } => {
+                let (target, trial) = ((files.into(), options), (&*profile, &*seed));
+                answer(&self.trials.try_out(target, trial, &self.registry)?)
+            }
+            Request::ProfileScenario {
+                files,
+                options,
+                profile,
+                seed,
+            } => {
+                let (target, trial) = ((files.into(), options), (&*profile, &*seed));
+                answer(&self.trials.scenario(target, trial, &self.registry)?)
+            }
+            Request::Shrink {
+                files,
+                options,
+                profile,
+                seed,
+                most,
+            } => {
+                let (target, trial) = ((files.into(), options), (&*profile, &*seed));
+                let most = most.unwrap_or(Limits::default().trials);
+                answer(&self.trials.shrink(target, trial, most, &self.registry)?)
+            }
             Request::Open {
                 files,
                 options,

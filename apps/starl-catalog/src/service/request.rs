@@ -37,6 +37,32 @@ pub enum Request {
     Format {
         text: String,
     },
+    Profiles {},
+    Try {
+        #[serde(default)]
+        files: Contents,
+        #[serde(default)]
+        options: Options,
+        profile: String,
+        seed: String,
+    },
+    ProfileScenario {
+        #[serde(default)]
+        files: Contents,
+        #[serde(default)]
+        options: Options,
+        profile: String,
+        seed: String,
+    },
+    Shrink {
+        #[serde(default)]
+        files: Contents,
+        #[serde(default)]
+        options: Options,
+        profile: String,
+        seed: String,
+        most: Option<u64>,
+    },
     Open {
         #[serde(default)]
         files: Contents,

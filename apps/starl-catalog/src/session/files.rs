@@ -10,7 +10,7 @@ use starl_sim::read::Loader;
 use std::collections::BTreeMap;
 
 /// Files by path.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Files(BTreeMap<String, Vec<u8>>);
 
 impl FromIterator<(String, Vec<u8>)> for Files {

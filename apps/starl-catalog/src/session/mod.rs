@@ -22,6 +22,7 @@ pub use inspect::{
     ActionReport, ClockReport, MailReport, PrimitiveReport, RobotReport, TimerReport,
     VariableReport,
 };
+pub(crate) use open::{Opened, open};
 pub use open::{Options, Refused};
 pub use poses::{MOST_FRAME_NUMBERS, POSE_NUMBERS};
 pub use recorded::Recorded;
@@ -102,7 +103,7 @@ impl Session {
     /// # Errors
     /// All that is wrong with the options, the scenario and its programs.
     pub fn open(files: &Files, options: &Options, registry: &Registry) -> Result<Session, Refused> {
-        let opened = open::open(files, options, registry)?;
+        let opened = open(files, options, registry)?;
         Session::of(opened.application, opened.global_names, opened.warnings)
     }
 

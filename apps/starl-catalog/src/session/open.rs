@@ -12,7 +12,7 @@ use starl_sim::read::{Override, Problem, Request, Source, suggest};
 use std::collections::BTreeMap;
 
 /// What to open, and what to change of it. Each stands for an option of `starl run`.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Options {
     /// The path of a scenario among the files, or an example's name. By default the only scenario among the
@@ -58,8 +58,10 @@ impl From<Problem> for Refused {
 }
 
 /// What was opened.
-pub(super) struct Opened {
+pub(crate) struct Opened {
     pub application: Application,
+    /// The path that names of files in the scenario start from.
+    pub path: String,
     /// The names that programs have everywhere, by those that they have here.
     pub global_names: BTreeMap<String, String>,
     /// The warnings of the compiler.
@@ -67,17 +69,20 @@ pub(super) struct Opened {
 }
 
 /// Reads the scenario that the options name, with its programs.
-pub(super) fn open(
+pub(crate) fn open(
     files: &Files,
     options: &Options,
     registry: &Registry,
 ) -> Result<Opened, Refused> {
     let (source, example) = scenario(files, options)?;
     let is_default = source.name == DEFAULT_NAME && example.is_none();
+    let path = match example.is_some() || is_default {
+        true => String::new(),
+        false => source.name.clone(),
+    };
     let beside = match example {
         Some(example) => Beside::example(files, example),
-        None if is_default => Beside::new(files, ""),
-        None => Beside::new(files, &source.name),
+        None => Beside::new(files, &path),
     };
     let mut overrides = Vec::new();
     let program = match &options.program {
@@ -126,6 +131,7 @@ pub(super) fn open(
                 .flat_map(|findings| Diagnostic::of_program(findings, &beside))
                 .collect(),
             application,
+            path: path.clone(),
             global_names: example.map_or(BTreeMap::new(), |example| {
                 let own = example.programs().filter(|own| !files.has(own));
                 own.map(|own| (own.to_string(), example.global_name(own)))

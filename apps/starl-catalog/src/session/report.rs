@@ -236,22 +236,36 @@ impl Report {
             messages: Messages::of(simulation),
             collisions: simulation.tally().collisions,
             properties: run.verdicts().into_iter().map(Property::of).collect(),
-            violations: (run.violations().iter())
-                .map(|violation| Violation {
-                    property: violation.property.to_string(),
-                    at: violation.at.seconds(),
-                    robots: violation.robots.iter().map(|robot| robot.0).collect(),
-                    text: violation.text.clone(),
-                })
-                .collect(),
-            failures: (run.failures().iter())
-                .map(|failure| Failure {
-                    at: failure.at.seconds(),
-                    robot: failure.robot.0,
-                    text: failure.text.to_string(),
-                })
-                .collect(),
+            violations: Violation::all(run),
+            failures: Failure::all(run),
         }
+    }
+}
+
+impl Violation {
+    /// Every violation so far.
+    pub fn all(run: &Run) -> Vec<Violation> {
+        let violations = run.violations().iter();
+        let told = violations.map(|violation| Violation {
+            property: violation.property.to_string(),
+            at: violation.at.seconds(),
+            robots: violation.robots.iter().map(|robot| robot.0).collect(),
+            text: violation.text.clone(),
+        });
+        told.collect()
+    }
+}
+
+impl Failure {
+    /// Every program so far that could not go on.
+    pub fn all(run: &Run) -> Vec<Failure> {
+        let failures = run.failures().iter();
+        let told = failures.map(|failure| Failure {
+            at: failure.at.seconds(),
+            robot: failure.robot.0,
+            text: failure.text.to_string(),
+        });
+        told.collect()
     }
 }
 

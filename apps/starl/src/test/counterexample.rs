@@ -1,7 +1,4 @@
 //! A run that went wrong, shrunk, saved and drawn.
-//!
-//! What is shrunk is the text of a scenario's file: every candidate is written, read and run as `starl run`
-//! would, so that the file that is saved fails as the run did.
 
 use super::search::Case;
 use super::subject::Subject;
@@ -13,12 +10,8 @@ use crate::origin::Origin;
 use crate::output::Output;
 use crate::progress::Count;
 use crate::run::quoted;
-use starl_catalog::Application;
-use starl_catalog::programs::Registry;
-use starl_core::{Duration, Time};
-use starl_sim::read::{Request, Source};
-use starl_sim::shrink::{Limits, shrink};
-use starl_sim::{Finding, Scenario, Trial, write};
+use starl_catalog::trial::{Shrinking, Size};
+use starl_sim::Scenario;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -41,24 +34,6 @@ pub struct Counterexample {
     pub again: String,
 }
 
-/// How large a scenario is.
-#[derive(Clone, Copy, Debug)]
-pub struct Size {
-    pub robots: usize,
-    pub faults: usize,
-    pub duration: Duration,
-}
-
-impl Size {
-    fn of(scenario: &Scenario) -> Size {
-        Size {
-            robots: scenario.fleet.len(),
-            faults: scenario.faults.schedule.len(),
-            duration: scenario.duration,
-        }
-    }
-}
-
 impl Counterexample {
     /// Shrinks a run and saves it; as far as it has come when someone stops it.
     pub fn of(
@@ -70,89 +45,43 @@ impl Counterexample {
     ) -> Result<Counterexample, Failure> {
         let is_stopped = || stop.load(Ordering::Relaxed);
         let path = free_path(&arguments.out, &name(subject, case));
-        let judge = Judge {
-            path: &path,
-            finding: &case.finding,
-            registry: subject.application.registry(),
-            head: head(subject, case, arguments),
-        };
-        let mut original = subject.scenario(case.profile, case.seed);
-        for group in &mut original.fleet.groups {
-            group.program = subject.origin.key_from(&group.program, &path);
-        }
-        original.title = format!("{}: {}", original.title, case.finding);
-        let limits = Limits {
-            trials: u64::from(arguments.shrink).max(1),
-            ..Limits::default()
-        };
-        let shorter = case.finding != Finding::Unreached;
-        let mut tried = |scenario: &Scenario| -> Option<Time> {
-            if is_stopped() {
-                return None;
+        let rename = |program: &str| subject.origin.key_from(program, &path);
+        let key = (case.profile, case.seed);
+        let head = head(subject, case, arguments);
+        let finding = case.finding.clone();
+        let mut shrinking = Shrinking::new(&subject.tested, key, finding, head, &rename);
+        let most = u64::from(arguments.shrink);
+        let smaller = shrinking.search(most, &Origin::file(&path), &mut |scenario| {
+            let go_on = !is_stopped();
+            if go_on {
+                progress.add(1);
+                progress.say(describe(scenario));
             }
-            progress.add(1);
-            progress.say(describe(scenario));
-            judge.trial(scenario).map(|trial| trial.end)
-        };
-        let shrunk = shrink(&original, limits, shorter, &mut tried);
+            go_on
+        });
         let mut counterexample = Counterexample {
             scenario: None,
             diagram: None,
-            sizes: [Size::of(&original); 2],
+            sizes: [shrinking.size(); 2],
             text: case.text.clone(),
-            trials: 1,
+            trials: u64::from(!is_stopped()),
             is_minimal: false,
             again: again(subject, case, arguments),
         };
-        let Some(shrunk) = shrunk else {
-            counterexample.trials = u64::from(!is_stopped());
+        let Some(smaller) = smaller else {
             return Ok(counterexample);
         };
-        if let Some(trial) = judge.trial(&shrunk.scenario) {
-            counterexample.text = trial.text;
-        }
-        save(&path, judge.text(&shrunk.scenario).as_bytes())?;
+        save(&path, smaller.text.as_bytes())?;
         let picture = path.with_extension("svg");
-        if let Some(application) = judge.application(&shrunk.scenario) {
-            let drawn = diagram::of_run(&application, &diagram::Extent::default())?;
-            save(&picture, &drawn.svg())?;
-            counterexample.diagram = Some(picture);
-        }
-        counterexample.sizes[1] = Size::of(&shrunk.scenario);
-        counterexample.trials = shrunk.trials;
-        counterexample.is_minimal = shrunk.is_minimal && !is_stopped();
+        let drawn = diagram::of_run(&smaller.application, &diagram::Extent::default())?;
+        save(&picture, &drawn.svg())?;
+        counterexample.diagram = Some(picture);
+        counterexample.text = smaller.trial.text;
+        counterexample.sizes[1] = Size::of(&smaller.scenario);
+        counterexample.trials = smaller.trials;
+        counterexample.is_minimal = smaller.is_minimal && !is_stopped();
         counterexample.scenario = Some(path);
         Ok(counterexample)
-    }
-}
-
-/// Says whether scenarios fail as the first one did.
-struct Judge<'a> {
-    path: &'a Path,
-    finding: &'a Finding,
-    registry: &'a Registry,
-    /// Comments at the head of the file.
-    head: String,
-}
-
-impl Judge<'_> {
-    fn text(&self, scenario: &Scenario) -> String {
-        format!("{}{}", self.head, write::scenario(scenario))
-    }
-
-    /// The scenario as it is read from its file.
-    fn application(&self, scenario: &Scenario) -> Option<Application> {
-        let source = Source::new(self.path.display().to_string(), self.text(scenario));
-        let origin = Origin::file(self.path);
-        starl_catalog::read(&Request::new(source), &origin, self.registry).ok()
-    }
-
-    /// What comes of a scenario, if it fails in the same way.
-    fn trial(&self, scenario: &Scenario) -> Option<Trial> {
-        let mut run = self.application(scenario)?.run().ok()?;
-        let demands_goal = *self.finding == Finding::Unreached;
-        let trial = Trial::of(&mut run, demands_goal);
-        (trial.finding.as_ref() == Some(self.finding)).then_some(trial)
     }
 }
 
@@ -207,7 +136,7 @@ fn again(subject: &Subject, case: &Case, arguments: &TestArguments) -> String {
             words.push(format!("{option} {}", quoted(&value)));
         }
     }
-    if subject.demands_goal {
+    if subject.tested.demands_goal {
         words.push("--demand-goal".to_string());
     }
     words.join(" ")

@@ -1,9 +1,10 @@
 //! What there is to say of a search, for people and for programs alike.
 
-use super::counterexample::{Counterexample, Size};
+use super::counterexample::Counterexample;
 use super::search::{Case, Found, Search};
 use crate::console::{counted, grouped, rounded};
 use serde::Serialize;
+use starl_catalog::trial::Extent;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -69,27 +70,10 @@ pub struct Finding {
     pub minimal: bool,
 }
 
-/// How large a scenario is.
-#[derive(Debug, Serialize)]
-pub struct Extent {
-    pub robots: usize,
-    pub faults: usize,
-    pub duration_seconds: f64,
-}
-
-impl Extent {
-    fn of(size: Size) -> Extent {
-        Extent {
-            robots: size.robots,
-            faults: size.faults,
-            duration_seconds: size.duration.seconds(),
-        }
-    }
-
-    fn words(&self) -> String {
-        let (robots, faults) = (counted(self.robots, "robot"), counted(self.faults, "fault"));
-        format!("{robots}, {faults}, {} s", rounded(self.duration_seconds))
-    }
+fn words(extent: &Extent) -> String {
+    let robots = counted(extent.robots, "robot");
+    let faults = counted(extent.faults, "fault");
+    format!("{robots}, {faults}, {} s", rounded(extent.duration_seconds))
 }
 
 impl Finding {
@@ -97,7 +81,7 @@ impl Finding {
         let path = |path: &Option<std::path::PathBuf>| {
             path.as_ref().map(|path| path.display().to_string())
         };
-        let [before, after] = example.sizes.map(Extent::of);
+        let [before, after] = example.sizes.map(Extent::from);
         Finding {
             target: search.subjects[case.subject].target.clone(),
             property: case.property().to_string(),
@@ -247,8 +231,8 @@ impl Finding {
                 writeln!(
                     text,
                     "  shrunk from {} to {} in {} tries{end}",
-                    self.before.words(),
-                    self.after.words(),
+                    words(&self.before),
+                    words(&self.after),
                     grouped(self.trials)
                 )?;
                 writeln!(
@@ -276,7 +260,7 @@ impl Finding {
 fn targets(search: &Search, found: &Found) -> Vec<Target> {
     let subjects = search.subjects.iter().enumerate();
     let target = |(index, subject): (usize, &super::subject::Subject)| {
-        let scenario = subject.application.scenario();
+        let scenario = subject.tested.application.scenario();
         let rows = search.profiles.iter().map(|&profile| {
             let tally = found.tallies.get(&(index, profile));
             let tally = tally.cloned().unwrap_or_default();

@@ -97,7 +97,8 @@ impl Search {
                 return found;
             }
             let (subject, profile, seed) = self.at(place);
-            let trial = self.subjects[subject].trial(profile, seed);
+            let tested = &self.subjects[subject].tested;
+            let (_, trial) = tested.try_out(profile, seed);
             found.note(place, (subject, profile, seed), trial);
             progress.add(1);
         }
@@ -185,12 +186,8 @@ impl Found {
 }
 
 impl Case {
-    /// What went wrong, in a word or a name.
-    pub fn property(&self) -> Name {
-        match &self.finding {
-            Finding::Violated(property) => property.clone(),
-            Finding::Failed => "failed".into(),
-            Finding::Unreached => "unreached".into(),
-        }
+    /// The property that was violated, `failed` or `unreached`.
+    pub fn property(&self) -> &str {
+        self.finding.name()
     }
 }

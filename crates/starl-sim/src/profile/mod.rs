@@ -76,6 +76,19 @@ impl Profile {
         }
     }
 
+    /// The faults, in one line.
+    pub fn summary(self) -> &'static str {
+        match self {
+            Profile::Calm => "no faults but those of the scenario",
+            Profile::Lossy => "messages are lost, doubled, held back and delayed",
+            Profile::Partitions => "the network splits into parts for a time",
+            Profile::Crashes => "robots crash; most of them restart without memory",
+            Profile::Clocks => "clocks of robots differ and run at different rates",
+            Profile::Chaos => "message faults, splits, crashes and wrong clocks at once",
+            Profile::Corruption => "variables of robots are overwritten at random",
+        }
+    }
+
     /// The profile of this name.
     pub fn by_name(name: &str) -> Option<Profile> {
         Profile::ALL

@@ -1,0 +1,23 @@
+// What a sweep asks of its workers. Each worker does one thing at a time.
+
+import type * as starl from "../../../apps/starl-wasm/starl.d.mts";
+
+export type { Profile, Shrunk, Tried } from "../../../apps/starl-wasm/starl.d.mts";
+
+/** What is tried. */
+export interface Target {
+  files: Record<string, string>;
+  options: starl.TrialOptions;
+}
+
+/** One run: a profile of faults and the seed that they are drawn from. */
+export interface Trial {
+  profile: string;
+  seed: number;
+}
+
+export type Ask = { try: Trial } | { shrink: Trial; most: number } | { scenario: Trial };
+
+export type ToWorker = { target: Target } | { ask: Ask };
+
+export type FromWorker = { ok: unknown } | { error: { message: string; diagnostics: starl.Diagnostic[] } };
