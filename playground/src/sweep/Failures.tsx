@@ -11,6 +11,7 @@ import { running, shown, sweep } from "./sweep.ts";
 const ROW = 44;
 const MOST_ROWS = 5;
 
+/** The run that a person has picked; until then, the first one counts. */
 const picked = signal<Tried | null>(null);
 
 export function Failures() {
@@ -24,7 +25,7 @@ export function Failures() {
         {running.value ? "Nothing went wrong so far." : "Nothing went wrong."}
       </p>
     );
-  const chosen = picked.value && wrong.includes(picked.value) ? picked.value : null;
+  const chosen = picked.value && wrong.includes(picked.value) ? picked.value : wrong[0];
   return (
     <section aria-label="Runs that went wrong">
       <h3>
@@ -69,7 +70,6 @@ export function Failures() {
         >
           Open as it is
         </button>
-        {!chosen && <span class="muted">Choose a run first.</span>}
       </div>
       <ShrinkProgress />
       <Opened />
