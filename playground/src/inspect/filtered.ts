@@ -20,7 +20,7 @@ export class Filtered {
 
   /** Looks through events that are new, for at most so many ms. Returns whether all are looked through. */
   scan(budget = Number.POSITIVE_INFINITY): boolean {
-    const { events } = this;
+    const events = this.events;
     if (this.#generation !== events.generation) {
       this.#generation = events.generation;
       [this.list, this.#scanned] = [[], 0];

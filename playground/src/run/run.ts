@@ -67,6 +67,8 @@ export class Run {
   /** What it comes to. */
   readonly pace = signal(0);
   readonly over = signal(false);
+  /** When the run ends, as far as that is known, s. */
+  readonly ended = signal<number | null>(null);
   readonly outcome = signal<Outcome | null>(null);
   readonly stopped = signal<Stopped | null>(null);
 
@@ -114,6 +116,7 @@ export class Run {
         this.stopped.value = null;
         this.message.value = null;
         this.outcome.value = null;
+        this.ended.value = null;
         [this.now.value, this.known.value, this.position.value] = [0, 0, 0];
         this.selected.value = this.selected.value.filter((robot) => robot < opened.fleet.length);
       });
@@ -253,7 +256,9 @@ export class Run {
       if (update.cut !== null) {
         this.history.cut(update.cut);
         this.events.cut(update.position);
+        this.ended.value = null;
       }
+      if (update.over) this.ended.value = update.known;
       if (update.frames) this.history.add(update.frames);
       this.events.add(update.records);
       this.now.value = update.now;

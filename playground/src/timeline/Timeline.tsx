@@ -37,7 +37,7 @@ export function Timeline() {
 
   const drawn = useRef({ at: 0, later: 0 });
   useSignalEffect(() => {
-    void [run.grown.value, run.over.value, run.opened.value, theme.value, width.value];
+    void [run.grown.value, run.ended.value, run.opened.value, theme.value, width.value];
     const redraw = () => {
       drawn.current = { at: performance.now(), later: 0 };
       if (canvas.current && width.peek() > 0) draw(canvas.current, width.peek());

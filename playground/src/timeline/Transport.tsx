@@ -95,7 +95,7 @@ export function Transport() {
       </label>
       <output class="clock" aria-live="off">
         {seconds(run.now.value)}
-        {run.opened.value && <span class="muted"> of {seconds(end(), 0)}</span>}
+        {run.opened.value && <span class="muted"> of {seconds(end(), end() < 10 ? 2 : 0)}</span>}
       </output>
       {run.playing.value && run.pace.value > 0 && (
         <span class="muted pace">{run.pace.value.toPrecision(2)} times real time</span>
@@ -115,10 +115,9 @@ const OUTCOMES = {
   failed: "Program failed",
 };
 
-/** How long the timeline is, s: until the run is over, its longest duration is what is known. */
+/** How long the timeline is, s: until the end is known, as long as the run may last. */
 export function end(): number {
-  const duration = run.opened.value?.duration ?? 0;
-  return run.over.value ? run.known.value : Math.max(duration, run.known.value);
+  return run.ended.value ?? Math.max(run.opened.value?.duration ?? 0, run.known.value);
 }
 
 function setSpeed(speed: number): void {
