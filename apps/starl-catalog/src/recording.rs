@@ -1,7 +1,7 @@
 //! How the inputs of a run are kept in a trace's header, and got back from it.
 //!
 //! The scenario and the files that it names are kept as they were written; what the command line
-//! changed is kept beside them, in [`OPTIONS`].
+//! changed is kept beside them, in `options.json`.
 
 use serde::{Deserialize, Serialize};
 use starl_core::Obstacle;
