@@ -3,11 +3,13 @@
 import { signal } from "@preact/signals";
 import { Editor } from "../editor/Editor.tsx";
 import { Gallery } from "../gallery/Gallery.tsx";
-import { Lesson } from "../lesson/Lesson.tsx";
 import { LessonStrip } from "../lesson/LessonStrip.tsx";
-import { Scenario } from "../scenario/Scenario.tsx";
-import { Sweep } from "../sweep/Sweep.tsx";
+import { lazy } from "./lazy.tsx";
 import { type Tab, Tabs } from "./Tabs.tsx";
+
+const Lesson = lazy(async () => (await import("../lesson/Lesson.tsx")).Lesson);
+const Scenario = lazy(async () => (await import("../scenario/Scenario.tsx")).Scenario);
+const Sweep = lazy(async () => (await import("../sweep/Sweep.tsx")).Sweep);
 
 export const benchTab = signal("gallery");
 

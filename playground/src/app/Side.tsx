@@ -1,17 +1,19 @@
 // What there is to know of the run, and how to steer it.
 
-import { Breakpoints } from "../breakpoints/Breakpoints.tsx";
-import { Compare } from "../compare/Compare.tsx";
-import { Log } from "../inspect/Log.tsx";
 import { Properties } from "../inspect/Properties.tsx";
 import { Robots } from "../inspect/Robots.tsx";
 import { violations } from "../inspect/violations.ts";
-import { Steer } from "../meddle/Steer.tsx";
-import { Messages } from "../messages/Messages.tsx";
-import { Plots } from "../plots/Plots.tsx";
 import { run } from "./context.ts";
+import { lazy } from "./lazy.tsx";
 import { sideTab } from "./side-tab.ts";
 import { type Tab, Tabs } from "./Tabs.tsx";
+
+const Breakpoints = lazy(async () => (await import("../breakpoints/Breakpoints.tsx")).Breakpoints);
+const Compare = lazy(async () => (await import("../compare/Compare.tsx")).Compare);
+const Messages = lazy(async () => (await import("../messages/Messages.tsx")).Messages);
+const Plots = lazy(async () => (await import("../plots/Plots.tsx")).Plots);
+const Steer = lazy(async () => (await import("../meddle/Steer.tsx")).Steer);
+const Log = lazy(async () => (await import("../inspect/Log.tsx")).Log);
 
 export function Side() {
   const tabs: Tab[] = [
