@@ -62,6 +62,7 @@ page: setup wasm-module
 site: page
 	rm -rf $(CARGO_TARGET_DIR)/site
 	cp -r playground/dist $(CARGO_TARGET_DIR)/site
+	node playground/build/compress.mjs $(CARGO_TARGET_DIR)/site
 	@echo "the page is in $(CARGO_TARGET_DIR)/site"
 
 # The page in a real browser.
