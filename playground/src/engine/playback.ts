@@ -3,6 +3,7 @@
 
 import type { McapTypes } from "@mcap/core";
 import type { Recorded } from "../../../apps/starl-wasm/starl.d.mts";
+import { firstWhere } from "../run/search.ts";
 import { RECORDED } from "./engine.ts";
 import { LocalFile, lastTime, type Readable, records, ServedFile } from "./mcap.ts";
 import { Refused } from "./remote.ts";
@@ -265,13 +266,7 @@ export class Playback {
 
 /** How many of the ascending times are not after `time`. */
 function position(times: number[], time: number): number {
-  let [low, high] = [0, times.length];
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if ((times[middle] ?? 0) <= time) low = middle + 1;
-    else high = middle;
-  }
-  return low;
+  return firstWhere(times, (other) => other > time);
 }
 
 function describe(

@@ -2,6 +2,7 @@
 // looked through in slices, so that the page stays free.
 
 import type { Event, Events } from "../run/events.ts";
+import { firstWhere } from "../run/search.ts";
 
 /** So many events are looked at between two looks at the clock. */
 const BETWEEN = 512;
@@ -36,12 +37,6 @@ export class Filtered {
 
   /** How many of the list are among the first `count` records of the run. */
   before(count: number): number {
-    let [low, high] = [0, this.list.length];
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if ((this.list[middle]?.index ?? 0) >= count) high = middle;
-      else low = middle + 1;
-    }
-    return low;
+    return firstWhere(this.list, (event) => event.index >= count);
   }
 }

@@ -2,6 +2,7 @@
 // run goes on: each event is looked at once.
 
 import type { Event, Events } from "../run/events.ts";
+import { firstWhere } from "../run/search.ts";
 
 export interface Datagram {
   from: number;
@@ -88,11 +89,5 @@ export class Traffic {
 
 /** How many of the ascending events are among the first `count` records of the run. */
 export function countBefore(list: Event[], count: number): number {
-  let [low, high] = [0, list.length];
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if ((list[middle]?.index ?? 0) >= count) high = middle;
-    else low = middle + 1;
-  }
-  return low;
+  return firstWhere(list, (event) => event.index >= count);
 }

@@ -1,6 +1,6 @@
 // The project that the page shows, and all that is done to it. Every change is kept in the browser at once.
 
-import { batch, computed, effect, signal } from "@preact/signals";
+import { batch, effect, signal } from "@preact/signals";
 import { type Project, pathProblem, scenarioOf } from "./model.ts";
 import * as storage from "./storage.ts";
 
@@ -52,8 +52,6 @@ export const project = signal<Project>(kept ?? make(emptyDraft()));
 export const recent = signal(storage.list());
 /** Why the project is not kept. */
 export const notKept = signal<string | null>(null);
-
-export const activeText = computed(() => project.value.files[project.value.active] ?? "");
 
 let waiting: ReturnType<typeof setTimeout> | undefined;
 

@@ -2,6 +2,7 @@
 // the oldest datagrams are forgotten first, then the oldest of the others.
 
 import type { TraceRecord } from "../engine/types.ts";
+import { firstWhere } from "./search.ts";
 
 const MOST = 400_000;
 
@@ -47,23 +48,12 @@ export class Events {
 
   /** How many events of the list are among the first `count` records of the run. */
   before(count: number): number {
-    return this.#first((event) => event.index >= count);
+    return firstWhere(this.list, (event) => event.index >= count);
   }
 
   /** Where in the list the events from a time on begin. */
   from(time: number): number {
-    return this.#first((event) => event.time >= time);
-  }
-
-  #first(later: (event: Event) => boolean): number {
-    let [low, high] = [0, this.list.length];
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      const event = this.list[middle];
-      if (event && later(event)) high = middle;
-      else low = middle + 1;
-    }
-    return low;
+    return firstWhere(this.list, (event) => event.time >= time);
   }
 
   #thin(): Event[] {

@@ -2,6 +2,7 @@
 // frames, every second one is dropped, so a long run is shown in coarser steps.
 
 import { POSE_NUMBERS } from "../engine/types.ts";
+import { firstWhere } from "./search.ts";
 
 /** Numbers that are kept of a robot in a frame: those of POSE_NUMBERS. */
 const MOST_NUMBERS = 16_000_000;
@@ -43,13 +44,7 @@ export class History {
 
   /** The index of the last frame that is not after `time`, or -1. */
   indexAt(time: number): number {
-    let [low, high] = [0, this.frames.length];
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if ((this.frames[middle]?.time ?? 0) <= time) low = middle + 1;
-      else high = middle;
-    }
-    return low - 1;
+    return firstWhere(this.frames, (frame) => frame.time > time) - 1;
   }
 
   /** Where robots were at a time, between the two frames around it. */

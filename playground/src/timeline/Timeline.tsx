@@ -6,6 +6,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { run } from "../app/context.ts";
 import { seconds } from "../app/format.ts";
 import { theme } from "../app/theme.ts";
+import { nameOf } from "../inspect/names.ts";
 import type { Event } from "../run/events.ts";
 import { describe, LANES } from "./lanes.ts";
 import { first, Marks } from "./marks.ts";
@@ -101,8 +102,6 @@ export function Timeline() {
     </div>
   );
 }
-
-const nameOf = (robot: number) => run.fleet.value[robot]?.name ?? `robot ${robot}`;
 
 const marks = new Marks();
 

@@ -1,6 +1,7 @@
 // The events that the timeline marks, kept beside the list of all events so that no drawing has to look at each.
 
 import type { Event, Events } from "../run/events.ts";
+import { firstWhere } from "../run/search.ts";
 import { LANES, laneOf } from "./lanes.ts";
 
 /** For each lane its events, in order. */
@@ -36,11 +37,5 @@ export class Marks {
 
 /** Where in the list the events from a time on begin. */
 export function first(list: Event[], time: number): number {
-  let [low, high] = [0, list.length];
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if ((list[middle]?.time ?? 0) < time) low = middle + 1;
-    else high = middle;
-  }
-  return low;
+  return firstWhere(list, (event) => event.time >= time);
 }

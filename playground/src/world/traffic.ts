@@ -1,5 +1,7 @@
 // Datagrams on their way near a moment, found by their times.
 
+import { firstWhere } from "../run/search.ts";
+
 export interface Arrival {
   robot: number;
   /** s */
@@ -66,12 +68,6 @@ export class Traffic {
 
   /** How many were sent up to a time. */
   #after(time: number): number {
-    let [low, high] = [0, this.#sent.length];
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if ((this.#sent[middle]?.time ?? 0) <= time) low = middle + 1;
-      else high = middle;
-    }
-    return low;
+    return firstWhere(this.#sent, (sent) => sent.time > time);
   }
 }
