@@ -57,7 +57,7 @@ impl Channel {
 
     /// Sends to all other robots of the application.
     pub fn send_to_peers(&mut self, robot: &mut Robot<'_>, content: Payload) -> MessageId {
-        let (message, notices) = self.reliable.send_to_all(robot, robot.peers(), content);
+        let (message, notices) = self.reliable.send_to_all(robot, content);
         self.settle(robot, notices);
         message
     }

@@ -106,7 +106,9 @@ test("a trace whose end is missing is shown up to there", { skip }, async () => 
 test("a file that is no trace is refused before anything is served", { skip }, () => {
   const file = join(folder, "no.mcap");
   writeFileSync(file, readFileSync(new URL(import.meta.url)));
-  const { status, stderr } = spawnSync(STARL, ["view", file, "--no-browser", "--page", DIST], { encoding: "utf8" });
+  const { status, stderr } = spawnSync(STARL, ["view", file, "--no-browser", "--page", DIST], {
+    encoding: "utf8",
+  });
   assert.equal(status, 2);
   assert.match(stderr, /no\.mcap/);
 });

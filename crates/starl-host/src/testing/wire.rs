@@ -16,6 +16,8 @@ pub struct Wire {
     pub duplication: f64,
     /// Uniform between these, milliseconds; unequal ones reorder.
     pub delay_ms: (u64, u64),
+    /// How likely a copy is held back, and for how long in all, milliseconds.
+    pub late: (f64, u64),
     /// Longer payloads are lost, bytes.
     pub longest: usize,
     /// Nothing passes from the first robot to the second.
@@ -29,6 +31,7 @@ impl Wire {
             loss: 0.0,
             duplication: 0.0,
             delay_ms: (1, 1),
+            late: (0.0, 0),
             longest: usize::MAX,
             cut: BTreeSet::new(),
         }
@@ -54,7 +57,8 @@ impl Wire {
 
     /// The longest that a datagram takes.
     pub fn longest_delay(&self) -> Duration {
-        Duration::from_millis(self.delay_ms.1)
+        let is_late = self.late.0 > 0.0;
+        Duration::from_millis(self.delay_ms.1.max(u64::from(is_late) * self.late.1))
     }
 
     /// Nothing passes between these two robots, either way.
@@ -108,7 +112,10 @@ impl Mail {
             let copies = 1 + u32::from(random.chance(wire.duplication));
             for _ in 0..copies {
                 let is_lost = random.chance(wire.loss);
-                let (low, high) = wire.delay_ms;
+                let (low, high) = match wire.late.0 > 0.0 && random.chance(wire.late.0) {
+                    true => (wire.late.1, wire.late.1),
+                    false => wire.delay_ms,
+                };
                 let delay = random.between(low as f64, high as f64) / 1000.0;
                 if wire.cut.contains(&(from.0, to.0)) {
                     lost.push((to, DropReason::Partition));

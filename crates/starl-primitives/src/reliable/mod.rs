@@ -3,45 +3,50 @@
 //! receiver at most once, and either gets it through or reports the failure (thesis, section 3.3.1:
 //! "a simple protocol that asks for acknowledgment for each message being sent").
 //!
-//! A message to all goes out once to all and is then repeated to each robot that has not acknowledged
-//! it, with exponential back-off and jitter, a bounded number of times. Invariants:
-//! - a receiver hands out a message at most once for as long as it runs, however often it is repeated;
-//! - a sender that restarts draws a new incarnation number, so its first messages are not mistaken for
-//!   duplicates of those it sent before the crash;
+//! A message to all goes out once to all. Each receiver says what it has taken, and is sent what it lacks, several
+//! messages in a datagram, until it has all or their time is up ([`sending`]). Invariants:
+//! - a receiver hands out a message at most once for as long as it runs, however often it is repeated and however
+//!   late its copies are;
+//! - messages of a sender's later life are taken after those of its earlier lives, and how many lives there were
+//!   does not matter: what tells them apart is a handshake, not memory ([`inbox`]);
 //! - every message is settled within [`Options::failure_bound`]: nobody waits for ever on a dead robot;
 //! - memory is bounded by the settings and the size of the fleet, and a peer that never speaks costs
 //!   nothing.
 //!
 //! Guarantees are per incarnation: a receiver that restarts may be handed a message that it had taken
-//! before the crash, if its sender did not hear of it. With [`Options::first_in_first_out`] the
-//! messages to all, and those to one robot, are each taken in order; not the ones relative to the
-//! others. A message counts as acknowledged once it is handed out, so one that is held back for an
-//! earlier message is repeated meanwhile.
+//! before the crash, if its sender did not hear of it; and the first message of a life to a robot that has not heard of
+//! that life arrives only if its sender lives for two more of the network's delays. With
+//! [`Options::first_in_first_out`] the messages to all, and those to one robot, are each taken in order; not the
+//! ones relative to the others.
 
 mod inbox;
 mod notice;
 mod options;
-mod outbox;
+mod outgoing;
 mod packet;
+mod receiving;
+mod runs;
 mod sending;
 
 pub use notice::{Arrival, MessageId, Notice, Notices};
 pub use options::Options;
 
 use crate::incarnation::Incarnation;
-use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
-use alloc::vec::Vec;
-use inbox::{Inbox, Taken};
-use outbox::Outbox;
-use packet::{Key, Packet, Stream};
-use starl_core::{Destination, Input, Payload, Port, Robot, RobotId, TimerKey, message, timers};
+use inbox::Inbox;
+use outgoing::Outgoing;
+use packet::{Packet, Stream};
+use receiving::Progress;
+use sending::Line;
+use starl_core::{Input, Payload, Port, Robot, RobotId, Time, message, timers};
 
 timers! {
     /// The timers of a port that carries the protocol.
     pub(crate) enum Alarm {
-        /// A message may have to be sent again, by its ticket.
-        Resend(u32),
+        /// Receivers may have to be tried again.
+        Resend,
+        /// Senders are to be told what has been taken.
+        Answer,
         /// What an ordered broadcast above the protocol holds back is to be looked at.
         Look,
     }
@@ -53,13 +58,15 @@ pub struct Reliable {
     port: Port,
     options: Options,
     incarnation: Incarnation,
-    /// The number of the last message to all.
-    last_multicast: u32,
-    /// The number of the last message to each robot.
-    last_direct: BTreeMap<RobotId, u32>,
-    outbox: Outbox,
-    /// Boxed, since a node of the map has room for eleven, and most robots hear few.
-    inboxes: BTreeMap<RobotId, Box<Inbox>>,
+    /// What this robot sends to all.
+    multicast: Outgoing,
+    /// What it sends to each robot.
+    direct: BTreeMap<RobotId, Outgoing>,
+    inboxes: BTreeMap<(RobotId, Stream), Inbox>,
+    /// When receivers are tried again.
+    resend_at: Option<Time>,
+    /// When senders are answered.
+    answer_at: Option<Time>,
 }
 
 impl Reliable {
@@ -69,10 +76,11 @@ impl Reliable {
             port,
             options,
             incarnation: Incarnation::default(),
-            last_multicast: 0,
-            last_direct: BTreeMap::new(),
-            outbox: Outbox::default(),
+            multicast: Outgoing::default(),
+            direct: BTreeMap::new(),
             inboxes: BTreeMap::new(),
+            resend_at: None,
+            answer_at: None,
         }
     }
 
@@ -83,34 +91,35 @@ impl Reliable {
 
     /// Whether some receiver of the message is still being tried.
     pub fn is_outstanding(&self, message: MessageId) -> bool {
-        Some(message.incarnation) == self.incarnation.known() && self.outbox.contains(message)
+        let outgoing = match message.to {
+            None => Some(&self.multicast),
+            Some(to) => self.direct.get(&to),
+        };
+        Some(message.incarnation) == self.incarnation.known()
+            && outgoing.is_some_and(|outgoing| outgoing.is_outstanding(message.number))
     }
 
-    /// The number of messages still on their way.
+    /// The number of messages still on their way, with those that were sent after one that is.
     pub fn outstanding(&self) -> usize {
-        self.outbox.len()
+        let direct = self.direct.values().map(Outgoing::len);
+        self.multicast.len() + direct.sum::<usize>()
     }
 
     /// The name of the next message to all.
     pub fn next_to_all(&mut self, robot: &mut Robot<'_>) -> MessageId {
-        let number = self.last_multicast.wrapping_add(1);
         MessageId {
             incarnation: self.incarnation.of(robot),
             to: None,
-            number,
+            number: self.multicast.next(),
         }
     }
 
     /// The name of the next message to one robot.
     pub fn next_to(&mut self, robot: &mut Robot<'_>, to: RobotId) -> MessageId {
-        let number = self
-            .last_direct
-            .get(&to)
-            .map_or(1, |last| last.wrapping_add(1));
         MessageId {
             incarnation: self.incarnation.of(robot),
             to: Some(to),
-            number,
+            number: self.direct.get(&to).map_or(1, Outgoing::next),
         }
     }
 
@@ -121,171 +130,98 @@ impl Reliable {
         to: RobotId,
         content: Payload,
     ) -> (MessageId, Notices) {
-        let message = self.next_to(robot, to);
-        self.last_direct.insert(to, message.number);
-        self.dispatch(robot, message, alloc::vec![to], content)
+        self.dispatch(robot, Some(to), content)
     }
 
-    /// Sends to all robots that the network reaches, and repeats to those of the audience until each
-    /// has acknowledged. Robots outside the audience that hear it take it too.
-    pub fn send_to_all(
-        &mut self,
-        robot: &mut Robot<'_>,
-        audience: impl IntoIterator<Item = RobotId>,
-        content: Payload,
-    ) -> (MessageId, Notices) {
-        let message = self.next_to_all(robot);
-        self.last_multicast = message.number;
-        let me = robot.id();
-        let mut pending: Vec<RobotId> = audience.into_iter().filter(|&peer| peer != me).collect();
-        pending.sort_unstable();
-        pending.dedup();
-        self.dispatch(robot, message, pending, content)
+    /// Sends to all other robots of the fleet.
+    pub fn send_to_all(&mut self, robot: &mut Robot<'_>, content: Payload) -> (MessageId, Notices) {
+        self.dispatch(robot, None, content)
     }
 
     /// Takes an input of the robot: messages to the owner's port and its own timers; others are ignored.
     #[must_use]
     pub fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) -> Notices {
         match input {
-            Input::Message(message) if message.port == self.port => {
-                match message.read::<Packet<Payload>>() {
-                    Some(Packet::Data {
-                        key,
-                        oldest_back,
-                        content,
-                    }) => self.take(robot, message.from, key, oldest_back, content),
-                    Some(Packet::Acknowledge(key)) => self.acknowledged(robot, message.from, key),
-                    Some(Packet::Ask { ticket }) => self.answer(robot, message.from, ticket),
-                    Some(Packet::Oldest {
-                        incarnation,
-                        number,
-                        next,
-                        ticket,
-                    }) => {
-                        let notice = Notice::Settled {
-                            from: message.from,
-                            incarnation,
-                            before: number,
-                            next,
-                            ticket,
-                        };
-                        self.settled(robot, notice)
-                    }
-                    None => Notices::new(),
-                }
+            Input::Message(message)
+                if message.port == self.port && is_peer(robot, message.from) =>
+            {
+                let Some(packet) = message.read() else {
+                    return Notices::new();
+                };
+                self.heard_of(robot, message.from);
+                self.receive(robot, message.from, packet)
             }
             Input::Timer(key) if key.port == self.port => match key.read() {
-                Some(Alarm::Resend(ticket)) => self.timed_out(robot, ticket),
+                Some(Alarm::Resend) => self.resend_due(robot),
+                Some(Alarm::Answer) => {
+                    self.answer_due(robot);
+                    Notices::new()
+                }
                 _ => Notices::new(),
             },
             _ => Notices::new(),
         }
     }
 
-    fn take(
+    fn receive(
         &mut self,
         robot: &mut Robot<'_>,
         from: RobotId,
-        key: Key,
-        oldest_back: u32,
-        content: Payload,
+        packet: Packet<Payload>,
     ) -> Notices {
-        let Key {
-            incarnation,
-            stream,
-            number,
-        } = key;
-        let oldest = match number.checked_sub(oldest_back) {
-            Some(oldest) if oldest > 0 && is_peer(robot, from) => oldest,
-            _ => return Notices::new(), // no message of ours looks like this
-        };
-        let inbox = self.inboxes.entry(from).or_default();
-        let sequence = inbox.sequence(incarnation, stream);
-        let most_gaps = self.options.most_gaps;
-        let taken = if self.options.first_in_first_out {
-            sequence.take_in_order(number, oldest, content, most_gaps)
-        } else {
-            sequence.take(number, oldest, content, most_gaps)
-        };
-        let again = taken.again.then_some(number);
-        self.hand_out(robot, from, key, taken, again)
-    }
-
-    /// Acknowledges what was taken, and what was taken before and came again.
-    fn hand_out(
-        &self,
-        robot: &mut Robot<'_>,
-        from: RobotId,
-        key: Key,
-        taken: Taken,
-        again: Option<u32>,
-    ) -> Notices {
-        let numbers = taken.arrived.iter().map(|&(number, _)| number);
-        for number in numbers.chain(again) {
-            let acknowledgement = Packet::<Payload>::Acknowledge(Key { number, ..key });
-            robot.transmit(Destination::Robot(from), self.port, &acknowledgement);
+        match packet {
+            Packet::Data {
+                incarnation,
+                stream,
+                token,
+                base,
+                next,
+                messages,
+            } => {
+                let progress = Progress {
+                    incarnation,
+                    stream,
+                    token,
+                    base,
+                    next,
+                };
+                self.take(robot, from, &progress, messages)
+            }
+            Packet::Greet { stream, token } => self.greeted(robot, from, stream, token),
+            Packet::Taken {
+                incarnation,
+                stream,
+                before,
+                ahead,
+            } if Some(incarnation) == self.incarnation.known() => {
+                self.taken(robot, from, stream, (before, ahead))
+            }
+            Packet::Taken { .. } => Notices::new(),
         }
-        let arrivals = taken.arrived.into_iter().map(|(number, content)| {
-            Notice::Arrived(Arrival {
-                from,
-                incarnation: key.incarnation,
-                to_all: key.stream == Stream::Multicast,
-                number,
-                content,
-            })
-        });
-        arrivals.collect()
     }
 
-    /// Asks a robot which of its messages to all may still come; the answer is a
-    /// [`Notice::Settled`] with this ticket, if it comes.
-    pub fn ask(&self, robot: &mut Robot<'_>, peer: RobotId, ticket: u32) {
-        let question = Packet::<Payload>::Ask { ticket };
-        robot.transmit(Destination::Robot(peer), self.port, &question);
-    }
-
-    fn answer(&mut self, robot: &mut Robot<'_>, to: RobotId, ticket: u32) -> Notices {
-        let next = self.last_multicast.wrapping_add(1);
-        let answer = Packet::<Payload>::Oldest {
-            incarnation: self.incarnation.of(robot),
-            number: self.outbox.oldest_outstanding(to).unwrap_or(next),
-            next,
-            ticket,
-        };
-        robot.transmit(Destination::Robot(to), self.port, &answer);
-        Notices::new()
-    }
-
-    /// Releases what was held for messages that will not come.
-    fn settled(&mut self, robot: &mut Robot<'_>, notice: Notice) -> Notices {
-        let Notice::Settled {
-            from,
+    fn line(&self, incarnation: u32, to: Option<RobotId>) -> Line {
+        Line {
+            port: self.port,
+            options: self.options,
             incarnation,
-            before,
-            ..
-        } = notice
-        else {
-            return Notices::new();
-        };
-        if !is_peer(robot, from) {
-            return Notices::new();
+            to,
         }
-        let inbox = self.inboxes.entry(from).or_default();
-        let taken = inbox
-            .sequence(incarnation, Stream::Multicast)
-            .settle(before);
-        let key = Key {
-            incarnation,
-            stream: Stream::Multicast,
-            number: before,
-        };
-        let mut notices = self.hand_out(robot, from, key, taken, None);
-        notices.push(notice);
-        notices
     }
 
-    fn timer(&self, ticket: u32) -> TimerKey {
-        TimerKey::new(self.port, Alarm::Resend(ticket))
+    fn outgoing(&mut self, to: Option<RobotId>) -> Option<&mut Outgoing> {
+        match to {
+            None => Some(&mut self.multicast),
+            Some(to) => self.direct.get_mut(&to),
+        }
+    }
+
+    /// The same, begun where there is none.
+    fn outgoing_mut(&mut self, to: Option<RobotId>) -> &mut Outgoing {
+        match to {
+            None => &mut self.multicast,
+            Some(to) => self.direct.entry(to).or_default(),
+        }
     }
 }
 

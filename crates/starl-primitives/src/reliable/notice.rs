@@ -67,7 +67,7 @@ pub enum Notice {
         before: u32,
         /// The number that its next message would have had then.
         next: u32,
-        /// What it was asked with.
+        /// That of the question.
         ticket: u32,
     },
     /// A message of this robot was sent again to each of these receivers.

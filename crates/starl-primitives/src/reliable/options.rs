@@ -1,29 +1,31 @@
 //! How often and how long the protocol tries, and what that promises.
 
-use starl_core::{Duration, math};
+use starl_core::{Duration, Time, math};
 
 /// Settings of [`super::Reliable`]. Time-outs run on the robot's own clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// A message that is not acknowledged is sent again after this time. Default 250 ms, the
-    /// original StarL's; best a little above the round trip.
+    /// A receiver that does not say that it has taken a message is tried again after this time. Default
+    /// 250 ms, the original StarL's; best a little above the round trip. A receiver answers at most five times as
+    /// often, for all that came meanwhile.
     pub first_timeout: Duration,
     /// Each further time-out is twice the one before, up to this. Default 2 s.
     pub longest_timeout: Duration,
     /// Each time-out is stretched by a random factor of at most 1 + jitter, so that robots that lost
     /// their messages together do not send again together. In [0, 1]; default 0.25.
     pub jitter: f64,
-    /// A message is sent again at most this often; then its failure is reported. Default 15.
+    /// A receiver that says nothing is tried again at most this often; then the failure of the message is
+    /// reported. Default 15.
     pub retries: u32,
     /// Whether each receiver takes a sender's messages in the order in which they were sent. Then a
     /// lost message holds back later ones until it arrives or its sender gives it up. Default false.
     pub first_in_first_out: bool,
-    /// With more messages than this on their way the oldest is given up. Default 1024.
+    /// With more messages than this on their way the oldest is given up, and its failure reported. Default
+    /// 4096.
     pub most_outstanding: u32,
-    /// A receiver keeps at most this many messages of one sender that wait for an earlier one, or
-    /// gaps between those that came; what exceeds it is not acknowledged, so its sender tries it
-    /// again. Default 64.
-    pub most_gaps: u32,
+    /// A receiver takes messages up to so many after the first that it lacks; what is further ahead is sent
+    /// again when there is room. Default 256.
+    pub window: u32,
 }
 
 impl Default for Options {
@@ -34,8 +36,8 @@ impl Default for Options {
             jitter: 0.25,
             retries: 15,
             first_in_first_out: false,
-            most_outstanding: 1024,
-            most_gaps: 64,
+            most_outstanding: 4096,
+            window: 256,
         }
     }
 }
@@ -59,14 +61,29 @@ impl Options {
 
     /// The last copy of a message is sent no later than this after the first.
     pub fn retry_span(&self) -> Duration {
-        self.span_before(self.retries)
+        self.span_before(self.retries.saturating_add(1))
     }
 
     /// Success or failure of a message is known no later than this after it was sent: in FIFO order
-    /// two time-outs more than otherwise, in which messages held back are released.
+    /// a little later than otherwise, since messages that are held back have to be released.
     pub fn failure_bound(&self) -> Duration {
-        let extra = if self.first_in_first_out { 3 } else { 1 };
-        self.span_before(self.retries.saturating_add(extra))
+        let slack = self.first_timeout * u64::from(self.first_in_first_out);
+        self.patience(self.first_in_first_out) + slack
+    }
+
+    /// For so long a message is tried that a receiver holds back or not.
+    pub(super) fn patience(&self, is_held: bool) -> Duration {
+        let timeout = self.longest_timeout.max(self.first_timeout);
+        self.retry_span() + timeout * (2 * u64::from(is_held))
+    }
+
+    /// When a sender is answered that was last answered at some time.
+    pub(super) fn answer_time(&self, last: Option<Time>, now: Time) -> Time {
+        match last {
+            // A clock that was set back must not put it off.
+            Some(last) if last <= now => last + self.first_timeout / 5,
+            _ => now,
+        }
     }
 
     /// The thesis's d1 and d2: over a network that delivers a datagram within `longest_delay` or not
@@ -81,9 +98,9 @@ impl Options {
         last + longest_delay
     }
 
-    /// Within this time a message arrives with probability at least `1 - miss`, if each datagram is
-    /// lost independently with probability `loss` and otherwise delivered within `longest_delay`.
-    /// None where the retries do not suffice for that.
+    /// Within this time a message arrives with probability at least `1 - miss` at a robot that has heard of
+    /// this one since both started, if each datagram is lost independently with probability `loss` and
+    /// otherwise delivered within `longest_delay`. None where the retries do not suffice for that.
     pub fn likely_delivery_bound(
         &self,
         longest_delay: Duration,
@@ -96,11 +113,13 @@ impl Options {
         // The smallest number of copies that are all lost with probability at most `miss`.
         let copies = math::ceil(math::log(miss) / math::log(loss)).max(1.0);
         let retries = copies - 1.0;
-        (loss < 1.0 && retries <= f64::from(self.retries))
-            .then(|| self.span_before(retries as u32) + longest_delay)
+        (loss < 1.0 && retries <= f64::from(self.retries)).then(|| {
+            let span = self.span_before(retries as u32).seconds() * (1.0 + self.safe_jitter());
+            Duration::from_seconds_f64(span) + longest_delay
+        })
     }
 
-    /// The longest time from the first transmission to the one numbered `attempt`.
+    /// The time from the first transmission to the one numbered `attempt`, jitter left out.
     fn span_before(&self, attempt: u32) -> Duration {
         let mut span = Duration::ZERO;
         for earlier in 0..attempt {
@@ -112,6 +131,6 @@ impl Options {
             }
             span = span + timeout;
         }
-        Duration::from_seconds_f64(span.seconds() * (1.0 + self.safe_jitter()))
+        span
     }
 }

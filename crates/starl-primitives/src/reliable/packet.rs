@@ -1,55 +1,43 @@
 //! What the protocol sends.
 
+use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-/// One datagram; `C` holds the content, borrowed when it is sent and owned when it arrived.
+/// One datagram; `C` holds contents, borrowed when they are sent and owned when they have arrived.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum Packet<C> {
-    /// A message.
+    /// Messages of a stream, or none where it only says how far the stream is.
     Data {
-        /// Which message.
-        key: Key,
-        /// How far back the oldest message lies that the sender still tries to get through on this
-        /// stream: nothing earlier will come, or come again.
-        oldest_back: u32,
-        /// The user's bytes.
-        content: C,
-    },
-    /// The receiver has taken the message.
-    Acknowledge(Key),
-    /// Which messages to all may still come?
-    Ask {
-        /// For the answer.
-        ticket: u32,
-    },
-    /// Of the sender's present incarnation, messages to all before this number will not come to the
-    /// robot that asked, or not again.
-    Oldest {
-        /// The sender's.
+        /// The sender's incarnation.
         incarnation: u32,
-        /// The number.
-        number: u32,
-        /// The number that its next message to all will have.
+        stream: Stream,
+        /// That of the [`Packet::Greet`] which this answers.
+        token: Option<u32>,
+        /// No message before this one will come, or come again.
+        base: u32,
+        /// The number of the next message that will be sent.
         next: u32,
-        /// That of the question.
-        ticket: u32,
+        /// The messages, each with its number.
+        messages: Vec<(u32, C)>,
     },
-}
-
-/// Names a message between one sender and one receiver.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct Key {
-    /// The sender's: a new one each time it starts.
-    pub incarnation: u32,
-    /// Which of the sender's streams.
-    pub stream: Stream,
-    /// Counts the messages of the stream from 1.
-    pub number: u32,
+    /// The receiver does not know the sender's present incarnation: it asks for [`Packet::Data`] with this
+    /// token.
+    Greet { stream: Stream, token: u32 },
+    /// What the receiver has taken.
+    Taken {
+        /// The sender's incarnation.
+        incarnation: u32,
+        stream: Stream,
+        /// All messages before this one.
+        before: u32,
+        /// Runs of later ones: how many are missing before the run, and how many are in it.
+        ahead: Vec<(u32, u32)>,
+    },
 }
 
 /// A sender numbers what it sends to all apart from what it sends to each robot, so that every
 /// receiver sees numbers without gaps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(super) enum Stream {
     /// To all.
     Multicast,

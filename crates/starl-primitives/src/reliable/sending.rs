@@ -1,163 +1,449 @@
-//! The sender's half of the protocol: every message is repeated until it is settled.
+//! The sender's half of the protocol: every message is tried until all have taken it or its time is up.
+//!
+//! What is lost is seen from what arrives: a message that was sent well before another one that a receiver turns out
+//! to have is sent again at once (as in RACK, RFC 8985). Where nothing is heard of a receiver it is tried with what it
+//! lacks after a time-out, which doubles each time. What is sent again to a receiver shares datagrams.
 
-use super::outbox::{Outgoing, Stage};
-use super::packet::{Key, Packet, Stream};
-use super::{MessageId, Notice, Notices, Reliable};
+use super::outgoing::{Credit, Outgoing, Receiver, Trying};
+use super::packet::{Packet, Stream};
+use super::{Alarm, MessageId, Notice, Notices, Reliable};
 use alloc::vec::Vec;
-use starl_core::{Destination, Duration, Payload, Robot, RobotId};
+use core::ops::Range;
+use starl_core::{Destination, Duration, Payload, Robot, RobotId, Time, TimerKey};
+
+/// Datagrams with several messages are not longer than this, bytes.
+const CHUNK: usize = 1000;
+
+/// So many datagrams are sent again at once to a receiver that answers.
+const BURST: usize = 4;
 
 impl Reliable {
-    /// Sends a new message and keeps it until all of `pending` have acknowledged it.
+    /// Sends a new message to one robot or to all.
     pub(super) fn dispatch(
         &mut self,
         robot: &mut Robot<'_>,
-        message: MessageId,
-        pending: Vec<RobotId>,
+        to: Option<RobotId>,
         content: Payload,
     ) -> (MessageId, Notices) {
+        let incarnation = self.incarnation.of(robot);
+        let line = self.line(incarnation, to);
+        let now = robot.now();
         let mut notices = Notices::new();
-        if pending.is_empty() {
+        let receivers = line.receivers(robot);
+        let most = self.options.most_outstanding.max(1) as usize;
+        let outgoing = self.outgoing_mut(to);
+        while outgoing.len() >= most {
+            line.give_up(robot, outgoing, &mut notices);
+        }
+        let number = outgoing.push(content, now, receivers as u32);
+        let message = line.name(number);
+        if receivers == 0 {
             notices.push(Notice::Acknowledged(message));
             return (message, notices);
         }
-        if self.outbox.len() >= self.options.most_outstanding.max(1) as usize
-            && let Some((ticket, oldest)) = self.outbox.pop_oldest()
-        {
-            robot.cancel_timer(self.timer(ticket));
-            notices.push(Notice::Failed {
-                message: oldest.message,
-                unreached: oldest.pending,
-            });
-        }
-        let ticket = self.outbox.insert(Outgoing {
-            message,
-            content,
-            pending,
-            attempt: 0,
-            sent_behind: false,
-            stage: Stage::Trying,
-        });
-        self.transmit(robot, ticket);
+        let due = now + line.stretched(robot, 0);
+        // Those who do not know this robot hear of it by any of its messages.
+        let attempt = outgoing.strangers.attempt;
+        outgoing.strangers.due = Some(now + line.stretched(robot, attempt));
+        line.send(robot, line.destination(), outgoing, None, &[number]);
+        self.wake_to_resend(robot, due);
         (message, notices)
     }
 
-    /// Sends a message of the outbox, to all the first time and then to each that is pending.
-    fn transmit(&mut self, robot: &mut Robot<'_>, ticket: u32) {
-        let sent_behind = self.options.first_in_first_out && self.outbox.is_behind(ticket);
-        if let Some(outgoing) = self.outbox.get_mut(ticket) {
-            outgoing.sent_behind = sent_behind;
-        }
-        let Some(outgoing) = self.outbox.get(ticket) else {
-            return;
-        };
-        let MessageId {
-            incarnation,
-            to,
-            number,
-        } = outgoing.message;
-        let stream = if to.is_some() {
-            Stream::Direct
-        } else {
-            Stream::Multicast
-        };
-        let key = Key {
-            incarnation,
-            stream,
-            number,
-        };
-        let send = |robot: &mut Robot<'_>, destination, oldest: u32| {
-            let oldest_back = number.saturating_sub(oldest);
-            let packet = Packet::Data {
-                key,
-                oldest_back,
-                content: &outgoing.content[..],
-            };
-            robot.transmit(destination, self.port, &packet);
-        };
-        if to.is_none() && outgoing.attempt == 0 {
-            send(robot, Destination::All, self.outbox.oldest_to_all());
-        } else {
-            for &peer in &outgoing.pending {
-                send(
-                    robot,
-                    Destination::Robot(peer),
-                    self.outbox.oldest_to(peer, to),
-                );
-            }
-        }
-        self.arm(robot, ticket, outgoing.attempt);
-    }
-
-    /// Arms the timer of a message for its present time-out.
-    fn arm(&self, robot: &mut Robot<'_>, ticket: u32, attempt: u32) {
-        let timeout = self.options.timeout(attempt).seconds();
-        let stretched = timeout * (1.0 + self.options.safe_jitter() * robot.random().uniform());
-        robot.set_timer(self.timer(ticket), Duration::from_seconds_f64(stretched));
-    }
-
-    /// Takes an acknowledgement.
-    pub(super) fn acknowledged(
+    /// A robot says what it has taken of a stream.
+    pub(super) fn taken(
         &mut self,
         robot: &mut Robot<'_>,
         from: RobotId,
-        key: Key,
+        stream: Stream,
+        (before, ahead): (u32, Vec<(u32, u32)>),
     ) -> Notices {
-        let Key {
-            incarnation,
-            stream,
-            number,
-        } = key;
-        let to = (stream == Stream::Direct).then_some(from);
-        let message = MessageId {
-            incarnation,
-            to,
-            number,
+        let Some(incarnation) = self.incarnation.known() else {
+            return Notices::new();
         };
-        let mut notices = Notices::new();
-        if let Some(ticket) = self.outbox.acknowledge(message, from) {
-            robot.cancel_timer(self.timer(ticket));
-            notices.push(Notice::Acknowledged(message));
+        let to = (stream == Stream::Direct).then_some(from);
+        let line = self.line(incarnation, to);
+        let are_taken = !self.options.first_in_first_out;
+        let Some(outgoing) = self.outgoing(to) else {
+            return Notices::new();
+        };
+        if before > outgoing.next() {
+            return Notices::new(); // nobody can have taken that
+        }
+        let ahead = runs(before, &ahead);
+        let Credit { settled, newest } = outgoing.credit(from, before, &ahead, are_taken);
+        let settled = settled.into_iter().map(|number| line.name(number));
+        let notices: Notices = settled.map(Notice::Acknowledged).collect();
+        self.recover(robot, to, from, newest, notices)
+    }
+
+    /// Sends a receiver again what was lost, as what it has shows.
+    fn recover(
+        &mut self,
+        robot: &mut Robot<'_>,
+        to: Option<RobotId>,
+        peer: RobotId,
+        newest: Option<Time>,
+        mut notices: Notices,
+    ) -> Notices {
+        let incarnation = self.incarnation.of(robot);
+        let line = self.line(incarnation, to);
+        let now = robot.now();
+        let first_timeout = self.options.first_timeout;
+        let Some(outgoing) = self.outgoing(to) else {
+            return notices;
+        };
+        let Some(mut receiver) = outgoing.receivers.remove(&peer) else {
+            return notices;
+        };
+        let mut wake = None;
+        if outgoing.first_pending(&receiver).is_none() {
+            receiver.trying = Trying::default();
+            receiver.resent.clear();
+        } else {
+            for _ in 0..BURST {
+                // Whoever answers would have had what was sent a time-out ago, or well before what it has.
+                let is_before = |sent: Time, later: Time, gap| sent + gap <= later;
+                let lost = |sent: Time| {
+                    is_before(sent, now, first_timeout)
+                        || newest.is_some_and(|newest| is_before(sent, newest, first_timeout / 4))
+                };
+                let numbers = line.resend(robot, outgoing, &mut receiver, (peer, None), lost);
+                if numbers.is_empty() {
+                    break;
+                }
+                line.tell(&numbers, peer, &mut notices);
+            }
+            if newest.is_some() || receiver.trying.due.is_none() {
+                receiver.trying = Trying {
+                    attempt: 0,
+                    due: Some(now + line.stretched(robot, 0)),
+                };
+            }
+            wake = receiver.trying.due;
+        }
+        outgoing.receivers.insert(peer, receiver);
+        match wake {
+            Some(due) => self.wake_to_resend(robot, due),
+            None if self.outstanding() == 0 => self.rest(robot),
+            None => {}
         }
         notices
     }
 
-    /// Sends a message again, or gives it up.
-    ///
-    /// In FIFO order the last copies may have reached a receiver that holds the message back for an
-    /// earlier one. Then it is sent once more when that one has been given up, which releases it.
-    pub(super) fn timed_out(&mut self, robot: &mut Robot<'_>, ticket: u32) -> Notices {
-        let is_behind = self.outbox.is_behind(ticket);
+    /// A robot does not know this incarnation: it is told, and sent what it lacks.
+    pub(super) fn greeted(
+        &mut self,
+        robot: &mut Robot<'_>,
+        from: RobotId,
+        stream: Stream,
+        token: u32,
+    ) -> Notices {
+        let to = (stream == Stream::Direct).then_some(from);
+        let incarnation = self.incarnation.of(robot);
+        let line = self.line(incarnation, to);
+        let now = robot.now();
+        let outgoing = self.outgoing_mut(to);
+        let mut receiver = outgoing.receivers.remove(&from).unwrap_or_default();
+        // A life that does not know this one holds nothing of it.
+        receiver.held = super::runs::Runs::before(1);
+        let any = |_: Time| true;
+        let greeting = (from, Some(token));
+        let numbers = line.resend(robot, outgoing, &mut receiver, greeting, any);
+        if numbers.is_empty() {
+            line.send(robot, Destination::Robot(from), outgoing, Some(token), &[]);
+        }
+        let due = now + line.stretched(robot, 0);
+        receiver.trying.due.get_or_insert(due);
+        outgoing.receivers.insert(from, receiver);
+        if self.outstanding() > 0 {
+            self.wake_to_resend(robot, due);
+        }
         let mut notices = Notices::new();
-        let Some(outgoing) = self.outbox.get_mut(ticket) else {
-            return notices;
-        };
-        let attempt = outgoing.attempt;
-        match outgoing.stage {
-            Stage::Trying if attempt < self.options.retries => {
-                outgoing.attempt += 1;
-                notices.push(outgoing.repeated());
-                self.transmit(robot, ticket);
-            }
-            Stage::Trying | Stage::Waiting if outgoing.sent_behind && is_behind => {
-                outgoing.stage = Stage::Waiting;
-                self.arm(robot, ticket, attempt);
-            }
-            Stage::Trying | Stage::Waiting if outgoing.sent_behind => {
-                outgoing.stage = Stage::LastTry;
-                outgoing.attempt += 1;
-                notices.push(outgoing.repeated());
-                self.transmit(robot, ticket);
-            }
-            _ => {
-                let pending = core::mem::take(&mut outgoing.pending);
-                let message = outgoing.message;
-                self.outbox.remove(ticket);
-                notices.push(Notice::Failed {
-                    message,
-                    unreached: pending,
-                });
+        line.tell(&numbers, from, &mut notices);
+        notices
+    }
+
+    /// A robot that did not answer speaks: it is tried soon.
+    pub(super) fn heard_of(&mut self, robot: &mut Robot<'_>, peer: RobotId) {
+        let soon = robot.now() + self.options.first_timeout;
+        let direct = self.direct.get_mut(&peer);
+        let all = core::iter::once(&mut self.multicast).chain(direct);
+        let mut receivers = all.filter_map(|outgoing| outgoing.receivers.get_mut(&peer));
+        let mut is_tried = false;
+        for receiver in receivers.by_ref() {
+            if receiver.trying.due.is_some_and(|due| due > soon) {
+                receiver.trying.due = Some(soon);
+                is_tried = true;
             }
         }
+        if is_tried {
+            self.wake_to_resend(robot, soon);
+        }
+    }
+
+    /// Looks after all that is on its way.
+    pub(super) fn resend_due(&mut self, robot: &mut Robot<'_>) -> Notices {
+        let incarnation = self.incarnation.of(robot);
+        let mut notices = Notices::new();
+        let mut wake: Option<Time> = None;
+        self.resend_at = None;
+        let peers: Vec<Option<RobotId>> = core::iter::once(None)
+            .chain(self.direct.keys().copied().map(Some))
+            .collect();
+        for to in peers {
+            let line = self.line(incarnation, to);
+            let Some(outgoing) = self.outgoing(to) else {
+                continue;
+            };
+            if let Some(next) = line.look_after(robot, outgoing, &mut notices) {
+                wake = Some(wake.map_or(next, |wake| wake.min(next)));
+            }
+        }
+        if let Some(wake) = wake {
+            self.wake_to_resend(robot, wake);
+        }
         notices
+    }
+
+    fn wake_to_resend(&mut self, robot: &mut Robot<'_>, at: Time) {
+        if self.resend_at.is_none_or(|earlier| at < earlier) {
+            self.resend_at = Some(at);
+            // A clock that was set back must not put it off.
+            let longest = self.options.longest_timeout.max(self.options.first_timeout) * 2;
+            let after = at.since(robot.now()).min(longest);
+            let after = after.max(Duration::from_millis(1));
+            robot.set_timer(TimerKey::new(self.port, Alarm::Resend), after);
+        }
+    }
+
+    /// There is nothing to do.
+    fn rest(&mut self, robot: &mut Robot<'_>) {
+        if self.resend_at.take().is_some() {
+            robot.cancel_timer(TimerKey::new(self.port, Alarm::Resend));
+        }
+    }
+}
+
+/// Runs of numbers from how many are missing before each, and how many it has.
+fn runs(before: u32, ahead: &[(u32, u32)]) -> Vec<Range<u32>> {
+    let mut end = before;
+    let runs = ahead.iter().map(|&(skipped, count)| {
+        let start = end.saturating_add(skipped);
+        end = start.saturating_add(count);
+        start..end
+    });
+    runs.collect()
+}
+
+/// What is the same for all messages of a stream.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    pub port: starl_core::Port,
+    pub options: super::Options,
+    pub incarnation: u32,
+    /// The receiver; none where it goes to all.
+    pub to: Option<RobotId>,
+}
+
+impl Line {
+    fn name(&self, number: u32) -> MessageId {
+        MessageId {
+            incarnation: self.incarnation,
+            to: self.to,
+            number,
+        }
+    }
+
+    fn destination(&self) -> Destination {
+        self.to.map_or(Destination::All, Destination::Robot)
+    }
+
+    /// How many robots its messages are for.
+    fn receivers(&self, robot: &Robot<'_>) -> usize {
+        self.to.map_or(robot.fleet().len().saturating_sub(1), |_| 1)
+    }
+
+    /// A time-out with its jitter.
+    fn stretched(&self, robot: &mut Robot<'_>, attempt: u32) -> Duration {
+        let timeout = self.options.timeout(attempt).seconds();
+        let factor = 1.0 + self.options.safe_jitter() * robot.random().uniform();
+        Duration::from_seconds_f64(timeout * factor)
+    }
+
+    /// Says how far the stream is, with these messages.
+    fn send(
+        &self,
+        robot: &mut Robot<'_>,
+        destination: Destination,
+        outgoing: &Outgoing,
+        token: Option<u32>,
+        numbers: &[u32],
+    ) {
+        let content = |&number: &u32| Some((number, &outgoing.get(number)?.content[..]));
+        let packet = Packet::Data {
+            incarnation: self.incarnation,
+            stream: match self.to {
+                None => Stream::Multicast,
+                Some(_) => Stream::Direct,
+            },
+            token,
+            base: outgoing.base(),
+            next: outgoing.next(),
+            messages: numbers.iter().filter_map(content).collect(),
+        };
+        robot.transmit(destination, self.port, &packet);
+    }
+
+    /// Sends a receiver a datagram with messages that it lacks and that were last sent when `is_due` says,
+    /// the longest ago first. Gives them.
+    fn resend(
+        &self,
+        robot: &mut Robot<'_>,
+        outgoing: &Outgoing,
+        receiver: &mut Receiver,
+        (peer, token): (RobotId, Option<u32>),
+        is_due: impl Fn(Time) -> bool,
+    ) -> Vec<u32> {
+        let mut missing: Vec<(Time, u32)> = outgoing
+            .missing(receiver, self.options.window)
+            .filter_map(|number| Some((outgoing.last_sent(receiver, number)?, number)))
+            .filter(|(sent, _)| is_due(*sent))
+            .collect();
+        missing.sort_unstable();
+        let (mut numbers, mut size) = (Vec::new(), 0);
+        for (_, number) in missing {
+            let length = outgoing.get(number).map_or(0, |m| m.content.len() + 4);
+            if size + length > CHUNK && !numbers.is_empty() {
+                break;
+            }
+            size += length;
+            numbers.push(number);
+        }
+        numbers.sort_unstable();
+        if !numbers.is_empty() {
+            self.send(robot, Destination::Robot(peer), outgoing, token, &numbers);
+        }
+        let again = numbers.iter().map(|&number| (number, robot.now()));
+        receiver.resent.extend(again);
+        numbers
+    }
+
+    /// What the owner learns of messages that were sent again.
+    fn tell(&self, numbers: &[u32], to: RobotId, notices: &mut Notices) {
+        let names = numbers.iter().map(|&number| self.name(number));
+        let to = || alloc::vec![to];
+        notices.extend(names.map(|message| Notice::Repeated { message, to: to() }));
+    }
+
+    /// Gives up the first message.
+    fn give_up(&self, robot: &Robot<'_>, outgoing: &mut Outgoing, notices: &mut Notices) {
+        let number = outgoing.base();
+        let has_taken = |peer: &RobotId| {
+            let receiver = outgoing.receivers.get(peer);
+            receiver.is_some_and(|receiver| receiver.taken.contains(number))
+        };
+        let unreached = match self.to {
+            Some(to) => alloc::vec![to],
+            None => robot.peers().filter(|peer| !has_taken(peer)).collect(),
+        };
+        if outgoing.pop() {
+            notices.push(Notice::Failed {
+                message: self.name(number),
+                unreached,
+            });
+        }
+    }
+
+    /// Whether the time of the first message is up. One that a receiver holds for another one gets a little
+    /// more, in which the receiver hears that the other one was given up.
+    fn is_over(&self, outgoing: &Outgoing, now: Time) -> bool {
+        let Some((number, message)) = outgoing.first() else {
+            return false;
+        };
+        let mut receivers = outgoing.receivers.values();
+        let is_held = receivers.any(|receiver| receiver.held.contains(number));
+        now >= message.sent + self.options.patience(is_held)
+    }
+
+    /// Gives up what is over and tries those again that are due. Gives when to do so next.
+    fn look_after(
+        &self,
+        robot: &mut Robot<'_>,
+        outgoing: &mut Outgoing,
+        notices: &mut Notices,
+    ) -> Option<Time> {
+        let now = robot.now();
+        let base = outgoing.base();
+        while self.is_over(outgoing, now) {
+            self.give_up(robot, outgoing, notices);
+        }
+        let has_given_up = outgoing.base() > base;
+        let (_, first) = outgoing.first()?;
+        let mut wake = first.sent + self.options.patience(false);
+        if wake <= now {
+            wake = now + self.options.first_timeout;
+        }
+        let receivers: Vec<RobotId> = outgoing.receivers.keys().copied().collect();
+        for peer in receivers {
+            let Some(mut receiver) = outgoing.receivers.remove(&peer) else {
+                continue;
+            };
+            if let Some(pending) = outgoing.first_pending(&receiver) {
+                if has_given_up && receiver.held.contains(pending) {
+                    receiver.trying = Trying {
+                        attempt: 0,
+                        due: Some(now),
+                    };
+                }
+                let due = self.try_again(robot, outgoing, (peer, &mut receiver), notices);
+                wake = wake.min(due);
+            }
+            outgoing.receivers.insert(peer, receiver);
+        }
+        if outgoing.receivers.len() < self.receivers(robot) {
+            let mut trying = outgoing.strangers;
+            let due = trying.due.unwrap_or(now);
+            if due <= now {
+                self.send(robot, self.destination(), outgoing, None, &[]);
+                trying.attempt = trying.attempt.saturating_add(1);
+                trying.due = Some(now + self.stretched(robot, trying.attempt));
+            }
+            outgoing.strangers = trying;
+            wake = wake.min(trying.due.unwrap_or(wake));
+        }
+        Some(wake)
+    }
+
+    /// Tries a receiver with what it lacks, if it is time; gives when it is next.
+    fn try_again(
+        &self,
+        robot: &mut Robot<'_>,
+        outgoing: &Outgoing,
+        (peer, receiver): (RobotId, &mut Receiver),
+        notices: &mut Notices,
+    ) -> Time {
+        let now = robot.now();
+        let pending = outgoing.first_pending(receiver);
+        let sent = pending
+            .and_then(|number| outgoing.get(number))
+            .map(|m| m.sent);
+        let first = sent.unwrap_or(now) + self.options.first_timeout;
+        let due = receiver.trying.due.unwrap_or(first);
+        if due > now {
+            receiver.trying.due = Some(due);
+            return due;
+        }
+        receiver.resent = receiver.resent.split_off(&outgoing.base());
+        let numbers = self.resend(robot, outgoing, receiver, (peer, None), |_| true);
+        if numbers.is_empty() {
+            self.send(robot, Destination::Robot(peer), outgoing, None, &[]);
+        }
+        self.tell(&numbers, peer, notices);
+        let trying = &mut receiver.trying;
+        trying.attempt = trying.attempt.saturating_add(1);
+        let due = now + self.stretched(robot, trying.attempt);
+        trying.due = Some(due);
+        due
     }
 }

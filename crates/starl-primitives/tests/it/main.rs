@@ -8,6 +8,7 @@ mod broadcast_orders_memory;
 mod broadcast_orders_traffic;
 mod broadcast_total_faults;
 mod broadcast_total_order;
+mod broadcasts_under_load;
 mod dead_robots_are_given_up;
 mod election_in_calm;
 mod election_in_parts;

@@ -90,7 +90,7 @@ fn with_hardly_any_memory() {
         check(
             seed,
             Options {
-                most_gaps: 1,
+                window: 1,
                 retries: 60,
                 first_in_first_out,
                 ..Options::default()

@@ -13,7 +13,7 @@ const FIFO: Options = Options {
     retries: 15,
     first_in_first_out: true,
     most_outstanding: 1024,
-    most_gaps: 64,
+    window: 64,
 };
 
 #[test]
@@ -63,7 +63,7 @@ fn a_message_that_is_given_up_releases_those_behind_it() {
     for seed in 0..60 {
         let options = Options { retries: 4, ..FIFO };
         let wire = Wire {
-            longest: 100,
+            longest: 1100,
             ..Wire::perfect()
         };
         let mut world = World::new(2, seed, wire, None, Talker::boxed(options));

@@ -1,74 +1,110 @@
 //! What other robots are asked of their messages, and what follows from their answers.
 
-use super::Causal;
-use super::vector::Process;
-use starl_core::Robot;
+use super::vector::{After, Process, Standing};
+use super::{Causal, Look};
+use starl_core::{Robot, RobotId};
 
 /// What a robot was asked.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Doubt {
     ticket: u32,
-    /// What it was about.
-    process: Process,
-    /// How much of it had been taken then.
-    taken: u32,
+    /// The life that was heard then, and how much of it had been taken.
+    taken: Option<(u32, u32)>,
+    /// What had arrived then.
+    since: u64,
     /// The count of looks then.
-    looks: u32,
+    looks: Look,
+}
+
+/// The answer to it.
+pub(super) struct Answer {
+    /// The life that gives it.
+    pub process: Process,
+    /// No message before this one will come.
+    pub before: u32,
+    /// The number of the next one that will be sent.
+    pub next: u32,
+    pub ticket: u32,
 }
 
 impl Causal {
-    /// Messages of this process before a number will not come; and it is the only life of its robot.
-    pub(super) fn settle(&mut self, process: Process, before: u32) {
-        // Its other lives are over, those included that were only heard of.
-        let after = self.held.iter().flat_map(|held| &held.after);
-        for other in after.map(|after| after.process) {
-            if other.robot == process.robot && other != process {
-                let known = self.vector.note(other);
-                known.into_iter().for_each(|known| known.settled = u32::MAX);
-            }
+    /// Asks a robot what may still come of it, unless that was done just now.
+    pub(super) fn ask(&mut self, robot: &mut Robot<'_>, peer: RobotId) {
+        let before = self.doubts.get(&peer);
+        if before.is_some_and(|doubt| doubt.looks == self.looks) {
+            return;
         }
-        let known = self.vector.hear(process);
-        known.settled = known.settled.max(before.saturating_sub(1));
-    }
-
-    /// Asks a robot what may still come of it.
-    pub(super) fn ask(&mut self, robot: &mut Robot<'_>, process: Process) {
-        self.questions = self.questions.wrapping_add(1);
-        // Answers to what an earlier life asked are none to this one.
-        let incarnation = self.channel.reliable.next_to_all(robot).incarnation;
-        let ticket = incarnation.wrapping_add(self.questions);
-        let taken = self.vector.get(process).map_or(0, |known| known.taken);
+        let ticket = self.channel.reliable.ask(robot, peer);
+        let present = self.vector.present(peer);
+        let taken = present.map(|life| (life.incarnation, life.taken));
         let doubt = Doubt {
             ticket,
-            process,
             taken,
+            since: self.arrivals,
             looks: self.looks,
         };
-        self.doubts.insert(process.robot, doubt);
-        self.channel.reliable.ask(robot, process.robot, ticket);
+        self.doubts.insert(peer, doubt);
     }
 
-    /// More cannot have been taken, when a robot was asked, than it had sent when it answered: only a
-    /// corruption can have left such a number.
-    pub(super) fn clear_doubt(&mut self, process: Process, next: u32, ticket: u32) {
-        let Some(&doubt) = self.doubts.get(&process.robot) else {
+    /// A robot has said how far it is.
+    pub(super) fn answered(&mut self, answer: &Answer) {
+        let &Answer {
+            process,
+            before,
+            next,
+            ticket,
+        } = answer;
+        let last = next.saturating_sub(1);
+        let peer = process.robot;
+        self.hear(process);
+        let doubt = self.doubts.get(&peer).copied();
+        let doubt = doubt.filter(|doubt| doubt.ticket == ticket);
+        let Some(life) = self.vector.present(peer) else {
             return;
         };
-        if doubt.ticket != ticket || doubt.process != process {
-            return;
+        life.settled = life.settled.max(before.saturating_sub(1));
+        let Some(doubt) = doubt else { return };
+        self.doubts.remove(&peer);
+        // More cannot have been taken, when the robot was asked, than it had sent when it answered, nor
+        // settled: only a corruption can have left such numbers.
+        if doubt
+            .taken
+            .is_some_and(|(life, taken)| life == process.incarnation && taken > last)
+        {
+            life.taken = last;
         }
-        self.doubts.remove(&process.robot);
-        let last = next.saturating_sub(1);
-        if doubt.taken > last {
-            self.vector.hear(process).taken = last;
-        }
-        // Nor can what had arrived by then come after more.
-        for held in &mut self.held {
-            let had_arrived = self.looks.wrapping_sub(held.looks) < doubt.looks;
-            let about = held.after.iter_mut().filter(|a| a.process == process);
-            for after in about.filter(|_| had_arrived) {
-                after.number = after.number.min(last);
+        life.settled = life.settled.min(last);
+        // What had arrived by then cannot come after more, and of other lives none is yet to come.
+        for held in self.held.values_mut().flatten() {
+            let about = held
+                .after
+                .iter_mut()
+                .filter(|need| need.after.process.robot == peer);
+            for need in about.filter(|_| held.place <= doubt.since) {
+                match need.after.process == process {
+                    true => need.after.number = need.after.number.min(last),
+                    false => need.is_over = true,
+                }
             }
         }
+        self.vector.forget_unheard(peer, doubt.since);
+    }
+
+    /// This life of a robot is heard from now on.
+    pub(super) fn hear(&mut self, process: Process) {
+        let Some(over) = self.vector.hear(process) else {
+            return;
+        };
+        for held in self.held.values_mut().flatten() {
+            let about = held.after.iter_mut();
+            about
+                .filter(|need| need.after.process == over)
+                .for_each(|need| need.is_over = true);
+        }
+    }
+
+    /// Whether the robot has to be asked which of its lives this is.
+    pub(super) fn is_unknown(&self, after: &After) -> bool {
+        matches!(self.vector.standing(after.process), Standing::Unknown(_))
     }
 }

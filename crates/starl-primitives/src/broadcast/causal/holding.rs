@@ -1,143 +1,191 @@
 //! What is held back, and until when.
+//!
+//! Each sender's messages are held in the order in which they came, so only the first of each can be ready.
 
 use super::super::Gap;
-use super::vector::After;
-use super::{Causal, LEAST_LOOKS, LONGEST_SILENCE};
+use super::vector::{After, Process, Standing};
+use super::{Causal, LEAST_LOOKS, LONGEST_SILENCE, Look};
 use crate::reliable::Arrival;
 use alloc::vec::Vec;
-use starl_core::Robot;
 use starl_core::event::messaging::MessageNumber;
 use starl_core::event::{BroadcastEvent, TransferEvent};
+use starl_core::{Robot, RobotId};
 
 /// A message that has arrived and is not handed out yet.
 #[derive(Clone, Debug)]
 pub(super) struct Held {
     pub arrival: Arrival,
     /// What it comes after, the message before it from the same sender included.
-    pub after: Vec<After>,
-    /// What it comes after of this robot's own, in this life or an earlier one. Nobody waits for that, but
-    /// what this robot sends next comes after it too.
-    pub own: Vec<After>,
-    /// How often it was looked at.
-    pub looks: u32,
+    pub after: Vec<Need>,
+    /// Its place in the order in which messages arrived.
+    pub place: u64,
+    /// The count of looks when it came.
+    pub looks: Look,
+}
+
+/// That a message comes after another one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Need {
+    pub after: After,
+    /// Whether the other one was sent in a life that is over, so that it will not come.
+    pub is_over: bool,
 }
 
 impl Held {
-    fn is_among(&self, after: &After) -> bool {
-        self.arrival.from == after.process.robot
-            && self.arrival.incarnation == after.process.incarnation
-            && self.arrival.number <= after.number
+    fn process(&self) -> Process {
+        Process {
+            robot: self.arrival.from,
+            incarnation: self.arrival.incarnation,
+        }
     }
 }
 
 impl Causal {
+    /// For how many looks it has been held.
+    pub(super) fn age(&self, held: &Held) -> u32 {
+        self.looks.wrapping_sub(held.looks)
+    }
+
     /// Something that a message comes after and has to wait for.
     pub(super) fn missing(&self, held: &Held) -> Option<After> {
         let mut all = held.after.iter();
-        all.find(|after| !self.is_settled(held, after)).copied()
+        let need = all.find(|need| !self.is_settled(held, need))?;
+        Some(need.after)
     }
 
     /// Whether all that comes before has been handed out or will not come.
-    fn is_settled(&self, held: &Held, after: &After) -> bool {
-        if self.held.iter().any(|other| other.is_among(after)) {
+    fn is_settled(&self, held: &Held, need: &Need) -> bool {
+        if self.is_held(&need.after) {
             return false;
         }
-        let known = self.vector.get(after.process);
-        let is_known = known.is_some_and(|known| known.taken.max(known.settled) >= after.number);
+        let Process { robot: sender, .. } = need.after.process;
+        let is_known = match self.vector.standing(need.after.process) {
+            Standing::Present(life) => life.taken.max(life.settled) >= need.after.number,
+            Standing::Over(_) => true,
+            Standing::Unknown(passed) => passed.is_some_and(|passed| passed >= need.after.number),
+        };
         // A suspicion alone may be wrong: the sender is asked as well, which settles it if it is up.
-        let sender = after.process.robot;
         let heard = self.heard.get(&sender);
         let is_silent =
             heard.is_none_or(|&heard| self.looks.wrapping_sub(heard) >= LONGEST_SILENCE);
-        let is_lost = held.looks >= LEAST_LOOKS && self.suspects.contains(&sender)
-            || held.looks >= LONGEST_SILENCE && is_silent;
-        let is_forgotten = self.vector.is_forgotten(after.process);
-        after.number == 0 || is_known || is_forgotten || is_lost
+        let age = self.age(held);
+        let is_lost = age >= LEAST_LOOKS && self.suspects.contains(&sender)
+            || age >= LONGEST_SILENCE && is_silent;
+        is_known || need.is_over || is_lost
+    }
+
+    /// Whether one that has arrived is held.
+    fn is_held(&self, after: &After) -> bool {
+        let mut held = self.held.get(&after.process.robot).into_iter().flatten();
+        let first = held.find(|held| held.process() == after.process);
+        first.is_some_and(|first| first.arrival.number <= after.number)
     }
 
     /// Hands out all that waits for nothing.
     pub(super) fn hand_out_ready(&mut self, robot: &mut Robot<'_>) {
         loop {
-            let mut held = self.held.iter();
-            let Some(place) = held.position(|held| self.missing(held).is_none()) else {
+            let mut firsts = self
+                .held
+                .iter()
+                .filter_map(|(&from, held)| Some((from, held.front()?)));
+            let ready = firsts.find(|(_, held)| self.missing(held).is_none());
+            let Some((from, _)) = ready else {
                 return;
             };
-            self.hand_out(robot, place);
+            self.hand_out(robot, from);
         }
     }
 
-    /// A message waits no longer, or another one that is held and that it waits for does not.
-    pub(super) fn force(&mut self, robot: &mut Robot<'_>, place: usize) {
-        let mut next = place;
-        // Each step leads to a message before the last; more steps than messages are a circle, which no
+    /// A sender's first message waits no longer, or another one that is held and that it waits for does not.
+    pub(super) fn force(&mut self, robot: &mut Robot<'_>, from: RobotId) {
+        let mut next = from;
+        // Each step leads to a message before the last; more steps than senders are a circle, which no
         // true messages make.
         for _ in 0..self.held.len() {
-            let Some(held) = self.held.get(next) else {
+            let Some(held) = self.held.get(&next).and_then(|held| held.front()) else {
                 return;
             };
-            let mut all = held.after.iter();
-            let before = all.find_map(|after| self.held.iter().position(|h| h.is_among(after)));
-            match before {
-                Some(before) => next = before,
-                None => break,
-            }
+            let mut all = held.after.iter().map(|need| &need.after);
+            let Some(before) = all.find(|after| self.is_held(after)) else {
+                break;
+            };
+            next = before.process.robot;
         }
-        if next < self.held.len() {
-            self.hand_out(robot, next);
-        }
+        self.hand_out(robot, next);
         self.hand_out_ready(robot);
     }
 
-    /// Hands out a message; what it comes after and has not come is passed over.
-    fn hand_out(&mut self, robot: &mut Robot<'_>, place: usize) {
-        let Held {
-            arrival,
-            after,
-            own,
-            ..
-        } = self.held.remove(place);
-        let port = self.channel.port;
-        for After { process, number } in own {
-            if let Some(known) = self.vector.note(process) {
-                known.taken = known.taken.max(number);
-            }
-        }
-        for After { process, number } in after {
-            if self.vector.is_taken(process, number) {
-                continue;
-            }
-            let message = MessageNumber {
-                number,
-                incarnation: process.incarnation,
-            };
-            let from = process.robot;
-            robot.report(port, BroadcastEvent::PassOver { from, message });
-            let Some(known) = self.vector.note(process) else {
-                continue;
-            };
-            known.taken = number;
-            // To a robot that joins late what was sent before is no loss.
-            if known.is_joined {
-                self.gaps.push(Gap {
-                    from: Some(process.robot),
-                });
-            }
-        }
-        let process = super::Process {
-            robot: arrival.from,
-            incarnation: arrival.incarnation,
+    /// Hands out a sender's first message; what it comes after and has not come is passed over.
+    fn hand_out(&mut self, robot: &mut Robot<'_>, from: RobotId) {
+        let Some(held) = self.held.get_mut(&from).and_then(|held| held.pop_front()) else {
+            return;
         };
-        let (from, message) = arrival.numbered();
-        let known = self.vector.hear(process);
-        if arrival.number <= known.taken {
-            return robot.report(port, BroadcastEvent::Late { from, message });
+        if self.held.get(&from).is_some_and(|held| held.is_empty()) {
+            self.held.remove(&from);
         }
-        known.taken = arrival.number;
-        known.is_joined = true;
+        self.count -= 1;
+        for need in &held.after {
+            self.pass_over(robot, need);
+        }
+        let port = self.channel.port;
+        let process = held.process();
+        let Held { arrival, .. } = held;
+        let (from, message) = arrival.numbered();
+        if let Some(life) = self.vector.present(from)
+            && life.incarnation == process.incarnation
+        {
+            if arrival.number <= life.taken {
+                return robot.report(port, BroadcastEvent::Late { from, message });
+            }
+            life.taken = arrival.number;
+            life.is_joined = true;
+        }
         robot.report(
             port,
             BroadcastEvent::from(TransferEvent::Deliver { from, message }),
         );
         robot.deliver(arrival.from, port, arrival.content);
+    }
+
+    /// What comes before and has not come is not waited for any longer.
+    fn pass_over(&mut self, robot: &mut Robot<'_>, need: &Need) {
+        let After { process, number } = need.after;
+        let from = process.robot;
+        let is_missed = match self.vector.standing(process) {
+            Standing::Present(life) => life.taken < number,
+            Standing::Over(taken) => taken < number,
+            Standing::Unknown(passed) => passed.is_none_or(|passed| passed < number),
+        };
+        if !is_missed {
+            return;
+        }
+        // To a robot that joins late what was sent before is no loss.
+        let mut is_joined = self.vector.is_joined(from);
+        match self.vector.standing(process) {
+            Standing::Present(_) => {
+                if let Some(life) = self.vector.present(from) {
+                    life.taken = number;
+                    is_joined = life.is_joined;
+                }
+            }
+            Standing::Unknown(_) if !need.is_over => {
+                self.vector.pass_over(process, number, self.arrivals);
+            }
+            Standing::Over(_) | Standing::Unknown(_) => {}
+        }
+        if number == 0 {
+            return;
+        }
+        let message = MessageNumber {
+            number,
+            incarnation: process.incarnation,
+        };
+        robot.report(
+            self.channel.port,
+            BroadcastEvent::PassOver { from, message },
+        );
+        if is_joined {
+            self.gaps.push(Gap { from: Some(from) });
+        }
     }
 }

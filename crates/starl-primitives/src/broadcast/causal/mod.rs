@@ -9,9 +9,10 @@
 //! passed over for good, which is on record. What was passed over and comes after all is not handed out.
 //!
 //! Where ours differs: the clock counts the messages of robots' lives and not of robots, so that a restart is
-//! another sender; only lives that were heard of have an entry. And nobody waits for ever: a message that
-//! others come after is passed over if its sender says that it will not come, has started anew, or is
-//! suspected of having failed and does not answer, and in any case when its sender must have given it up.
+//! another sender. Of each robot it has the life that is heard; which of two lives is the later one is found out by asking
+//! the robot ([`asking`]), not by remembering. And nobody waits for ever: a message that others come after is passed
+//! over if its sender says that it will not come, has started anew, or is suspected of having failed and does not answer,
+//! and in any case when its sender must have given it up.
 
 mod asking;
 mod holding;
@@ -20,10 +21,10 @@ mod vector;
 use super::{Gap, Gaps};
 use crate::channel::Channel;
 use crate::reliable::{Alarm, Arrival, MessageId, Notice, encode};
-use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::collections::{BTreeMap, BTreeSet, VecDeque};
 use alloc::vec::Vec;
-use asking::Doubt;
-use holding::Held;
+use asking::{Answer, Doubt};
+use holding::{Held, Need};
 use serde::{Deserialize, Serialize};
 use starl_core::event::BroadcastEvent;
 use starl_core::{Duration, Input, Payload, Random, Robot, RobotId, TimerKey, message};
@@ -41,23 +42,29 @@ const LONGEST_SILENCE: u32 = 40;
 /// Messages are held back up to this number; with more, the oldest waits no longer.
 const MOST_HELD: usize = 1024;
 
+/// Counts looks; it may wrap around.
+type Look = u32;
+
 /// One end of a causally ordered broadcast.
 #[derive(Clone, Debug)]
 pub(super) struct Causal {
     pub channel: Channel,
     vector: Vector,
-    /// What is held back, in the order in which it came.
-    held: Vec<Held>,
+    /// What is held back, by its sender, in the order in which it came.
+    held: BTreeMap<RobotId, VecDeque<Held>>,
+    /// How many messages that are.
+    count: usize,
+    /// How many messages have arrived.
+    arrivals: u64,
     suspects: BTreeSet<RobotId>,
     /// Counts looks.
-    looks: u32,
+    looks: Look,
     /// That count when each sender was last heard.
-    heard: BTreeMap<RobotId, u32>,
-    /// Counts questions.
-    questions: u32,
+    heard: BTreeMap<RobotId, Look>,
     /// The last question to each robot.
     doubts: BTreeMap<RobotId, Doubt>,
     gaps: Gaps,
+    is_looking: bool,
 }
 
 /// What travels.
@@ -72,13 +79,15 @@ impl Causal {
         Causal {
             channel,
             vector: Vector::default(),
-            held: Vec::new(),
+            held: BTreeMap::new(),
+            count: 0,
+            arrivals: 0,
             suspects: BTreeSet::new(),
             looks: 0,
             heard: BTreeMap::new(),
-            questions: 0,
             doubts: BTreeMap::new(),
             gaps: Gaps::default(),
+            is_looking: false,
         }
     }
 
@@ -119,12 +128,15 @@ impl Causal {
                     ticket,
                 } => {
                     self.heard.insert(from, self.looks);
-                    let process = Process {
-                        robot: from,
-                        incarnation,
-                    };
-                    self.settle(process, before);
-                    self.clear_doubt(process, next, ticket);
+                    self.answered(&Answer {
+                        process: Process {
+                            robot: from,
+                            incarnation,
+                        },
+                        before,
+                        next,
+                        ticket,
+                    });
                     self.hand_out_ready(robot);
                 }
                 _ => {}
@@ -138,44 +150,82 @@ impl Causal {
         else {
             return;
         };
+        let (from, message) = arrival.numbered();
         let process = Process {
-            robot: arrival.from,
+            robot: from,
             incarnation: arrival.incarnation,
         };
-        let known = self.vector.hear(process);
-        if arrival.number <= known.taken {
-            self.ask(robot, process);
-            let (from, message) = arrival.numbered();
+        self.arrivals += 1;
+        self.hear(process);
+        let Some(life) = self.vector.present(from) else {
+            return;
+        };
+        let number = arrival.number;
+        if number <= life.taken {
+            self.ask(robot, from);
             return robot.report(self.channel.port, BroadcastEvent::Late { from, message });
         }
-        // In FIFO order those before it have arrived or never will; and this life is not over.
-        let before = arrival.number - 1;
-        known.settled = match known.settled {
-            u32::MAX => before,
-            settled => settled.max(before),
-        };
+        // In FIFO order those before it have arrived or never will.
+        life.settled = life.settled.max(number - 1);
         let me = robot.id();
-        let (own, mut after): (Vec<After>, Vec<After>) = after
-            .into_iter()
-            .filter(|after| after.process != process)
-            .partition(|after| after.process.robot == me);
+        let is_other = |after: &After| after.process.robot != me && after.process != process;
+        let mut after: Vec<After> = after.into_iter().filter(is_other).collect();
         after.push(After {
             process,
-            number: arrival.number - 1,
+            number: number - 1,
         });
-        self.held.push(Held {
-            arrival: Arrival { content, ..arrival },
+        let queue = self.held.entry(from).or_default();
+        // What it sent in an earlier life comes first.
+        let before = queue.back().map(|last| &last.arrival);
+        after.extend(
+            before
+                .filter(|last| last.incarnation != process.incarnation)
+                .map(|last| After {
+                    process: Process {
+                        robot: from,
+                        incarnation: last.incarnation,
+                    },
+                    number: last.number,
+                }),
+        );
+        let is_doubtful = self.vector.has_unheard(from);
+        let unknown = after.iter().filter(|after| self.is_unknown(after));
+        let mut unknown: Vec<RobotId> = unknown.map(|after| after.process.robot).collect();
+        unknown.extend(is_doubtful.then_some(from));
+        let need = |after| Need {
             after,
-            own,
-            looks: 0,
-        });
-        self.hand_out_ready(robot);
-        while self.held.len() > MOST_HELD {
-            self.force(robot, 0);
+            is_over: false,
+        };
+        let held = Held {
+            arrival: Arrival { content, ..arrival },
+            after: after.into_iter().map(need).collect(),
+            place: self.arrivals,
+            looks: self.looks,
+        };
+        self.held.entry(from).or_default().push_back(held);
+        self.count += 1;
+        for peer in unknown {
+            self.ask(robot, peer);
         }
-        if !self.held.is_empty() {
+        self.hand_out_ready(robot);
+        while self.count > MOST_HELD
+            && let Some(oldest) = self.oldest()
+        {
+            self.force(robot, oldest);
+        }
+        if !self.held.is_empty() && !self.is_looking {
+            self.is_looking = true;
             robot.set_timer(self.timer(), LOOK);
         }
+    }
+
+    /// Whose message has been held for longest.
+    fn oldest(&self) -> Option<RobotId> {
+        let firsts = self
+            .held
+            .iter()
+            .filter_map(|(from, held)| Some((held.front()?.place, *from)));
+        firsts.min().map(|(_, from)| from)
     }
 
     /// Looks after what is held back: asks those whose messages are missing, and waits no longer for
@@ -183,42 +233,45 @@ impl Causal {
     fn look(&mut self, robot: &mut Robot<'_>) {
         let patience = self.channel.reliable.options().failure_bound();
         let most_looks = (patience.seconds() / LOOK.seconds()) as u32;
-        let mut asked = BTreeSet::new();
+        self.is_looking = false;
         self.looks = self.looks.wrapping_add(1);
-        for held in &mut self.held {
-            held.looks = held.looks.saturating_add(1);
-        }
-        for place in 0..self.held.len() {
-            let Some(held) = self.held.get(place) else {
-                break;
-            };
-            if (held.looks.is_power_of_two() || held.looks % 4 == 0)
-                && let Some(after) = self.missing(held)
-                && asked.insert(after.process.robot)
-            {
-                self.ask(robot, after.process);
-            }
+        let firsts = self.held.values().filter_map(VecDeque::front);
+        let due = firsts.filter(|held| {
+            let age = self.age(held);
+            age.is_power_of_two() || age.is_multiple_of(4)
+        });
+        let missing = due.filter_map(|held| self.missing(held));
+        let missing: BTreeSet<RobotId> = missing.map(|after| after.process.robot).collect();
+        for peer in missing {
+            self.ask(robot, peer);
         }
         self.hand_out_ready(robot);
-        while let Some(place) = self.held.iter().position(|held| held.looks > most_looks) {
-            self.force(robot, place);
+        while let Some(oldest) = self.oldest()
+            && self
+                .held
+                .get(&oldest)
+                .and_then(VecDeque::front)
+                .is_some_and(|held| self.age(held) > most_looks)
+        {
+            self.force(robot, oldest);
         }
         if !self.held.is_empty() {
+            self.is_looking = true;
             robot.set_timer(self.timer(), LOOK);
         }
     }
 
     /// Overwrites the state at random, as a transient fault would.
     pub fn corrupt(&mut self, random: &mut Random) {
-        for known in self.vector.iter_mut() {
+        for life in self.vector.lives_mut() {
             if random.chance(0.5) {
-                known.taken = random.bits() >> random.below(32);
+                life.taken = random.bits() >> random.below(32);
             }
             if random.chance(0.5) {
-                known.settled = random.bits() >> random.below(32);
+                life.settled = random.bits() >> random.below(32);
             }
         }
-        for held in &mut self.held {
+        for held in self.held.values_mut().flatten() {
             held.looks = random.bits();
             held.after.retain(|_| random.chance(0.5));
         }

@@ -1,7 +1,8 @@
-//! Up to where each sender's messages have been taken: a vector clock over robots' lives.
+//! Up to where each robot's messages have been taken: a vector clock over robots' lives.
 //!
-//! Invariant: numbers only rise, but for one that no message can have brought about; and at most
-//! [`LIVES`] lives of a robot are known: those that spoke last, and others that were heard of.
+//! The protocol below hears a robot's lives one after the other, never going back, so only the present one needs an
+//! entry: nothing of those before it will be handed out any more. Invariant: of a life that is over nothing is
+//! waited for, and a life that is not known to be over is never taken for one that is.
 
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
@@ -9,8 +10,8 @@ use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 use starl_core::RobotId;
 
-/// The lives of a robot that are remembered.
-const LIVES: usize = 8;
+/// Of so many past lives of a robot it is remembered how much was taken. What is forgotten is asked for again.
+const PAST: usize = 16;
 
 /// A robot from one start to its next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -19,17 +20,18 @@ pub(super) struct Process {
     pub incarnation: u32,
 }
 
-/// That a message comes after those of a process up to this number.
+/// That a message comes after those of a process up to this number; with 0, that it comes after all earlier lives
+/// of the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct After {
     pub process: Process,
     pub number: u32,
 }
 
-/// What is known of a process.
+/// The life of a robot that is heard.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Known {
-    incarnation: u32,
+pub(super) struct Life {
+    pub incarnation: u32,
     /// Messages up to this number were taken or passed over.
     pub taken: u32,
     /// Messages up to this number have arrived or never will.
@@ -38,89 +40,148 @@ pub(super) struct Known {
     pub is_joined: bool,
 }
 
-impl Known {
-    fn nothing(incarnation: u32) -> Known {
-        Known {
-            incarnation,
-            taken: 0,
-            settled: 0,
-            is_joined: false,
-        }
-    }
+/// A life of which others speak, and that was not waited for any longer. It may be later than the present one.
+#[derive(Clone, Copy, Debug)]
+struct Unheard {
+    incarnation: u32,
+    /// Messages up to this number were passed over.
+    passed: u32,
+    /// Counts what had arrived when it was heard of.
+    since: u64,
 }
 
-/// All processes that were heard of.
+/// What is known of a robot.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Vector(BTreeMap<RobotId, SmallVec<[Known; 1]>>);
+struct Known {
+    present: Option<Life>,
+    /// Lives that are over, and how much was taken of each.
+    past: SmallVec<[(u32, u32); 1]>,
+    unheard: Vec<Unheard>,
+}
+
+/// What a life is to this robot.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Standing {
+    /// It is heard.
+    Present(Life),
+    /// It is over, and was heard: messages up to this number were taken.
+    Over(u32),
+    /// Whether it is over or yet to come is not known; messages up to this number were passed over.
+    Unknown(Option<u32>),
+}
+
+/// All robots that were heard of.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Vector(BTreeMap<RobotId, Known>);
 
 impl Vector {
-    /// What is known of a process; nothing, if it was not heard of.
-    pub fn get(&self, process: Process) -> Option<&Known> {
-        let lives = self.0.get(&process.robot)?;
-        let mut lives = lives.iter();
-        lives.find(|known| known.incarnation == process.incarnation)
-    }
-
-    /// Whether so many lives of its robot are known that this one, which is not, must be over.
-    pub fn is_forgotten(&self, process: Process) -> bool {
-        let lives = self.0.get(&process.robot);
-        lives.is_some_and(|lives| lives.len() == LIVES) && self.get(process).is_none()
-    }
-
-    /// Whether messages up to this number were taken or passed over.
-    pub fn is_taken(&self, process: Process, number: u32) -> bool {
-        let taken = self.get(process).map_or(0, |known| known.taken);
-        taken >= number
-    }
-
-    /// What is known of a process, which speaks now.
-    pub fn hear(&mut self, process: Process) -> &mut Known {
-        let Process { robot, incarnation } = process;
-        let lives = self.0.entry(robot).or_default();
-        let mut places = lives.iter();
-        let place = places.position(|known| known.incarnation == incarnation);
-        let known = match place {
-            Some(place) => lives.remove(place),
-            None => Known::nothing(incarnation),
+    pub fn standing(&self, process: Process) -> Standing {
+        let Some(known) = self.0.get(&process.robot) else {
+            return Standing::Unknown(None);
         };
-        if lives.len() == LIVES {
-            lives.remove(0);
+        let is_it = |incarnation: u32| incarnation == process.incarnation;
+        if let Some(life) = known.present.filter(|life| is_it(life.incarnation)) {
+            return Standing::Present(life);
         }
-        lives.push(known);
-        let last = lives.len() - 1;
-        &mut lives[last]
+        if let Some((_, taken)) = known.past.iter().find(|past| is_it(past.0)) {
+            return Standing::Over(*taken);
+        }
+        let mut unheard = known.unheard.iter();
+        let unheard = unheard.find(|unheard| is_it(unheard.incarnation));
+        Standing::Unknown(unheard.map(|unheard| unheard.passed))
     }
 
-    /// What is known of a process that others speak of; none if it is forgotten.
-    pub fn note(&mut self, process: Process) -> Option<&mut Known> {
+    /// The life of a robot that is heard.
+    pub fn present(&mut self, robot: RobotId) -> Option<&mut Life> {
+        self.0.get_mut(&robot)?.present.as_mut()
+    }
+
+    /// Whether anything of a robot was ever taken.
+    pub fn is_joined(&self, robot: RobotId) -> bool {
+        let known = self.0.get(&robot);
+        known.is_some_and(|known| {
+            !known.past.is_empty() || known.present.is_some_and(|life| life.is_joined)
+        })
+    }
+
+    /// A life of a robot is heard from now on; gives the one that is over with that.
+    pub fn hear(&mut self, process: Process) -> Option<Process> {
         let Process { robot, incarnation } = process;
-        let lives = self.0.entry(robot).or_default();
-        let mut places = lives.iter();
-        let place = places.position(|known| known.incarnation == incarnation);
-        if place.is_none() && lives.len() < LIVES {
-            lives.insert(0, Known::nothing(incarnation));
+        let known = self.0.entry(robot).or_default();
+        if known
+            .present
+            .is_some_and(|life| life.incarnation == incarnation)
+        {
+            return None;
         }
-        lives
-            .get_mut(place.unwrap_or(0))
-            .filter(|known| known.incarnation == incarnation)
+        let mut unheard = known.unheard.iter();
+        let place = unheard.position(|unheard| unheard.incarnation == incarnation);
+        let passed = place.map_or(0, |place| known.unheard.remove(place).passed);
+        let before = known.present.replace(Life {
+            incarnation,
+            taken: passed,
+            settled: 0,
+            is_joined: false,
+        });
+        let before = before?;
+        if known.past.len() == PAST {
+            known.past.remove(0);
+        }
+        known.past.push((before.incarnation, before.taken));
+        Some(Process {
+            robot,
+            incarnation: before.incarnation,
+        })
+    }
+
+    /// Messages of a life that is not heard are passed over.
+    pub fn pass_over(&mut self, process: Process, number: u32, since: u64) {
+        let known = self.0.entry(process.robot).or_default();
+        let mut all = known.unheard.iter_mut();
+        match all.find(|unheard| unheard.incarnation == process.incarnation) {
+            Some(unheard) => unheard.passed = unheard.passed.max(number),
+            None => known.unheard.push(Unheard {
+                incarnation: process.incarnation,
+                passed: number,
+                since,
+            }),
+        }
+    }
+
+    /// Whether a robot has lives that may be over or not.
+    pub fn has_unheard(&self, robot: RobotId) -> bool {
+        let known = self.0.get(&robot);
+        known.is_some_and(|known| !known.unheard.is_empty())
+    }
+
+    /// Lives of a robot that were heard of by then are over, but for the present one.
+    pub fn forget_unheard(&mut self, robot: RobotId, by: u64) {
+        if let Some(known) = self.0.get_mut(&robot) {
+            known.unheard.retain(|unheard| unheard.since > by);
+        }
     }
 
     /// What a message that is sent now comes after.
     pub fn now(&self) -> Vec<After> {
-        let all = self.0.iter().flat_map(|(&robot, lives)| {
-            lives.iter().map(move |known| After {
-                process: Process {
-                    robot,
-                    incarnation: known.incarnation,
-                },
-                number: known.taken,
-            })
-        });
-        all.filter(|after| after.number > 0).collect()
+        let mut all = Vec::new();
+        for (&robot, known) in &self.0 {
+            let present = known
+                .present
+                .iter()
+                .map(|life| (life.incarnation, life.taken));
+            let unheard = known.unheard.iter();
+            let unheard = unheard.map(|unheard| (unheard.incarnation, unheard.passed));
+            all.extend(present.chain(unheard).map(|(incarnation, number)| After {
+                process: Process { robot, incarnation },
+                number,
+            }));
+        }
+        all
     }
 
-    /// All that is known, for a fault to overwrite.
-    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut Known> {
-        self.0.values_mut().flatten()
+    /// The lives that are heard, for a fault to overwrite.
+    pub fn lives_mut(&mut self) -> impl Iterator<Item = &mut Life> {
+        let all = self.0.values_mut();
+        all.filter_map(|known| known.present.as_mut())
     }
 }

@@ -80,7 +80,7 @@ impl Program for Talker {
 
     fn timer(&mut self, robot: &mut Robot<'_>, key: TimerKey) {
         let content = |value: u32| {
-            let padding = if value > 1_000_000 { 200 } else { 0 };
+            let padding = if value > 1_000_000 { 2000 } else { 0 };
             (value, vec![0u8; padding])
         };
         match key.read().expect("a command") {
