@@ -39,7 +39,10 @@ pub(crate) struct Channel {
 impl Channel {
     pub fn new(carrier: Carrier, name: &str, options: Options) -> Channel {
         let port = Port::named(name);
-        let reliable = Reliable::new(port, options);
+        let reliable = match carrier {
+            Carrier::Geocast => Reliable::local(port, options),
+            Carrier::Unicast | Carrier::Broadcast => Reliable::new(port, options),
+        };
         Channel {
             reliable,
             port,

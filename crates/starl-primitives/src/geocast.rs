@@ -1,6 +1,6 @@
 //! Geocast: a message to the robots in an area (thesis, section 3.3.1).
 //!
-//! The message goes to all robots together with its area; each receiver decides by its own position
+//! The message goes to all robots in reach of the radio together with its area; each receiver decides by its own position
 //! estimate at the moment of delivery. One that is outside acknowledges and never delivers that
 //! message. Properties, with d2 = [`Geocast::delivery_bound`]:
 //! - exclusion: a robot whose estimate is outside the area at every moment of `[t0, t0 + d2]` does not
@@ -57,8 +57,13 @@ impl Geocast {
         self.0.reliable.is_outstanding(message)
     }
 
-    /// The messages that some robot did not acknowledge, wherever it was, since the last call; at
-    /// most the latest 64.
+    /// How many messages are outstanding.
+    pub fn backlog(&self) -> usize {
+        self.0.reliable.backlog()
+    }
+
+    /// The messages that some robot did not acknowledge which has answered this one before, wherever it was,
+    /// since the last call; at most the latest 64. Who was never in reach is not named.
     pub fn take_failures(&mut self) -> Vec<Failure> {
         self.0.take_failures()
     }

@@ -43,6 +43,11 @@ impl Unicast {
         self.0.reliable.is_outstanding(message)
     }
 
+    /// How many messages are outstanding.
+    pub fn backlog(&self) -> usize {
+        self.0.reliable.backlog()
+    }
+
     /// The messages that were not acknowledged, since the last call; at most the latest 64.
     pub fn take_failures(&mut self) -> alloc::vec::Vec<Failure> {
         self.0.take_failures()

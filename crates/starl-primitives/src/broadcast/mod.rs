@@ -131,6 +131,15 @@ impl Broadcast {
         }
     }
 
+    /// How many messages are outstanding.
+    pub fn backlog(&self) -> usize {
+        match &self.way {
+            Way::Acknowledged(channel) => channel.reliable.backlog(),
+            Way::Causal(causal) => causal.channel.reliable.backlog(),
+            Way::Total(total) => total.backlog(),
+        }
+    }
+
     /// The messages that some robot did not acknowledge, since the last call; at most the latest 64.
     /// In total order, those that were given up without a place in the order, of which nobody knows who
     /// received them.

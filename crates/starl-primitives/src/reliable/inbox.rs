@@ -113,6 +113,11 @@ impl Sequence {
         }
     }
 
+    /// Whether all before `next` were taken.
+    pub fn has_all(&self, next: u32) -> bool {
+        self.taken.next() >= next
+    }
+
     fn has_room(&self, number: u32, window: u32) -> bool {
         number - self.taken.next().min(number) < window.max(1)
     }

@@ -57,6 +57,8 @@ timers! {
 pub struct Reliable {
     port: Port,
     options: Options,
+    /// Whether robots that have never answered may be out of reach, and are no failures.
+    is_local: bool,
     incarnation: Incarnation,
     /// What this robot sends to all.
     multicast: Outgoing,
@@ -75,12 +77,21 @@ impl Reliable {
         Reliable {
             port,
             options,
+            is_local: false,
             incarnation: Incarnation::default(),
             multicast: Outgoing::default(),
             direct: BTreeMap::new(),
             inboxes: BTreeMap::new(),
             resend_at: None,
             answer_at: None,
+        }
+    }
+
+    /// An end whose messages to all are for those in reach: robots that have never answered are no failures.
+    pub fn local(port: Port, options: Options) -> Reliable {
+        Reliable {
+            is_local: true,
+            ..Reliable::new(port, options)
         }
     }
 
@@ -99,10 +110,10 @@ impl Reliable {
             && outgoing.is_some_and(|outgoing| outgoing.is_outstanding(message.number))
     }
 
-    /// The number of messages still on their way, with those that were sent after one that is.
-    pub fn outstanding(&self) -> usize {
-        let direct = self.direct.values().map(Outgoing::len);
-        self.multicast.len() + direct.sum::<usize>()
+    /// The number of messages that some receiver has not taken and is still tried with.
+    pub fn backlog(&self) -> usize {
+        let direct = self.direct.values().map(Outgoing::outstanding);
+        self.multicast.outstanding() + direct.sum::<usize>()
     }
 
     /// The name of the next message to all.
@@ -177,6 +188,7 @@ impl Reliable {
                 base,
                 next,
                 messages,
+                known,
             } => {
                 let progress = Progress {
                     incarnation,
@@ -184,6 +196,7 @@ impl Reliable {
                     token,
                     base,
                     next,
+                    is_known: known.contains(&robot.id()),
                 };
                 self.take(robot, from, &progress, messages)
             }
@@ -204,6 +217,7 @@ impl Reliable {
         Line {
             port: self.port,
             options: self.options,
+            is_local: self.is_local,
             incarnation,
             to,
         }

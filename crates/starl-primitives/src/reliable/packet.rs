@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
+use starl_core::RobotId;
 
 /// One datagram; `C` holds contents, borrowed when they are sent and owned when they have arrived.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -19,6 +20,8 @@ pub(super) enum Packet<C> {
         next: u32,
         /// The messages, each with its number.
         messages: Vec<(u32, C)>,
+        /// Whoever is among these and has all need not answer.
+        known: Vec<RobotId>,
     },
     /// The receiver does not know the sender's present incarnation: it asks for [`Packet::Data`] with this
     /// token.

@@ -14,6 +14,9 @@ use starl_core::{Destination, Duration, Payload, Robot, RobotId, Time, TimerKey}
 /// Datagrams with several messages are not longer than this, bytes.
 const CHUNK: usize = 1000;
 
+/// So many robots at most are told that they need not answer.
+const MOST_KNOWN: usize = 100;
+
 /// So many datagrams are sent again at once to a receiver that answers.
 const BURST: usize = 4;
 
@@ -108,7 +111,8 @@ impl Reliable {
                     is_before(sent, now, first_timeout)
                         || newest.is_some_and(|newest| is_before(sent, newest, first_timeout / 4))
                 };
-                let numbers = line.resend(robot, outgoing, &mut receiver, (peer, None), lost);
+                let numbers =
+                    line.resend(robot, outgoing, &mut receiver, (peer, None, CHUNK), lost);
                 if numbers.is_empty() {
                     break;
                 }
@@ -125,8 +129,7 @@ impl Reliable {
         outgoing.receivers.insert(peer, receiver);
         match wake {
             Some(due) => self.wake_to_resend(robot, due),
-            None if self.outstanding() == 0 => self.rest(robot),
-            None => {}
+            None => self.rest(robot),
         }
         notices
     }
@@ -148,7 +151,7 @@ impl Reliable {
         // A life that does not know this one holds nothing of it.
         receiver.held = super::runs::Runs::before(1);
         let any = |_: Time| true;
-        let greeting = (from, Some(token));
+        let greeting = (from, Some(token), CHUNK);
         let numbers = line.resend(robot, outgoing, &mut receiver, greeting, any);
         if numbers.is_empty() {
             line.send(robot, Destination::Robot(from), outgoing, Some(token), &[]);
@@ -156,7 +159,7 @@ impl Reliable {
         let due = now + line.stretched(robot, 0);
         receiver.trying.due.get_or_insert(due);
         outgoing.receivers.insert(from, receiver);
-        if self.outstanding() > 0 {
+        if !self.is_idle() {
             self.wake_to_resend(robot, due);
         }
         let mut notices = Notices::new();
@@ -217,9 +220,14 @@ impl Reliable {
         }
     }
 
-    /// There is nothing to do.
+    /// Whether nothing is on its way.
+    fn is_idle(&self) -> bool {
+        self.multicast.len() == 0 && self.direct.values().all(|outgoing| outgoing.len() == 0)
+    }
+
+    /// Needs no timer where there is nothing to do.
     fn rest(&mut self, robot: &mut Robot<'_>) {
-        if self.resend_at.take().is_some() {
+        if self.is_idle() && self.resend_at.take().is_some() {
             robot.cancel_timer(TimerKey::new(self.port, Alarm::Resend));
         }
     }
@@ -241,6 +249,7 @@ fn runs(before: u32, ahead: &[(u32, u32)]) -> Vec<Range<u32>> {
 pub(super) struct Line {
     pub port: starl_core::Port,
     pub options: super::Options,
+    pub is_local: bool,
     pub incarnation: u32,
     /// The receiver; none where it goes to all.
     pub to: Option<RobotId>,
@@ -283,26 +292,44 @@ impl Line {
         let content = |&number: &u32| Some((number, &outgoing.get(number)?.content[..]));
         let packet = Packet::Data {
             incarnation: self.incarnation,
-            stream: match self.to {
-                None => Stream::Multicast,
-                Some(_) => Stream::Direct,
-            },
+            stream: self.stream(),
             token,
             base: outgoing.base(),
             next: outgoing.next(),
             messages: numbers.iter().filter_map(content).collect(),
+            known: Vec::new(),
         };
         robot.transmit(destination, self.port, &packet);
     }
 
-    /// Sends a receiver a datagram with messages that it lacks and that were last sent when `is_due` says,
-    /// the longest ago first. Gives them.
+    /// Says how far the stream is to those who have never answered. Those who have taken all need not answer.
+    fn remind(&self, robot: &mut Robot<'_>, outgoing: &Outgoing) {
+        let receivers = outgoing.receivers.iter();
+        let have_all = receivers.filter(|(_, receiver)| receiver.taken.next() == outgoing.next());
+        let packet = Packet::<Payload>::Data {
+            incarnation: self.incarnation,
+            stream: self.stream(),
+            token: None,
+            base: outgoing.base(),
+            next: outgoing.next(),
+            messages: Vec::new(),
+            known: have_all.map(|(&peer, _)| peer).take(MOST_KNOWN).collect(),
+        };
+        robot.transmit(self.destination(), self.port, &packet);
+    }
+
+    fn stream(&self) -> Stream {
+        self.to.map_or(Stream::Multicast, |_| Stream::Direct)
+    }
+
+    /// Sends a receiver a datagram of at most so many bytes, or one message, with messages that it lacks and that
+    /// were last sent when `is_due` says, the longest ago first. Gives them.
     fn resend(
         &self,
         robot: &mut Robot<'_>,
         outgoing: &Outgoing,
         receiver: &mut Receiver,
-        (peer, token): (RobotId, Option<u32>),
+        (peer, token, most): (RobotId, Option<u32>, usize),
         is_due: impl Fn(Time) -> bool,
     ) -> Vec<u32> {
         let mut missing: Vec<(Time, u32)> = outgoing
@@ -314,7 +341,7 @@ impl Line {
         let (mut numbers, mut size) = (Vec::new(), 0);
         for (_, number) in missing {
             let length = outgoing.get(number).map_or(0, |m| m.content.len() + 4);
-            if size + length > CHUNK && !numbers.is_empty() {
+            if size + length > most && !numbers.is_empty() {
                 break;
             }
             size += length;
@@ -343,14 +370,19 @@ impl Line {
             let receiver = outgoing.receivers.get(peer);
             receiver.is_some_and(|receiver| receiver.taken.contains(number))
         };
-        let unreached = match self.to {
+        let is_meant = |peer: &RobotId| !self.is_local || outgoing.receivers.contains_key(peer);
+        let unreached: Vec<RobotId> = match self.to {
             Some(to) => alloc::vec![to],
-            None => robot.peers().filter(|peer| !has_taken(peer)).collect(),
+            None => robot
+                .peers()
+                .filter(|peer| is_meant(peer) && !has_taken(peer))
+                .collect(),
         };
+        let message = self.name(number);
         if outgoing.pop() {
-            notices.push(Notice::Failed {
-                message: self.name(number),
-                unreached,
+            notices.push(match unreached.is_empty() {
+                true => Notice::Acknowledged(message),
+                false => Notice::Failed { message, unreached },
             });
         }
     }
@@ -405,7 +437,7 @@ impl Line {
             let mut trying = outgoing.strangers;
             let due = trying.due.unwrap_or(now);
             if due <= now {
-                self.send(robot, self.destination(), outgoing, None, &[]);
+                self.remind(robot, outgoing);
                 trying.attempt = trying.attempt.saturating_add(1);
                 trying.due = Some(now + self.stretched(robot, trying.attempt));
             }
@@ -435,7 +467,13 @@ impl Line {
             return due;
         }
         receiver.resent = receiver.resent.split_off(&outgoing.base());
-        let numbers = self.resend(robot, outgoing, receiver, (peer, None), |_| true);
+        // Where several together do not get through one alone may.
+        let most = if receiver.trying.attempt < 2 {
+            CHUNK
+        } else {
+            0
+        };
+        let numbers = self.resend(robot, outgoing, receiver, (peer, None, most), |_| true);
         if numbers.is_empty() {
             self.send(robot, Destination::Robot(peer), outgoing, None, &[]);
         }

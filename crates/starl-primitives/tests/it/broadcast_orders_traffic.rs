@@ -11,6 +11,8 @@ fn datagrams(order: Order, robots: usize) -> f64 {
     let quiet = |messages: u32| {
         let make = Teller::boxed(order, 0, 0.0);
         let mut world = World::new(robots, 1, Wire::perfect(), None, make);
+        // They hear of each other.
+        world.command(robots - 1, tell(0));
         world.run_for(Duration::from_seconds(10));
         let before = world.sent_count();
         for value in 0..20 {

@@ -1,7 +1,8 @@
 //! Causal order: what happened before a message was sent (Lamport 1978) is handed out before it.
 //!
 //! As each sender's messages are handed out in its order, what comes before a message is told by one number
-//! for each sender.
+//! for each sender. What a robot sent in an earlier life is not owed to who was handed, or passed over, something of a
+//! later one.
 
 use super::{CAUSAL, Finding, Process};
 use crate::report::MessageKey;
@@ -24,12 +25,17 @@ pub(super) struct Causality {
     known: BTreeMap<RobotId, Past>,
     /// What each robot was handed or passed over.
     settled: BTreeMap<RobotId, Past>,
+    /// The lives of all robots in the order in which they first sent.
+    lives: BTreeMap<Process, u64>,
+    /// By receiver and sender, the latest life of which something was handed out or passed over.
+    latest: BTreeMap<(RobotId, RobotId), u64>,
 }
 
 impl Causality {
     pub fn begin_anew(&mut self, robot: RobotId) {
         self.known.remove(&robot);
         self.settled.remove(&robot);
+        self.latest.retain(|(receiver, _), _| *receiver != robot);
     }
 
     pub fn sent(&mut self, robot: RobotId, key: MessageKey, at: Time) {
@@ -39,21 +45,45 @@ impl Causality {
             self.before.remove(&oldest);
             self.sent.pop_front();
         }
+        let lives = self.lives.len() as u64;
+        self.lives.entry((robot, key.incarnation)).or_insert(lives);
         let known = self.known.entry(robot).or_default();
         self.before.insert(key, Arc::new(known.clone()));
         self.sent.push_back((at, key));
         known.insert((robot, key.incarnation), key.number);
     }
 
+    /// Notes the life of a message that a robot was handed or passed over.
+    fn settle(&mut self, robot: RobotId, process: Process) {
+        let life = self.lives.get(&process).copied().unwrap_or(0);
+        let latest = self.latest.entry((robot, process.0)).or_insert(life);
+        *latest = life.max(*latest);
+    }
+
+    /// Whether a robot has come to a later life of the sender.
+    fn is_over(&self, robot: RobotId, process: Process) -> bool {
+        let latest = self.latest.get(&(robot, process.0));
+        latest.is_some_and(|latest| self.lives.get(&process).is_some_and(|life| life < latest))
+    }
+
     pub fn passed(&mut self, robot: RobotId, key: MessageKey) {
+        self.settle(robot, (key.from, key.incarnation));
         let settled = self.settled.entry(robot).or_default();
         raise(settled, (key.from, key.incarnation), key.number);
     }
 
     pub fn handed(&mut self, robot: RobotId, key: MessageKey, finding: &mut Finding<'_>) {
         let process = (key.from, key.incarnation);
-        let settled = self.settled.entry(robot).or_default();
         let number = key.number;
+        if self.is_over(robot, process) {
+            let text = format!(
+                "was handed message {number} of an earlier life of robot {} after one of a later life",
+                key.from
+            );
+            finding.add(CAUSAL, key.from, text);
+        }
+        self.settle(robot, process);
+        let settled = self.settled.entry(robot).or_default();
         if settled.get(&process).is_some_and(|&last| last >= number) {
             let text = format!(
                 "was handed message {number} of robot {}, which it had passed over",
@@ -65,9 +95,12 @@ impl Causality {
             return;
         };
         // Its own messages are not handed to a robot.
+        let before = Arc::clone(before);
+        let settled = self.settled.get(&robot);
         let mut others = before.iter().filter(|(process, _)| process.0 != robot);
         let is_missing = |(process, number): &(&Process, &u32)| {
-            settled.get(process).is_none_or(|last| last < *number)
+            let last = settled.and_then(|settled| settled.get(process));
+            last.is_none_or(|last| last < *number) && !self.is_over(robot, **process)
         };
         if let Some(((sender, _), missing)) = others.find(is_missing) {
             let text = format!(
@@ -77,9 +110,9 @@ impl Causality {
             );
             finding.add(CAUSAL, key.from, text);
         }
-        raise(settled, process, number);
+        raise(self.settled.entry(robot).or_default(), process, number);
         let known = self.known.entry(robot).or_default();
-        for (&process, &number) in &**before {
+        for (&process, &number) in &*before {
             raise(known, process, number);
         }
         raise(known, process, number);

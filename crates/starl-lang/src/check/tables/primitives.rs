@@ -102,6 +102,11 @@ pub const PRIMITIVES: &[Primitive] = &[
                 "Whether some robot has neither acknowledged the message nor been given up; in total order, whether it has no place yet.",
             ),
             member(
+                "backlog: Int",
+                Query,
+                "How many messages are outstanding; of more than 4096 the oldest fails.",
+            ),
+            member(
                 "failed: Bool",
                 Query,
                 "Whether nothing can be ordered at present: in total order, without a majority of the fleet in reach.",
@@ -132,6 +137,11 @@ pub const PRIMITIVES: &[Primitive] = &[
                 Query,
                 "Whether some robot has neither acknowledged the message nor been given up.",
             ),
+            member(
+                "backlog: Int",
+                Query,
+                "How many messages are outstanding; of more than 4096 the oldest fails.",
+            ),
         ],
         events: FAILED,
         documentation: "Messages to the robots in an area (thesis, section 3.3.1).",
@@ -148,6 +158,11 @@ pub const PRIMITIVES: &[Primitive] = &[
                 "outstanding(number: Int) -> Bool",
                 Query,
                 "Whether the message has neither been acknowledged nor given up.",
+            ),
+            member(
+                "backlog: Int",
+                Query,
+                "How many messages are outstanding; of more than 4096 the oldest fails.",
             ),
         ],
         events: FAILED,

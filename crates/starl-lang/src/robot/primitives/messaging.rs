@@ -65,6 +65,8 @@ pub trait Channel: Primitive + Clone + fmt::Debug + Send + Sync + Sized + 'stati
     ) -> Result<Self, Cow<'static, str>>;
     /// Whether the message is on its way to someone.
     fn is_outstanding(&self, message: MessageId) -> bool;
+    /// How many messages are on their way to someone.
+    fn backlog(&self) -> usize;
     /// The messages that were given up since the last call.
     fn take_failures(&mut self) -> Vec<Failure>;
     /// Overwrites its state at random.
@@ -99,6 +101,11 @@ impl<C: Channel> Sender<C> {
             Ok(1)
         },
     );
+
+    const BACKLOG: Member<Sender<C>> = query("backlog", &[], Shape::Int, |sender, _, call| {
+        call.set_int(0, sender.channel.backlog() as i64);
+        Ok(0)
+    });
 }
 
 impl<C: Channel> Kind for Sender<C> {
@@ -184,6 +191,10 @@ macro_rules! channel {
             Self::is_outstanding(self, message)
         }
 
+        fn backlog(&self) -> usize {
+            Self::backlog(self)
+        }
+
         fn take_failures(&mut self) -> Vec<Failure> {
             Self::take_failures(self)
         }
@@ -194,8 +205,11 @@ macro_rules! channel {
 macro_rules! unordered {
     ($name:literal) => {
         const NAME: &'static str = $name;
-        const MEMBERS: &'static [Member<Sender<Self>>] =
-            &[<Self as Channel>::SEND, Sender::<Self>::OUTSTANDING];
+        const MEMBERS: &'static [Member<Sender<Self>>] = &[
+            <Self as Channel>::SEND,
+            Sender::<Self>::OUTSTANDING,
+            Sender::<Self>::BACKLOG,
+        ];
 
         fn bind(
             name: &str,
@@ -222,6 +236,7 @@ impl Channel for Broadcast {
     const MEMBERS: &'static [Member<Sender<Self>>] = &[
         <Self as Channel>::SEND,
         Sender::<Self>::OUTSTANDING,
+        Sender::<Self>::BACKLOG,
         query("failed", &[], Shape::Bool, |sender, _, call| {
             call.set_bool(0, sender.channel.failed());
             Ok(0)

@@ -171,7 +171,7 @@ impl Causal {
             Standing::Unknown(_) if !need.is_over => {
                 self.vector.pass_over(process, number, self.arrivals);
             }
-            Standing::Over(_) | Standing::Unknown(_) => {}
+            Standing::Over(_) | Standing::Unknown(_) => self.vector.end(process, number),
         }
         if number == 0 {
             return;

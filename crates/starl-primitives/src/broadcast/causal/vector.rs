@@ -59,12 +59,26 @@ struct Known {
     unheard: Vec<Unheard>,
 }
 
+impl Known {
+    /// A life is over, and so much of it was taken or passed over.
+    fn end(&mut self, incarnation: u32, taken: u32) {
+        if let Some(past) = self.past.iter_mut().find(|past| past.0 == incarnation) {
+            past.1 = past.1.max(taken);
+            return;
+        }
+        if self.past.len() == PAST {
+            self.past.remove(0);
+        }
+        self.past.push((incarnation, taken));
+    }
+}
+
 /// What a life is to this robot.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Standing {
     /// It is heard.
     Present(Life),
-    /// It is over, and was heard: messages up to this number were taken.
+    /// It is over: messages up to this number were taken or passed over.
     Over(u32),
     /// Whether it is over or yet to come is not known; messages up to this number were passed over.
     Unknown(Option<u32>),
@@ -124,14 +138,17 @@ impl Vector {
             is_joined: false,
         });
         let before = before?;
-        if known.past.len() == PAST {
-            known.past.remove(0);
-        }
-        known.past.push((before.incarnation, before.taken));
+        known.end(before.incarnation, before.taken);
         Some(Process {
             robot,
             incarnation: before.incarnation,
         })
+    }
+
+    /// Messages of a life that is over are passed over.
+    pub fn end(&mut self, process: Process, number: u32) {
+        let known = self.0.entry(process.robot).or_default();
+        known.end(process.incarnation, number);
     }
 
     /// Messages of a life that is not heard are passed over.
@@ -157,11 +174,15 @@ impl Vector {
     /// Lives of a robot that were heard of by then are over, but for the present one.
     pub fn forget_unheard(&mut self, robot: RobotId, by: u64) {
         if let Some(known) = self.0.get_mut(&robot) {
-            known.unheard.retain(|unheard| unheard.since > by);
+            let over = known.unheard.extract_if(.., |unheard| unheard.since <= by);
+            let over: Vec<Unheard> = over.collect();
+            over.iter()
+                .for_each(|unheard| known.end(unheard.incarnation, unheard.passed));
         }
     }
 
-    /// What a message that is sent now comes after.
+    /// What a message that is sent now comes after: of each robot the life that is heard, and as
+    /// long as nothing was taken of that, those before it.
     pub fn now(&self) -> Vec<After> {
         let mut all = Vec::new();
         for (&robot, known) in &self.0 {
@@ -169,12 +190,20 @@ impl Vector {
                 .present
                 .iter()
                 .map(|life| (life.incarnation, life.taken));
+            let is_silent = known.present.is_none_or(|life| life.taken == 0);
+            let past = known.past.iter().copied();
+            let past = past.filter(|(_, taken)| is_silent && *taken > 0);
             let unheard = known.unheard.iter();
             let unheard = unheard.map(|unheard| (unheard.incarnation, unheard.passed));
-            all.extend(present.chain(unheard).map(|(incarnation, number)| After {
-                process: Process { robot, incarnation },
-                number,
-            }));
+            all.extend(
+                present
+                    .chain(past)
+                    .chain(unheard)
+                    .map(|(incarnation, number)| After {
+                        process: Process { robot, incarnation },
+                        number,
+                    }),
+            );
         }
         all
     }

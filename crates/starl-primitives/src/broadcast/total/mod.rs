@@ -147,6 +147,11 @@ impl Total {
             && all.any(|proposal| proposal.number == message.number)
     }
 
+    /// How many messages have no place yet and were not given up.
+    pub fn backlog(&self) -> usize {
+        self.proposals.len()
+    }
+
     /// Whether no leader with a majority has been heard for a while.
     pub fn failed(&self) -> bool {
         self.silence >= SILENCE

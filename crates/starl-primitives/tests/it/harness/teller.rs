@@ -167,16 +167,23 @@ pub fn sequences(runs: &[(u32, Vec<(usize, Step)>)], seed: u64) -> Vec<(u32, Vec
     all
 }
 
-/// Whether each sender's messages are handed out as they were sent.
+/// Whether each sender's messages are handed out as they were sent, and none of a life after one of another
+/// life that was handed out later than one of it.
 pub fn is_fifo(sequence: &[Id]) -> bool {
-    let mut last: BTreeMap<(u32, u32), u32> = BTreeMap::new();
+    let mut last: BTreeMap<u32, (u32, u32)> = BTreeMap::new();
+    let mut over: BTreeSet<(u32, u32)> = BTreeSet::new();
     sequence.iter().all(|&(from, incarnation, number)| {
-        let before = last.insert((from, incarnation), number);
-        before.is_none_or(|before| before < number)
+        match last.insert(from, (incarnation, number)) {
+            Some((life, before)) if life == incarnation => return before < number,
+            Some((life, _)) => drop(over.insert((from, life))),
+            None => {}
+        }
+        !over.contains(&(from, incarnation))
     })
 }
 
-/// Some two messages that were handed out before something that comes before them.
+/// Some two messages that were handed out before something that comes before them. What a robot sent in an earlier
+/// life does not come any more after something of a later one.
 pub fn causal_violation(runs: &[(u32, Vec<(usize, Step)>)]) -> Option<String> {
     let mut steps: Vec<(usize, usize, &Step)> = Vec::new();
     for (run, (_, of_run)) in runs.iter().enumerate() {
@@ -186,10 +193,23 @@ pub fn causal_violation(runs: &[(u32, Vec<(usize, Step)>)]) -> Option<String> {
     let mut past: BTreeMap<Id, BTreeSet<Id>> = BTreeMap::new();
     let mut known: Vec<BTreeSet<Id>> = vec![BTreeSet::new(); runs.len()];
     let mut passed: Vec<BTreeMap<(u32, u32), u32>> = vec![BTreeMap::new(); runs.len()];
+    let mut lives: BTreeMap<(u32, u32), usize> = BTreeMap::new();
+    let mut latest: Vec<BTreeMap<u32, usize>> = vec![BTreeMap::new(); runs.len()];
     for (_, run, step) in steps {
         let me = runs[run].0;
+        if let Step::Handed(id) | Step::Passed(id) = step {
+            let life = lives.get(&(id.0, id.1)).copied().unwrap_or(0);
+            let latest = latest[run].entry(id.0).or_insert(life);
+            *latest = life.max(*latest);
+        }
+        let is_over = |id: &Id| {
+            let latest = latest[run].get(&id.0);
+            latest.is_some_and(|latest| lives.get(&(id.0, id.1)).is_some_and(|life| life < latest))
+        };
         match step {
             Step::Sent(id) => {
+                let count = lives.len();
+                lives.entry((id.0, id.1)).or_insert(count);
                 past.insert(*id, known[run].clone());
                 known[run].insert(*id);
             }
@@ -203,12 +223,15 @@ pub fn causal_violation(runs: &[(u32, Vec<(usize, Step)>)]) -> Option<String> {
                     let mark = passed[run].get(&(id.0, id.1));
                     mark.is_some_and(|mark| *mark >= id.2)
                 };
+                if is_over(id) {
+                    return Some(format!("{id:?} was handed to {me} after a later life's"));
+                }
                 if is_passed(id) {
                     return Some(format!("{id:?} was passed over and handed to {me}"));
                 }
                 let mut before = past[id].iter();
-                let missing =
-                    before.find(|b| b.0 != me && !known[run].contains(b) && !is_passed(b));
+                let missing = before
+                    .find(|b| b.0 != me && !known[run].contains(b) && !is_passed(b) && !is_over(b));
                 if let Some(missing) = missing {
                     return Some(format!("{id:?} was handed to {me} before {missing:?}"));
                 }

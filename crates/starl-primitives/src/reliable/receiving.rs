@@ -1,0 +1,161 @@
+//! The receiver's half of the protocol: messages are taken once, and their sender is told.
+
+use super::inbox::{Arrived, Owed};
+use super::packet::{Packet, Stream};
+use super::{Alarm, Arrival, Notice, Notices, Reliable};
+use alloc::vec::Vec;
+use starl_core::{Destination, Duration, Payload, Robot, RobotId, Time, TimerKey};
+
+/// So many runs of messages are told of at once.
+const MOST_RUNS: usize = 24;
+
+/// How far a stream is, as its sender says.
+pub(super) struct Progress {
+    pub incarnation: u32,
+    pub stream: Stream,
+    pub token: Option<u32>,
+    pub base: u32,
+    pub next: u32,
+    /// Whether this robot need not answer if it has all.
+    pub is_known: bool,
+}
+
+impl Reliable {
+    /// A robot says how far its stream is, and sends some of it.
+    pub(super) fn take(
+        &mut self,
+        robot: &mut Robot<'_>,
+        from: RobotId,
+        progress: &Progress,
+        messages: Vec<(u32, Payload)>,
+    ) -> Notices {
+        let &Progress {
+            incarnation,
+            stream,
+            token,
+            base,
+            next,
+            is_known,
+        } = progress;
+        let are_sound = messages.iter().all(|(number, _)| *number < next);
+        if base == 0 || base > next || !are_sound {
+            return Notices::new(); // no robot of ours says this
+        }
+        let mut notices = Notices::new();
+        let window = self.options.window;
+        let inbox = self.inboxes.entry((from, stream)).or_default();
+        let is_answer = token.is_some_and(|token| inbox.begin(incarnation, token, base));
+        let mut arrived = Arrived::new();
+        inbox.owed = match inbox.sequence(incarnation) {
+            None => Owed::Greeting,
+            Some(sequence) => {
+                sequence.settle(base, &mut arrived);
+                for (number, content) in messages {
+                    match self.options.first_in_first_out {
+                        true => sequence.hold(number, content, window, &mut arrived),
+                        false => sequence.take(number, content, window, &mut arrived),
+                    }
+                }
+                match is_known && sequence.has_all(next) {
+                    true => inbox.owed,
+                    false => Owed::Taken,
+                }
+            }
+        };
+        notices.extend(arrived.into_iter().map(|(number, content)| {
+            Notice::Arrived(Arrival {
+                from,
+                incarnation,
+                to_all: stream == Stream::Multicast,
+                number,
+                content,
+            })
+        }));
+        if let Some(ticket) = token.filter(|_| is_answer && stream == Stream::Multicast) {
+            notices.push(Notice::Settled {
+                from,
+                incarnation,
+                before: base,
+                next,
+                ticket,
+            });
+        }
+        self.answer_soon(robot, (from, stream));
+        notices
+    }
+
+    /// Asks a robot which of its messages to all may still come. The answer is a [`Notice::Settled`] with
+    /// the ticket that this gives, if it comes.
+    pub fn ask(&mut self, robot: &mut Robot<'_>, peer: RobotId) -> u32 {
+        let inbox = self.inboxes.entry((peer, Stream::Multicast)).or_default();
+        inbox.renew_token();
+        inbox.owed = Owed::Greeting;
+        let token = inbox.token(robot);
+        self.answer(robot, (peer, Stream::Multicast));
+        token
+    }
+
+    /// Answers a sender at once if it was not answered just now, else a little later: then one answer
+    /// stands for all that comes meanwhile.
+    fn answer_soon(&mut self, robot: &mut Robot<'_>, sender: (RobotId, Stream)) {
+        let now = robot.now();
+        let Some(inbox) = self.inboxes.get(&sender) else {
+            return;
+        };
+        match self.options.answer_time(inbox.answered, now) {
+            at if at <= now => self.answer(robot, sender),
+            at => self.wake_to_answer(robot, at),
+        }
+    }
+
+    fn answer(&mut self, robot: &mut Robot<'_>, (from, stream): (RobotId, Stream)) {
+        let Some(inbox) = self.inboxes.get_mut(&(from, stream)) else {
+            return;
+        };
+        inbox.answered = Some(robot.now());
+        let packet = match (core::mem::take(&mut inbox.owed), &inbox.heard) {
+            (Owed::Nothing, _) => return,
+            (Owed::Taken, Some((incarnation, sequence))) => {
+                let (before, ahead) = sequence.report(MOST_RUNS);
+                Packet::<Payload>::Taken {
+                    incarnation: *incarnation,
+                    stream,
+                    before,
+                    ahead,
+                }
+            }
+            (Owed::Taken | Owed::Greeting, _) => {
+                let token = inbox.token(robot);
+                Packet::Greet { stream, token }
+            }
+        };
+        robot.transmit(Destination::Robot(from), self.port, &packet);
+    }
+
+    /// Answers those whose time has come.
+    pub(super) fn answer_due(&mut self, robot: &mut Robot<'_>) {
+        let now = robot.now();
+        self.answer_at = None;
+        let owing = self.inboxes.iter();
+        let owing = owing.filter(|(_, inbox)| inbox.owed != Owed::Nothing);
+        let owing = owing.map(|(&sender, inbox)| {
+            let at = self.options.answer_time(inbox.answered, now);
+            (sender, at)
+        });
+        let owing: Vec<((RobotId, Stream), Time)> = owing.collect();
+        for (sender, at) in owing {
+            match at <= now {
+                true => self.answer(robot, sender),
+                false => self.wake_to_answer(robot, at),
+            }
+        }
+    }
+
+    fn wake_to_answer(&mut self, robot: &mut Robot<'_>, at: Time) {
+        if self.answer_at.is_none_or(|earlier| at < earlier) {
+            self.answer_at = Some(at);
+            let after = at.since(robot.now()).max(Duration::from_millis(1));
+            robot.set_timer(TimerKey::new(self.port, Alarm::Answer), after);
+        }
+    }
+}
