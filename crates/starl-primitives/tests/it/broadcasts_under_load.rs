@@ -158,7 +158,7 @@ fn ten_robots_at_a_hundred_messages_a_second_are_heard_at_line_rate_over_a_fifth
         // All that was sent until a second ago.
         let until = world.now - Duration::from_seconds(1);
         assert_eq!(missed(&world, 10, Time::ZERO, until), [], "{order:?}");
-        world.run_for(Duration::from_seconds(4));
+        world.run_for(Duration::from_seconds(9));
         assert_eq!(missed(&world, 10, Time::ZERO, world.now), [], "{order:?}");
         judge(&world, order, &[], 1);
         let messages = (10 * 400 * 9) as f64;

@@ -163,7 +163,7 @@ fn garbage_does_no_harm() {
             let at = garbage.below(bytes.len() as u32) as usize;
             bytes[at] = garbage.bits() as u8;
         }
-        bytes.truncate(1 + garbage.below(20) as usize);
+        bytes.truncate(1 + garbage.below(30) as usize);
         let from = garbage.below(4);
         let input = message(from, bytes);
         let (notices, _) = with(1, &mut random, |robot| receiver.handle(robot, &input));
