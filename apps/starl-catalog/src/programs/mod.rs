@@ -146,7 +146,7 @@ fn reliable_options(parameters: &mut Parameters<'_>) -> reliable::Options {
         retries: parameters.count("retries", default.retries),
         first_in_first_out: parameters.flag("first_in_first_out", default.first_in_first_out),
         most_outstanding: parameters.count("most_outstanding", default.most_outstanding),
-        most_gaps: parameters.count("most_gaps", default.most_gaps),
+        window: parameters.count("window", default.window),
     }
 }
 
