@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs the workloads of tools/workloads.txt with every profile of faults until there are a million runs, and sums
-# them up. The summary of each block of seeds is kept as a file, so that it goes on where it was stopped;
+# Runs the workloads of tools/workloads.txt, and a tenth as often those of tools/loads.txt, with every profile of faults
+# until there are a million runs, and sums them up. The summary of each block of seeds is kept as a file, so that it goes on where it was stopped;
 # what goes wrong is kept beside them, as scenarios and drawings.
 #
 # Usage: tools/million.sh STARL FOLDER [RUNS [SEEDS]]
@@ -15,13 +15,13 @@ seeds=${4:-500}
 here=$(dirname "$0")
 mkdir -p "$folder"
 
-# Runs one workload with one block of seeds, unless that is done.
+# Runs one workload with one block of so many seeds, unless that is done.
 block() {
-    local scenario=$1 setting=$2 status=0
-    local name=$scenario${setting:+-${setting##*=}}
+    local first=$1 seeds=$2 name=$3 scenario=$4 options=$5 status=0
     local block=$folder/seeds-$first-$seeds-$name.json
     [ ! -e "$block" ] || return 0
-    "$starl" test "$here/../examples/primitives/$scenario.toml" ${setting:+--set "$setting"} --seeds "$seeds" \
+    # shellcheck disable=SC2086 # options are words
+    "$starl" test "$here/../examples/primitives/$scenario.toml" $options --seeds "$seeds" \
         --first-seed "$first" --out "$folder" --json </dev/null >"$block.partial" || status=$?
     # 1 is a finding; more is a fault of the command or its input, and 130 someone's wish to stop.
     if [ "$status" -gt 1 ] || grep -q '"interrupted": true' "$block.partial"; then
@@ -32,12 +32,20 @@ block() {
     mv "$block.partial" "$block"
 }
 
+# Runs a block of every workload of a list.
+blocks() {
+    local name scenario options
+    while read -r name scenario options; do
+        case $name in "" | "#"*) continue ;; esac
+        block "$1" "$2" "$name" "$scenario" "$options"
+    done <"$3"
+}
+
 first=1
+few=$((seeds / 10 > 0 ? seeds / 10 : 1))
 while [ "$(python3 "$here/million.py" --runs "$folder")" -lt "$runs" ]; do
-    while read -r scenario setting; do
-        case $scenario in "" | "#"*) continue ;; esac
-        block "$scenario" "$setting"
-    done <"$here/workloads.txt"
+    blocks "$first" "$seeds" "$here/workloads.txt"
+    blocks "$first" "$few" "$here/loads.txt"
     first=$((first + seeds))
 done
 python3 "$here/million.py" "$folder"

@@ -1,21 +1,24 @@
 #!/usr/bin/env bash
-# Runs `starl test` on every workload of tools/workloads.txt, to the end whatever goes wrong on the way.
+# Runs `starl test` on every workload of a list, to the end whatever goes wrong on the way.
 #
-# Usage: tools/workloads.sh STARL [OPTION...]
+# Usage: tools/workloads.sh STARL LIST [OPTION...]
 #
-# STARL is the command, and OPTION any of `starl test`. The status is 1 if anything went wrong.
+# STARL is the command, LIST tools/workloads.txt or tools/loads.txt, and OPTION any of `starl test`. The status is 1 if
+# anything went wrong.
 set -euo pipefail
-starl=${1:?usage: tools/workloads.sh STARL [OPTION...]}
-shift
+starl=${1:?usage: tools/workloads.sh STARL LIST [OPTION...]}
+list=${2:?usage: tools/workloads.sh STARL LIST [OPTION...]}
+shift 2
 here=$(dirname "$0")
 
 worst=0
-while read -r scenario setting; do
-    case $scenario in "" | "#"*) continue ;; esac
-    [ -z "$setting" ] || echo "$setting"
+while read -r name scenario options; do
+    case $name in "" | "#"*) continue ;; esac
+    echo "$name"
     status=0
-    "$starl" test "$here/../examples/primitives/$scenario.toml" ${setting:+--set "$setting"} "$@" </dev/null || status=$?
+    # shellcheck disable=SC2086 # options are words
+    "$starl" test "$here/../examples/primitives/$scenario.toml" $options "$@" </dev/null || status=$?
     [ "$status" -le 1 ] || exit "$status"
     [ "$status" -eq 0 ] || worst=1
-done <"$here/workloads.txt"
+done <"$list"
 exit "$worst"

@@ -2,7 +2,7 @@
 
 use crate::harness::sharer::{Sharer, all, read, write, write_own};
 use crate::harness::{Wire, World};
-use starl_core::Duration;
+use starl_core::{Duration, Random};
 use starl_primitives::shared_memory::Options;
 
 const ROBOTS: u32 = 8;
@@ -69,6 +69,45 @@ fn one_link_between_the_parts_is_enough() {
         for robot in 0..ROBOTS as usize {
             assert_eq!(read(&world, robot, 0), Some(3), "seed {seed}");
             assert_eq!(all(&world, robot, 0).len(), ROBOTS as usize, "seed {seed}");
+        }
+    }
+}
+
+#[test]
+fn links_that_are_dead_in_one_direction_are_gone_round() {
+    for seed in 0..40 {
+        let robots = [4, 5, 8, 12][seed as usize % 4];
+        let make = Sharer::boxed(Options::default());
+        let mut world = World::new(robots, seed, Wire::perfect(), None, make);
+        let mut random = Random::keyed(seed, &[3]);
+        // All that two robots say does not reach some other: the same one, every other time.
+        let mut to = random.below(robots as u32);
+        for _ in 0..2 {
+            let from = random.below(robots as u32);
+            world.wire.cut.insert((from, to));
+            if seed % 2 == 0 {
+                to = random.below(robots as u32);
+            }
+        }
+        for round in 0..20 {
+            for robot in 0..robots {
+                world.command(robot, write(robot as u8, round));
+                world.command(robot, write_own(0, round));
+            }
+            world.run_for(Duration::from_millis(500));
+        }
+        world.run_for(Duration::from_seconds(25));
+        for robot in 0..robots {
+            for variable in 0..robots as u8 {
+                let cut = &world.wire.cut;
+                assert_eq!(
+                    read(&world, robot, variable.into()),
+                    Some(19),
+                    "seed {seed}, {cut:?}"
+                );
+            }
+            let everyone: Vec<_> = (0..robots as u32).map(|robot| (robot, 19)).collect();
+            assert_eq!(all(&world, robot, 0), everyone, "seed {seed}");
         }
     }
 }

@@ -33,7 +33,7 @@ pub(super) fn crash(trouble: &mut Trouble<'_>) {
             true => Time::NEVER,
             false => (from + trouble.span(0.01, 0.4)).min(trouble.until),
         };
-        let robot = robots[trouble.random.below(robots.len() as u32) as usize];
+        let robot = trouble.one(&robots);
         let outage = Outage { robot, from, to };
         // So many at most are down at any moment of it.
         let meanwhile = outages.iter().filter(|other| other.overlaps(&outage));

@@ -13,6 +13,7 @@ mod corruption;
 mod crashes;
 mod network;
 mod partitions;
+mod restarts;
 
 use crate::Scenario;
 use crate::engine;
@@ -39,11 +40,14 @@ pub enum Profile {
     Chaos,
     /// Variables are overwritten at random.
     Corruption,
+    /// Some of the above, copies that come seconds late, robots that restart again and again, and majorities that
+    /// crash at once: each run draws which, so that rare combinations meet (swarm testing, Groce et al. 2012).
+    Swarm,
 }
 
 impl Profile {
     /// Every profile.
-    pub const ALL: [Profile; 7] = [
+    pub const ALL: [Profile; 8] = [
         Profile::Calm,
         Profile::Lossy,
         Profile::Partitions,
@@ -51,16 +55,18 @@ impl Profile {
         Profile::Clocks,
         Profile::Chaos,
         Profile::Corruption,
+        Profile::Swarm,
     ];
 
     /// Those under which primitives keep their safety: all but the corruption of state.
-    pub const USUAL: [Profile; 6] = [
+    pub const USUAL: [Profile; 7] = [
         Profile::Calm,
         Profile::Lossy,
         Profile::Partitions,
         Profile::Crashes,
         Profile::Clocks,
         Profile::Chaos,
+        Profile::Swarm,
     ];
 
     /// What it is called on the command line.
@@ -73,6 +79,7 @@ impl Profile {
             Profile::Clocks => "clocks",
             Profile::Chaos => "chaos",
             Profile::Corruption => "corruption",
+            Profile::Swarm => "swarm",
         }
     }
 
@@ -86,6 +93,9 @@ impl Profile {
             Profile::Clocks => "clocks of robots differ and run at different rates",
             Profile::Chaos => "message faults, splits, crashes and wrong clocks at once",
             Profile::Corruption => "variables of robots are overwritten at random",
+            Profile::Swarm => {
+                "some of many faults, among them late copies and restart after restart"
+            }
         }
     }
 
@@ -101,7 +111,7 @@ impl Profile {
     pub fn demands_goal(self) -> bool {
         match self {
             Profile::Calm | Profile::Lossy | Profile::Partitions | Profile::Clocks => true,
-            Profile::Crashes | Profile::Chaos | Profile::Corruption => false,
+            Profile::Crashes | Profile::Chaos | Profile::Corruption | Profile::Swarm => false,
         }
     }
 
@@ -126,6 +136,7 @@ impl Profile {
             Profile::Clocks => clocks::set_wrong(&mut trouble),
             Profile::Chaos => chaos(&mut trouble),
             Profile::Corruption => corruption::corrupt(&mut trouble),
+            Profile::Swarm => swarm(&mut trouble),
         }
         // Faults of one time keep their order.
         changed.faults.schedule.sort_by_key(|fault| fault.at);
@@ -145,6 +156,28 @@ fn chaos(trouble: &mut Trouble<'_>) {
         if trouble.random.chance(0.75) {
             kind(trouble);
         }
+    }
+}
+
+/// Each kind of trouble every other time.
+fn swarm(trouble: &mut Trouble<'_>) {
+    let kinds: [fn(&mut Trouble<'_>); 4] = [
+        network::lossy,
+        network::late,
+        partitions::part,
+        clocks::set_wrong,
+    ];
+    for kind in kinds {
+        if trouble.random.chance(0.5) {
+            kind(trouble);
+        }
+    }
+    // One way to go down at a time, so that whoever is down is known.
+    match trouble.random.below(5) {
+        0 => crashes::crash(trouble),
+        1 | 2 => restarts::repeat(trouble),
+        3 => restarts::majority(trouble),
+        _ => {}
     }
 }
 
@@ -184,6 +217,11 @@ impl Trouble<'_> {
     /// From `low` to `high`, both included.
     fn count(&mut self, low: u32, high: u32) -> u32 {
         low + self.random.below(high.saturating_sub(low) + 1)
+    }
+
+    /// One of these.
+    fn one<T: Copy>(&mut self, all: &[T]) -> T {
+        all[self.random.below(all.len() as u32) as usize]
     }
 
     /// Some of these, in random order (Fisher and Yates 1938).

@@ -28,3 +28,14 @@ pub(super) fn lossy(trouble: &mut Trouble<'_>) {
         ..worse
     };
 }
+
+/// Every tenth copy or so comes two to ten seconds late, and many come twice.
+pub(super) fn late(trouble: &mut Trouble<'_>) {
+    let reordering = trouble.hundredths(0.05, 0.2);
+    let duplication = trouble.hundredths(0.1, 0.4);
+    let delay = Duration::from_millis(trouble.count(2000, 10_000).into());
+    let link = &mut trouble.scenario.network.link;
+    link.reordering = reordering;
+    link.reordering_delay = delay;
+    link.duplication = duplication.max(link.duplication);
+}
