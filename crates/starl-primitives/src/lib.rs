@@ -1,7 +1,7 @@
 //! The primitives of StarL: pure state machines that programs own and call (thesis, chapter 3).
 //!
 //! Communication: [`Broadcast`], [`Geocast`] and [`Unicast`], all built on one acknowledged protocol,
-//! [`reliable::Reliable`]; [`SharedMemory`] and [`Register`]. Motion: [`ReachAvoid`]. Agreement: [`Mutex`],
+//! [`reliable::Reliable`], and [`LocalBroadcast`], which promises nothing; [`SharedMemory`] and [`Register`]. Motion: [`ReachAvoid`]. Agreement: [`Mutex`],
 //! [`Registration`], [`LeaderElection`], [`Barrier`]. A program keeps primitives as fields, derives
 //! [`starl_core::Primitives`], calls their methods with its [`starl_core::Robot`] and reads their
 //! flags. No primitive waits for ever on a robot that is gone.
@@ -16,6 +16,7 @@ pub mod election;
 pub mod failure_detector;
 pub mod geocast;
 mod incarnation;
+pub mod local_broadcast;
 pub mod mutex;
 pub mod reach_avoid;
 pub mod register;
@@ -30,6 +31,7 @@ pub use channel::Failure;
 pub use election::LeaderElection;
 pub use failure_detector::FailureDetector;
 pub use geocast::Geocast;
+pub use local_broadcast::LocalBroadcast;
 pub use mutex::Mutex;
 pub use reach_avoid::ReachAvoid;
 pub use register::Register;

@@ -92,7 +92,7 @@ failures: Int = 0
 flood()
     pre sent == 0
     eff
-        for i in 0..1030
+        for i in 0..4102
             sent = radio.broadcast(Hello(i))
 
 on radio.failed(number)
@@ -106,10 +106,10 @@ fn a_handler_that_brings_about_its_own_event_does_not_run_for_ever() {
     world.wire.loss = 1.0;
     world.step();
     assert_eq!(world.failure(0), None);
-    assert_eq!(world.int(0, "sent"), 1030);
+    assert_eq!(world.int(0, "sent"), 4102);
     world.step();
     // Six were given up for others. At each input, of which a step has two, they are sent again, for
     // which six others are given up.
     assert_eq!(world.int(0, "failures"), 12);
-    assert_eq!(world.int(0, "sent"), 1042);
+    assert_eq!(world.int(0, "sent"), 4114);
 }

@@ -12,6 +12,7 @@ message Greeting(word: String, number: Int)
 radio = Broadcast()
 post = Unicast()
 zone = Geocast()
+shout = LocalBroadcast()
 
 sent: Bool = false
 heard: List[String] = []
@@ -26,6 +27,7 @@ greet()
             if robot_name(r) == "robot1"
                 post.send(r, Greeting("to one", 2))
         zone.geocast(Greeting("to those near", 3), circle(Point(5.0, 0.0), 1.0))
+        shout.broadcast(Greeting("to whoever hears", 4))
 
 on Greeting(from, word, number)
     heard.add(word)
@@ -51,11 +53,12 @@ fn each_way_reaches_whom_it_is_meant_for() {
     world.put(2, Point::planar(5.5, 0.0));
     world.steps(3);
     assert_eq!(heard(&world, 0), [""; 0]);
-    assert_eq!(heard(&world, 1), ["to all", "to one"]);
-    assert_eq!(heard(&world, 2), ["to all", "to those near"]);
+    assert_eq!(heard(&world, 1), ["to all", "to one", "to whoever hears"]);
+    let near = ["to all", "to those near", "to whoever hears"];
+    assert_eq!(heard(&world, 2), near);
     assert_eq!(
         world.get(1, "senders").to_string(),
-        "[robot0, robot0]",
+        "[robot0, robot0, robot0]",
         "the handler learns who sent"
     );
 }

@@ -18,10 +18,10 @@ pub(super) enum Packet<C> {
         base: u32,
         /// The number of the next message that will be sent.
         next: u32,
-        /// The messages, each with its number.
-        messages: Vec<(u32, C)>,
         /// Whoever is among these and has all need not answer.
         known: Vec<RobotId>,
+        /// The messages, each with its number. They come last, so that the end of a datagram shows its message.
+        messages: Vec<(u32, C)>,
     },
     /// The receiver does not know the sender's present incarnation: it asks for [`Packet::Data`] with this
     /// token.

@@ -48,7 +48,7 @@ impl Reliable {
         // Those who do not know this robot hear of it by any of its messages.
         let attempt = outgoing.strangers.attempt;
         outgoing.strangers.due = Some(now + line.stretched(robot, attempt));
-        line.send(robot, line.destination(), outgoing, None, &[number]);
+        line.send(robot, outgoing, Head::of(line.destination()), &[number]);
         self.wake_to_resend(robot, due);
         (message, notices)
     }
@@ -154,7 +154,7 @@ impl Reliable {
         let greeting = (from, Some(token), CHUNK);
         let numbers = line.resend(robot, outgoing, &mut receiver, greeting, any);
         if numbers.is_empty() {
-            line.send(robot, Destination::Robot(from), outgoing, Some(token), &[]);
+            line.send(robot, outgoing, Head::to(from, &receiver, Some(token)), &[]);
         }
         let due = now + line.stretched(robot, 0);
         receiver.trying.due.get_or_insert(due);
@@ -255,6 +255,36 @@ pub(super) struct Line {
     pub to: Option<RobotId>,
 }
 
+/// What a datagram says besides its messages.
+#[derive(Debug)]
+struct Head {
+    destination: Destination,
+    token: Option<u32>,
+    /// No message before this one will come to its receivers, as far as they differ from others.
+    base: u32,
+    known: Vec<RobotId>,
+}
+
+impl Head {
+    fn of(destination: Destination) -> Head {
+        Head {
+            destination,
+            token: None,
+            base: 0,
+            known: Vec::new(),
+        }
+    }
+
+    /// To one robot. What an earlier life of it has taken will not come again.
+    fn to(peer: RobotId, receiver: &Receiver, token: Option<u32>) -> Head {
+        Head {
+            token,
+            base: receiver.taken.next(),
+            ..Head::of(Destination::Robot(peer))
+        }
+    }
+}
+
 impl Line {
     fn name(&self, number: u32) -> MessageId {
         MessageId {
@@ -281,41 +311,30 @@ impl Line {
     }
 
     /// Says how far the stream is, with these messages.
-    fn send(
-        &self,
-        robot: &mut Robot<'_>,
-        destination: Destination,
-        outgoing: &Outgoing,
-        token: Option<u32>,
-        numbers: &[u32],
-    ) {
+    fn send(&self, robot: &mut Robot<'_>, outgoing: &Outgoing, head: Head, numbers: &[u32]) {
         let content = |&number: &u32| Some((number, &outgoing.get(number)?.content[..]));
         let packet = Packet::Data {
             incarnation: self.incarnation,
             stream: self.stream(),
-            token,
-            base: outgoing.base(),
+            token: head.token,
+            base: head.base.max(outgoing.base()),
             next: outgoing.next(),
+            known: head.known,
             messages: numbers.iter().filter_map(content).collect(),
-            known: Vec::new(),
         };
-        robot.transmit(destination, self.port, &packet);
+        robot.transmit(head.destination, self.port, &packet);
     }
 
     /// Says how far the stream is to those who have never answered. Those who have taken all need not answer.
     fn remind(&self, robot: &mut Robot<'_>, outgoing: &Outgoing) {
         let receivers = outgoing.receivers.iter();
         let have_all = receivers.filter(|(_, receiver)| receiver.taken.next() == outgoing.next());
-        let packet = Packet::<Payload>::Data {
-            incarnation: self.incarnation,
-            stream: self.stream(),
-            token: None,
-            base: outgoing.base(),
-            next: outgoing.next(),
-            messages: Vec::new(),
-            known: have_all.map(|(&peer, _)| peer).take(MOST_KNOWN).collect(),
+        let known = have_all.map(|(&peer, _)| peer).take(MOST_KNOWN).collect();
+        let head = Head {
+            known,
+            ..Head::of(self.destination())
         };
-        robot.transmit(self.destination(), self.port, &packet);
+        self.send(robot, outgoing, head, &[]);
     }
 
     fn stream(&self) -> Stream {
@@ -349,7 +368,7 @@ impl Line {
         }
         numbers.sort_unstable();
         if !numbers.is_empty() {
-            self.send(robot, Destination::Robot(peer), outgoing, token, &numbers);
+            self.send(robot, outgoing, Head::to(peer, receiver, token), &numbers);
         }
         let again = numbers.iter().map(|&number| (number, robot.now()));
         receiver.resent.extend(again);
@@ -475,7 +494,7 @@ impl Line {
         };
         let numbers = self.resend(robot, outgoing, receiver, (peer, None, most), |_| true);
         if numbers.is_empty() {
-            self.send(robot, Destination::Robot(peer), outgoing, None, &[]);
+            self.send(robot, outgoing, Head::to(peer, receiver, None), &[]);
         }
         self.tell(&numbers, peer, notices);
         let trying = &mut receiver.trying;

@@ -67,3 +67,55 @@ fn garbage_is_borne() {
         }
     }
 }
+
+/// The most that a robot keeps in each part of a run in which all send ten messages a second and restart in turn.
+fn under_churn(order: Order, parts: u64, part: Duration) -> Vec<usize> {
+    let make = Teller::boxed(order, u32::MAX, 1.0);
+    let wire = Wire {
+        loss: 0.1,
+        duplication: 0.1,
+        delay_ms: (5, 60),
+        late: (0.05, 5000),
+        ..Wire::perfect()
+    };
+    let mut world = World::new(4, 1, wire, Some(Duration::from_millis(100)), make);
+    let mut random = Random::keyed(1, &[6]);
+    let mut most = Vec::new();
+    for round in 0..parts {
+        let mut largest = 0;
+        let end = world.now + part;
+        while world.now < end {
+            let robot = random.below(4) as usize;
+            world.crash(robot);
+            world.run_for(Duration::from_millis(u64::from(random.below(4000))));
+            world.start(robot);
+            world.run_for(Duration::from_seconds(10));
+            for robot in 0..4 {
+                largest = largest.max(size(&world, robot));
+            }
+            world.records.clear();
+        }
+        println!("{order:?}, part {round}: {largest}");
+        most.push(largest);
+    }
+    most
+}
+
+#[test]
+fn memory_is_flat_under_load_and_churn() {
+    for order in [Order::Unordered, Order::Fifo, Order::Causal] {
+        let most = under_churn(order, 4, Duration::from_seconds(120));
+        let [first, .., last] = most[..] else { return };
+        assert!(last < first * 3 / 2, "{order:?}: {most:?}");
+    }
+}
+
+#[test]
+#[ignore = "an hour of load takes minutes"]
+fn memory_is_flat_for_an_hour() {
+    for order in [Order::Unordered, Order::Fifo, Order::Causal, Order::Total] {
+        let most = under_churn(order, 6, Duration::from_seconds(600));
+        let [first, .., last] = most[..] else { return };
+        assert!(last < first * 3 / 2, "{order:?}: {most:?}");
+    }
+}

@@ -75,3 +75,31 @@ fn a_restarted_receiver_takes_what_is_on_its_way_and_what_comes() {
         assert_eq!(world.events("fail"), []);
     }
 }
+
+#[test]
+fn a_receiver_that_restarts_does_not_wait_for_what_its_earlier_life_took() {
+    for in_order in [false, true] {
+        let options = Options {
+            first_in_first_out: in_order,
+            ..Options::default()
+        };
+        let mut world = World::new(3, 3, Wire::perfect(), None, Talker::boxed(options));
+        world.command(0, broadcast(1));
+        world.run_for(Duration::from_seconds(1));
+        // Messages stay on their way, since the second robot hears none.
+        world.wire.part(0, 1);
+        for value in 2..6 {
+            world.command(0, broadcast(value));
+            world.run_for(Duration::from_millis(100));
+        }
+        world.run_for(Duration::from_seconds(1));
+        world.crash(2);
+        world.run_for(Duration::from_millis(100));
+        world.start(2);
+        world.command(0, broadcast(6));
+        world.run_for(Duration::from_seconds(2));
+        let received = world.received().into_iter().filter(|got| got.1 == 2);
+        let values: Vec<i64> = received.map(|got| got.2).collect();
+        assert_eq!(values, [1, 2, 3, 4, 5, 6], "in order: {in_order}");
+    }
+}

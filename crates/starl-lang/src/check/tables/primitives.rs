@@ -169,6 +169,16 @@ pub const PRIMITIVES: &[Primitive] = &[
         documentation: "Messages to single robots (thesis, section 3.3.1).",
     },
     Primitive {
+        constructor: "LocalBroadcast(name?: String)",
+        members: &[member(
+            "broadcast(message: Message)",
+            Effect,
+            "Sends a message to all robots in reach of the radio, once: it may be lost.",
+        )],
+        events: &[],
+        documentation: "Messages to all robots in reach of the radio, without acknowledgement.",
+    },
+    Primitive {
         constructor: "FailureDetector()",
         members: &[member(
             "suspects: Set[RobotId]",

@@ -9,6 +9,7 @@ mod attended;
 mod barrier;
 mod election;
 mod linearizable;
+mod local;
 mod messaging;
 mod mutex;
 mod reach_avoid;
@@ -265,6 +266,7 @@ pub static KINDS: &[Entry] = &[
     Entry::of::<messaging::Sender<starl_primitives::Broadcast>>(),
     Entry::of::<messaging::Sender<starl_primitives::Geocast>>(),
     Entry::of::<messaging::Sender<starl_primitives::Unicast>>(),
+    Entry::of::<starl_primitives::LocalBroadcast>(),
     Entry::of::<starl_primitives::Mutex>(),
     Entry::of::<starl_primitives::Registration>(),
     Entry::of::<starl_primitives::Barrier>(),

@@ -1,0 +1,44 @@
+//! LocalBroadcast in programs.
+
+use super::{Arguments, Attention, Context, Event, Instance, Kind, Member, method};
+use crate::robot::shape::Shape;
+use alloc::borrow::Cow;
+use starl_core::{Primitive, Random};
+use starl_primitives::LocalBroadcast;
+
+impl Kind for LocalBroadcast {
+    const NAME: &'static str = "LocalBroadcast";
+
+    const CONSTRUCTOR: &'static [Shape] = &[Shape::Optional(&Shape::Text)];
+
+    const MEMBERS: &'static [Member<LocalBroadcast>] = &[method(
+        "broadcast",
+        &[Shape::Message],
+        None,
+        |radio, context, call| {
+            let payload = context.message(&mut Arguments::after_instance(call))?;
+            radio.broadcast(context.robot, payload);
+            Ok(1)
+        },
+    )];
+
+    const EVENTS: &'static [Event] = &[];
+
+    const ATTENTION: Attention = Attention::NONE;
+
+    fn bind(
+        instance: &Instance,
+        _: &mut Context<'_, '_>,
+        arguments: &mut Arguments<'_>,
+    ) -> Result<LocalBroadcast, Cow<'static, str>> {
+        let name = arguments.optional(Arguments::text);
+        Ok(LocalBroadcast::new(name.unwrap_or(&instance.name)))
+    }
+
+    fn primitive(&mut self) -> Option<&mut dyn Primitive> {
+        Some(self)
+    }
+
+    /// It keeps nothing.
+    fn corrupt(&mut self, _: &mut Random) {}
+}
