@@ -33,6 +33,43 @@ fn memory_does_not_grow_with_what_was_sent() {
     }
 }
 
+/// The most that robots keep in each tenth of this span, in which all of them broadcast and restart in turn.
+fn sizes_under_churn(span: Duration, seed: u64) -> Vec<usize> {
+    let wire = Wire {
+        loss: 0.1,
+        duplication: 0.1,
+        delay_ms: (5, 300),
+        ..Wire::perfect()
+    };
+    let make = Teller::boxed(Order::Total, u32::MAX, 0.3);
+    let mut world = World::new(5, seed, wire, Some(Duration::from_millis(200)), make);
+    let step = Duration::from_seconds(4);
+    let steps = (span.seconds() / step.seconds()) as usize;
+    let mut sizes = vec![0; 10];
+    for at in 0..steps {
+        world.run_for(step);
+        let largest = (0..5).map(|robot| size(&world, robot)).max();
+        let tenth = at * 10 / steps;
+        sizes[tenth] = sizes[tenth].max(largest.unwrap_or(0));
+        // So much at once that groups die now and then.
+        for robot in (0..5).filter(|robot| (at + robot) % 3 == 0 && at % 2 == 0) {
+            world.crash(robot);
+            world.run_for(Duration::from_millis(300));
+            world.start(robot);
+        }
+        world.records.clear();
+    }
+    sizes
+}
+
+#[test]
+fn memory_is_flat_over_an_hour_of_load_and_churn() {
+    let sizes = sizes_under_churn(Duration::from_seconds(3600), 1);
+    let most = |sizes: &[usize]| sizes.iter().copied().max().unwrap_or(0);
+    let (early, late) = (most(&sizes[..5]), most(&sizes[5..]));
+    assert!(late <= early + early / 2, "{sizes:?}");
+}
+
 #[test]
 fn garbage_is_borne() {
     for order in [Order::Fifo, Order::Causal, Order::Total] {

@@ -4,7 +4,8 @@
 //! the last term in it. Before a robot asks in earnest it asks whether it would be elected, and those
 //! who hear a leader say no: one that comes back from behind a wall unseats nobody.
 
-use super::packet::{Body, Life};
+use super::life::Life;
+use super::packet::{Body, Question};
 use super::{FURTHEST, Role, Total};
 use alloc::collections::BTreeSet;
 use starl_core::event::messaging::LeaveReason;
@@ -61,14 +62,21 @@ impl Total {
         let &Role::Asking { trial, .. } = &member.role else {
             return;
         };
-        let body = Body::Ask {
+        let term = member.term.saturating_add(u32::from(trial));
+        let end = (member.log.last_term(), member.log.last());
+        let body = self.question(trial, term, end);
+        self.say(robot, Destination::All, body);
+    }
+
+    /// Asks for votes for a term, with a log of this end; or, outside of groups, who is there.
+    pub(super) fn question(&self, trial: bool, term: u32, (last_term, last): (u32, u64)) -> Body {
+        Body::Ask {
             number: self.ask_number,
             trial,
-            term: member.term.saturating_add(u32::from(trial)),
-            last_term: member.log.last_term(),
-            last: member.log.last(),
-        };
-        self.say(robot, Destination::All, body);
+            term,
+            last_term,
+            last,
+        }
     }
 
     /// Another member wants to lead.
@@ -77,8 +85,12 @@ impl Total {
             return;
         };
         let to = Destination::Robot(from.robot);
-        let refusal = Body::Vote {
+        let question = Question {
+            asker: from.name,
             number: claim.number,
+        };
+        let refusal = Body::Vote {
+            question,
             term: member.term,
             is_granted: false,
         };
@@ -99,16 +111,29 @@ impl Total {
         if !is_whole || !claim.trial && member.vote.is_some_and(|vote| vote != from) {
             return self.say(robot, to, refusal);
         }
-        if !claim.trial {
+        if !claim.trial && member.vote.is_none() {
             member.vote = Some(from);
             member.silence = 0;
         }
         let vote = Body::Vote {
-            number: claim.number,
+            question,
             term: member.term,
             is_granted: true,
         };
         self.say(robot, to, vote);
+    }
+
+    /// Whether a robot answers what this one is asking now, as the life that it is now.
+    pub(super) fn is_asking(&mut self, robot: &mut Robot<'_>, question: Question) -> bool {
+        let present = Question {
+            asker: self.life(robot).name,
+            number: self.ask_number,
+        };
+        let is_asking = match &self.member {
+            Some(member) => matches!(member.role, Role::Asking { .. }),
+            None => self.is_mustering(),
+        };
+        is_asking && question == present
     }
 
     /// A member says whether it votes for this robot.
@@ -116,15 +141,15 @@ impl Total {
         &mut self,
         robot: &mut Robot<'_>,
         from: Life,
-        (number, term, is_granted): (u32, u32, bool),
+        question: Question,
+        (term, is_granted): (u32, bool),
     ) {
-        let is_answer = number == self.ask_number;
+        if !self.is_asking(robot, question) {
+            return;
+        }
         let Some(member) = &mut self.member else {
             return;
         };
-        if !is_answer {
-            return;
-        }
         member.see(from, false);
         if is_granted && let Role::Asking { votes, .. } = &mut member.role {
             votes.insert(from);
@@ -137,6 +162,10 @@ impl Total {
                 LeaveReason::Lost
             };
             return self.leave(robot, reason);
+        }
+        if !is_granted && term == member.term {
+            // A leader of that term may be there, of which this robot believes to have heard more than it said.
+            member.round = 0;
         }
         match is_granted {
             true => self.count_votes(robot),

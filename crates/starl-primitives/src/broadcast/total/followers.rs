@@ -1,7 +1,14 @@
 //! What a leader knows of the other members, and what follows for the log.
+//!
+//! Invariant: of the lives of one robot the leader goes by the latest that it has heard. A life takes the place
+//! of another one only if it has answered a later call, and a call goes to one life, after that was heard:
+//! an earlier life, from which something arrives late, was dead by then and never answers it.
 
-use super::packet::{Body, Entry, Life, Sender, What};
-use super::{CHUNK, MOST_BYTES, MOST_LOG, Member, Role};
+use super::feeding::Answer;
+use super::life::Life;
+use super::packet::{Body, Entry, What};
+use super::roll::Roll;
+use super::{CHUNK, MOST_BYTES, Member, Role};
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use starl_core::RobotId;
@@ -20,34 +27,80 @@ pub(super) struct Leading {
     pub sent: u64,
     /// The decided part of the log of which all have been told.
     pub told: u64,
+    /// What was decided at the last ticks, and the round then, the oldest first.
+    pub past: [(u64, u64); 4],
+    /// Counts what it has sent, datagrams that were sent together once.
+    pub round: u64,
+    /// Counts its calls.
+    pub calls: u64,
     pub followers: BTreeMap<RobotId, Follower>,
-    /// The number of each sender's last message in the log.
-    pub senders: BTreeMap<Sender, u32>,
+    /// Who may put messages after the last entry of the log.
+    pub roll: Roll,
 }
 
 /// Another member, as its leader knows it.
 #[derive(Clone, Debug)]
 pub(super) struct Follower {
     pub life: Life,
+    /// The last round and the last call of the leader that it has heard.
+    pub round: u64,
+    pub call: u64,
     /// Its log is the leader's up to here.
     pub matched: u64,
     pub applied: u64,
     /// Ticks since it was heard.
     pub silence: u32,
-    /// It is sent what it lacks.
-    pub is_behind: bool,
+    /// It alone was last sent entries up to here, in this round.
+    pub fed_through: u64,
+    pub fed: u64,
+}
+
+impl Leading {
+    pub fn follower(&mut self, life: Life) -> Option<&mut Follower> {
+        let follower = self.followers.get_mut(&life.robot);
+        follower.filter(|follower| follower.life == life)
+    }
+}
+
+impl Follower {
+    pub fn new(life: Life) -> Follower {
+        Follower {
+            life,
+            round: 0,
+            call: 0,
+            matched: 0,
+            applied: 0,
+            silence: 0,
+            fed_through: 0,
+            fed: 0,
+        }
+    }
+
+    /// Takes note of an answer, which is a sign of life if it has heard a round since this one.
+    pub fn take_note(&mut self, answer: &Answer, since: u64) {
+        if answer.round > since {
+            self.silence = 0;
+        }
+        self.round = self.round.max(answer.round);
+        self.call = self.call.max(answer.call);
+        self.matched = self.matched.max(answer.through);
+        self.applied = self.applied.max(answer.applied);
+    }
 }
 
 impl Member {
     /// Whether more may be put into the log before what is in it is decided.
     pub fn has_room(&self) -> bool {
-        let undecided = self.log.last().saturating_sub(self.commit);
-        undecided == 0 || undecided < MOST_LOG && self.log.bytes() < 2 * MOST_BYTES
+        self.commit >= self.log.last() || self.log.bytes() < 2 * MOST_BYTES
     }
 
+    /// Puts an entry into the log of a leader.
     pub fn put(&mut self, what: What) {
         let term = self.term;
-        self.log.push(Entry { term, what });
+        if let Role::Leading(leading) = &mut self.role {
+            leading.roll.advance(&what);
+            self.log.push(Entry { term, what });
+        }
     }
 
     /// What follows an entry, up to the size of a datagram, and the last that it holds.
@@ -62,8 +115,13 @@ impl Member {
             entries.push(entry.clone());
             end += 1;
         }
+        let round = match &self.role {
+            Role::Leading(leading) => leading.round,
+            _ => 0,
+        };
         let body = Body::Append {
             term: self.term,
+            round,
             previous,
             previous_term: self.log.term(previous).unwrap_or(0),
             entries,
@@ -80,62 +138,21 @@ impl Member {
         let Role::Leading(leading) = &self.role else {
             return 0;
         };
+        if self.log.is_long() {
+            // An eighth at a time.
+            let length = self.log.last() - self.log.base();
+            return self.applied.min(self.log.base() + 1 + length / 8);
+        }
         let is_heard = |voter: &Life| {
             leading.followers.contains_key(&voter.robot) || Some(*voter) == self.leader
         };
-        if leading.age < LONGEST_ABSENCE
-            && !self.log.is_long()
-            && !self.log.voters().iter().all(is_heard)
-        {
+        if leading.age < LONGEST_ABSENCE && !self.log.voters().iter().all(is_heard) {
             return self.log.base();
         }
         let followers = leading.followers.values();
         let near = followers.filter(|follower| follower.silence < LONGEST_ABSENCE);
         let slowest = near.map(|follower| follower.applied).min().unwrap_or(0);
-        match self.log.is_long() {
-            true => self.applied.min(self.log.base() + MOST_LOG / 4),
-            false => slowest.min(self.applied),
-        }
-    }
-
-    /// Lets those vote who have come, in place of their earlier lives.
-    pub fn admit(&mut self) {
-        let Role::Leading(leading) = &self.role else {
-            return;
-        };
-        if self.log.voters_since() > self.commit || leading.start > self.commit {
-            return;
-        }
-        let voters = self.log.voters();
-        let is_replaced = |voter: &&Life| {
-            let follower = leading.followers.get(&voter.robot);
-            follower.is_some_and(|follower| follower.life != **voter)
-        };
-        let votes = |life: &Life| voters.iter().any(|voter| voter.robot == life.robot);
-        let mut changed = voters.to_vec();
-        if let Some(replaced) = voters.iter().find(is_replaced) {
-            changed.retain(|voter| voter != replaced);
-        } else if let Some(new) = leading
-            .followers
-            .values()
-            .find(|f| f.silence <= 2 && f.matched >= self.commit && !votes(&f.life))
-        {
-            changed.push(new.life);
-            changed.sort_unstable();
-        } else {
-            return;
-        }
-        self.put(What::Voters(changed));
-    }
-}
-
-impl Entry {
-    /// About how long it is in a datagram, bytes.
-    pub fn size(&self) -> usize {
-        match &self.what {
-            What::Start => 4,
-            What::Voters(voters) => 4 + 8 * voters.len(),
-            What::Message { content, .. } => 16 + content.len(),
-        }
+        // Robots that were just let in may be about to ask for what came since.
+        slowest.min(leading.past[0].0)
     }
 }

@@ -1,39 +1,27 @@
 //! What a member takes from its leader, and hands out.
 //!
-//! Invariant: what is decided is never dropped from the log before it is handed out, nor replaced; and
-//! messages are handed out in the order of generation and index, never going back.
+//! Invariant: what is decided is never dropped from the log before it is handed out, nor replaced; what this
+//! robot has acknowledged to a leader stays in its log as long as that one leads; and messages are handed out in
+//! the order of generation and index, never going back.
 
-use super::packet::{Body, Entry, Generation, Life, Sender, What};
+use super::early::Part;
+use super::life::Life;
+use super::packet::{Body, Entry, What};
 use super::{Gap, Member, Role, Total};
-use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use starl_core::event::messaging::LeaveReason;
 use starl_core::event::messaging::MessageNumber;
 use starl_core::event::{BroadcastEvent, TransferEvent};
-use starl_core::{Destination, Robot};
-
-/// The incarnations of a robot whose last message is remembered.
-const INCARNATIONS: usize = 4;
+use starl_core::{Destination, Payload, Robot};
 
 /// How a leader's log goes on.
 pub(super) struct Continuation {
     pub term: u32,
-    pub previous: u64,
-    pub previous_term: u32,
-    pub entries: Vec<Entry>,
+    pub round: u64,
+    pub part: Part,
     pub commit: u64,
     pub floor: u64,
     pub is_beat: bool,
-}
-
-/// Where a robot can go on.
-pub(super) struct Place {
-    pub quorum: u32,
-    pub term: u32,
-    pub index: u64,
-    pub index_term: u32,
-    pub voters: Vec<Life>,
-    pub senders: Vec<(Sender, u32)>,
 }
 
 impl Total {
@@ -46,129 +34,87 @@ impl Total {
         if next.term > latest || next.term == member.term && member.is_leading() {
             return;
         }
+        let to = Destination::Robot(from.robot);
         if next.term < member.term {
             // The leader has to hear of the later term, or it would never lead this robot again.
-            let answer = member.lacking();
-            return self.say(robot, Destination::Robot(from.robot), answer);
+            let answer = member.taken(Vec::new());
+            return self.say(robot, to, answer);
         }
         let had_leader = member.leader == Some(from);
-        member.follow(from, next.term);
-        let has_news = !next.entries.is_empty() || next.is_beat;
-        let through = match member.take(next.previous, next.previous_term, next.entries) {
-            Ok(Some(through)) => {
-                member.commit = member.commit.max(next.commit.min(through));
-                Some(through)
-            }
-            Ok(None) => None,
+        // What comes late is no sign that the leader lives.
+        if next.term > member.term || next.round > member.round {
+            member.follow(from, next.term);
+            member.round = next.round;
+        } else if !had_leader {
+            return;
+        }
+        let has_entries = !next.part.entries.is_empty();
+        let has_news = has_entries || next.is_beat;
+        let previous = next.part.previous;
+        if member.take(next.part).is_err() {
             // What is decided cannot differ: the state is corrupt.
-            Err(()) => return self.leave(robot, LeaveReason::Corrupt),
-        };
+            return self.leave(robot, LeaveReason::Corrupt);
+        }
+        member.commit = member.commit.max(next.commit.min(member.agreed));
         self.apply(robot);
         let Some(member) = &mut self.member else {
             return;
         };
         member.log.drop_through(next.floor.min(member.applied));
-        let answer = Body::Taken {
-            term: member.term,
-            through: through.unwrap_or(member.commit),
-            is_whole: through.is_some(),
-            applied: member.applied,
-        };
-        if has_news || through.is_none() {
-            self.say(robot, Destination::Robot(from.robot), answer);
+        let lacks = member.early.gaps(member.through(), previous);
+        let is_whole = lacks.is_empty();
+        let answer = member.taken(lacks);
+        if has_news || !is_whole {
+            self.say(robot, to, answer);
         }
         if !had_leader {
-            self.propose(robot);
+            self.propose_anew(robot);
+        } else if self.sent == 0 {
+            self.propose(robot); // it may vote by now
+        } else if has_entries && is_whole {
+            self.watch_proposed(robot);
         }
     }
 
-    /// The leader says where this robot can go on.
-    pub(super) fn go_on(
-        &mut self,
-        robot: &mut Robot<'_>,
-        from: Life,
-        generation: Generation,
-        place: Place,
-    ) {
-        let is_member = |member: &Member| member.generation == generation;
-        let fleet = robot.fleet().len();
-        let is_sound = !place.voters.is_empty()
-            && place.index_term <= place.term
-            && place.voters.len() <= fleet.max(place.quorum as usize) * 2
-            && place.senders.len() <= fleet.saturating_mul(INCARNATIONS + 1);
-        if !is_sound {
-            return;
-        }
-        let is_new = match &self.member {
-            None if self.may_join(generation) => true,
-            Some(member)
-                if is_member(member) && !member.is_leading() && place.term >= member.term =>
-            {
-                false
-            }
-            _ => return,
-        };
-        let mut member = Member::at(
-            generation,
-            place.quorum,
-            (place.index, place.index_term),
-            place.voters,
-        );
-        member.senders = place.senders.into_iter().collect();
-        if is_new {
-            self.join(robot, member);
-        } else if let Some(present) = &mut self.member
-            && place.index > present.applied
-        {
-            present.log = member.log;
-            present.senders = member.senders;
-            present.quorum = member.quorum;
-            present.commit = place.index;
-            present.applied = place.index;
-            self.miss(robot);
-        }
+    /// The leader wants a sign of life.
+    pub(super) fn called(&mut self, robot: &mut Robot<'_>, from: Life, (term, call): (u32, u64)) {
         let Some(member) = &mut self.member else {
             return;
         };
-        member.follow(from, place.term);
-        let answer = Body::Taken {
-            term: member.term,
-            through: member.commit,
-            is_whole: true,
-            applied: member.applied,
-        };
-        self.settle_proposed(robot);
-        self.say(robot, Destination::Robot(from.robot), answer);
-        self.propose(robot);
+        if term == member.term && member.leader == Some(from) {
+            member.call = member.call.max(call);
+            let answer = member.taken(Vec::new());
+            self.say(robot, Destination::Robot(from.robot), answer);
+        }
     }
 
     /// Hands out what is decided.
     pub(super) fn apply(&mut self, robot: &mut Robot<'_>) {
-        let me = (robot.id(), self.incarnation.of(robot));
+        let me = self.life(robot);
         let mut is_own = false;
         while let Some(member) = &mut self.member
             && member.applied < member.commit
             && let Some(entry) = member.log.get(member.applied + 1)
         {
-            let index = member.applied + 1;
-            member.applied = index;
+            member.applied += 1;
+            member.roll.advance(&entry.what);
             let What::Message {
-                sender,
+                from,
                 number,
                 content,
             } = &entry.what
             else {
                 continue;
             };
-            let (sender, number, content) = (*sender, *number, content.clone());
-            remember(&mut member.senders, sender, number);
-            let position = Some((member.generation, index));
+            let Some((sender, _)) = member.roll.of(*from) else {
+                continue; // only a fault makes such an entry
+            };
+            let (number, content) = (*number, content.clone());
+            is_own |= sender == me;
+            let position = Some((member.generation, member.applied));
             if self.position < position {
                 self.position = position;
                 self.hand_out(robot, sender, number, content);
-            }
-            if sender == me {
-                is_own = true;
             }
         }
         if is_own {
@@ -177,16 +123,11 @@ impl Total {
         }
     }
 
-    fn hand_out(
-        &mut self,
-        robot: &mut Robot<'_>,
-        (from, incarnation): Sender,
-        number: u32,
-        content: starl_core::Payload,
-    ) {
+    fn hand_out(&mut self, robot: &mut Robot<'_>, sender: Life, number: u32, content: Payload) {
+        let from = sender.robot;
         let message = MessageNumber {
             number,
-            incarnation,
+            incarnation: sender.incarnation(),
         };
         let deliver = TransferEvent::Deliver { from, message };
         robot.report(self.port, BroadcastEvent::from(deliver));
@@ -200,54 +141,45 @@ impl Total {
     }
 }
 
-/// Takes note of a sender's last message, and forgets those of its incarnations that spoke least.
-pub(super) fn remember(senders: &mut BTreeMap<Sender, u32>, sender: Sender, number: u32) {
-    senders.insert(sender, number);
-    let robot = sender.0;
-    let of_robot = |senders: &BTreeMap<Sender, u32>| -> Vec<(u32, u32)> {
-        let range = senders.range((robot, 0)..=(robot, u32::MAX));
-        range
-            .map(|(&(_, incarnation), &last)| (last, incarnation))
-            .collect()
-    };
-    let known = of_robot(senders);
-    if known.len() > INCARNATIONS {
-        let others = known.into_iter().filter(|known| known.1 != sender.1);
-        if let Some((_, least)) = others.min() {
-            senders.remove(&(robot, least));
-        }
-    }
-}
-
 impl Member {
     pub(super) fn is_leading(&self) -> bool {
         matches!(self.role, Role::Leading(_))
     }
 
-    /// That it could not take what it was sent.
-    fn lacking(&self) -> Body {
+    /// The log is that of its term's leader up to here.
+    pub(super) fn through(&self) -> u64 {
+        self.agreed.max(self.commit)
+    }
+
+    /// What it tells the leader.
+    pub(super) fn taken(&self, lacks: Vec<(u64, u64)>) -> Body {
         Body::Taken {
             term: self.term,
-            through: self.commit,
-            is_whole: false,
+            round: self.round,
+            through: self.through(),
+            lacks,
             applied: self.applied,
+            call: self.call,
         }
     }
 
-    /// Takes entries that come after one. Gives the last that is the leader's; none where something is
-    /// missing before.
-    fn take(
-        &mut self,
-        previous: u64,
-        previous_term: u32,
-        entries: Vec<Entry>,
-    ) -> Result<Option<u64>, ()> {
-        let mut index = previous;
-        let is_known = previous < self.commit && previous <= self.log.last();
-        if !is_known && self.log.term(previous) != Some(previous_term) {
-            return Ok(None);
+    /// Takes part of its leader's log, and what has waited for that.
+    fn take(&mut self, part: Part) -> Result<(), ()> {
+        let is_known = part.previous <= self.through().min(self.log.last());
+        match is_known || self.log.term(part.previous) == Some(part.previous_term) {
+            true => self.append(part)?,
+            false => self.early.hold(part),
         }
-        for entry in entries {
+        while let Some(part) = self.early.take(self.through().min(self.log.last())) {
+            self.append(part)?;
+        }
+        Ok(())
+    }
+
+    /// Takes entries, of which the one before is the leader's.
+    fn append(&mut self, part: Part) -> Result<(), ()> {
+        let mut index = part.previous;
+        for entry in part.entries {
             index += 1;
             if index <= self.log.base() {
                 continue;
@@ -260,6 +192,23 @@ impl Member {
             }
             self.log.push(entry);
         }
-        Ok(Some(index))
+        self.agreed = self.agreed.max(index);
+        Ok(())
+    }
+}
+
+impl Entry {
+    /// About how long it is in a datagram, bytes.
+    pub fn size(&self) -> usize {
+        match &self.what {
+            What::Start => 4,
+            What::Voters(voters) => 4 + 14 * voters.len(),
+            What::Message { content, .. } => 10 + content.len(),
+        }
+    }
+
+    /// About how much room it takes in memory, bytes.
+    pub fn room(&self) -> usize {
+        64 + self.size()
     }
 }

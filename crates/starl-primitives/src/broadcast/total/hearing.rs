@@ -1,8 +1,12 @@
 //! Who is to be told what has arrived.
 
+use super::early::Part;
 use super::election::Claim;
-use super::following::{Continuation, Place};
-use super::packet::{Body, Generation, Life, Said};
+use super::feeding::Answer;
+use super::following::Continuation;
+use super::life::Life;
+use super::packet::{Body, Generation, Question, Said};
+use super::snapshots::Place;
 use super::{FURTHEST, Total};
 use starl_core::event::messaging::LeaveReason;
 use starl_core::{Destination, Message, Robot};
@@ -23,15 +27,15 @@ impl Total {
             return;
         }
         self.arm(robot);
-        if let Some(generation) = generation {
-            if generation.counter > self.highest.saturating_add(FURTHEST) {
-                return;
-            }
-            self.highest = self.highest.max(generation.counter);
+        if let Some(generation) = generation
+            && !self.learn(generation)
+            && !self.is_invitation(robot, &body)
+        {
+            return;
         }
         let from = Life {
             robot: message.from,
-            number: life,
+            name: life,
         };
         match body {
             Body::Hello { bound_to, answer } => {
@@ -43,20 +47,24 @@ impl Total {
                 voters,
             } => self.founded(robot, generation, quorum, voters),
             Body::Snapshot {
+                to,
+                call,
                 quorum,
                 term,
                 index,
                 index_term,
-                voters,
-                senders,
+                base,
+                roll,
             } => {
                 let place = Place {
+                    to,
+                    call,
                     quorum,
                     term,
                     index,
                     index_term,
-                    voters,
-                    senders,
+                    base,
+                    roll,
                 };
                 if let Some(generation) = generation {
                     self.go_on(robot, from, generation, place);
@@ -72,6 +80,26 @@ impl Total {
         self.note_contact(robot);
     }
 
+    /// Takes note of the counter of a group, unless that is none that there could be.
+    pub(super) fn learn(&mut self, generation: Generation) -> bool {
+        let is_possible = generation.counter <= self.highest.saturating_add(FURTHEST);
+        if is_possible {
+            self.highest = self.highest.max(generation.counter);
+        }
+        is_possible
+    }
+
+    /// Whether this very life is invited to a group, whatever its counter: a robot that has just started
+    /// knows of none.
+    fn is_invitation(&mut self, robot: &mut Robot<'_>, body: &Body) -> bool {
+        let me = self.life(robot);
+        match body {
+            Body::Snapshot { to, .. } => *to == me.name,
+            Body::Found { voters, .. } => voters.contains(&me),
+            _ => false,
+        }
+    }
+
     /// A member of another group speaks to its members.
     fn overhear(
         &mut self,
@@ -82,7 +110,13 @@ impl Total {
     ) {
         let to = Destination::Robot(from.robot);
         match body {
-            Body::Ask { number, .. } => self.greet(robot, to, Some(*number)),
+            Body::Ask { number, .. } => {
+                let question = Question {
+                    asker: from.name,
+                    number: *number,
+                };
+                self.greet(robot, to, Some(question));
+            }
             Body::Append { .. } => {
                 let is_obsolete = self
                     .member
@@ -120,12 +154,13 @@ impl Total {
                 self.consider(robot, from, claim);
             }
             Body::Vote {
-                number,
+                question,
                 term,
                 is_granted,
-            } => self.answered(robot, from, (number, term, is_granted)),
+            } => self.answered(robot, from, question, (term, is_granted)),
             Body::Append {
                 term,
+                round,
                 previous,
                 previous_term,
                 entries,
@@ -133,11 +168,15 @@ impl Total {
                 floor,
                 is_beat,
             } => {
-                let next = Continuation {
-                    term,
+                let part = Part {
                     previous,
                     previous_term,
                     entries,
+                };
+                let next = Continuation {
+                    term,
+                    round,
+                    part,
                     commit,
                     floor,
                     is_beat,
@@ -146,23 +185,28 @@ impl Total {
             }
             Body::Taken {
                 term,
+                round,
                 through,
-                is_whole,
+                lacks,
                 applied,
+                call,
             } => {
-                let Some(member) = &mut self.member else {
-                    return;
+                let answer = Answer {
+                    term,
+                    round,
+                    through,
+                    lacks,
+                    applied,
+                    call,
                 };
-                if term == member.term {
-                    self.taken_by(robot, from, (through, is_whole, applied));
-                } else if term <= member.term.saturating_add(FURTHEST) {
-                    member.hear_of(term);
+                self.hear_answer(robot, from, answer);
+            }
+            Body::Call { to, term, call } => {
+                if to == self.life(robot).name {
+                    self.called(robot, from, (term, call));
                 }
             }
-            Body::Propose {
-                incarnation,
-                messages,
-            } => self.put_messages(robot, (from.robot, incarnation), messages),
+            Body::Propose { oldest, messages } => self.put_messages(robot, from, oldest, messages),
             Body::Hello { .. } | Body::Found { .. } | Body::Snapshot { .. } => {}
         }
     }

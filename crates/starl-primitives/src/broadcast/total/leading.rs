@@ -4,14 +4,14 @@
 //! before (Ongaro and Ousterhout 2014, section 5.4). Who votes is changed by one life at a time, and only
 //! when the last change is decided, so that any quorum before meets any quorum after it.
 
-use super::followers::{Follower, Leading};
-use super::following::remember;
-use super::packet::{Body, Entry, Life, Sender, What};
-use super::{Role, Total};
-use alloc::collections::BTreeMap;
+use super::followers::Leading;
+use super::life::Life;
+use super::packet::What;
+use super::{CHUNK, Role, Total};
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 use starl_core::event::BroadcastEvent;
-use starl_core::{Destination, Payload, Robot, RobotId};
+use starl_core::{Destination, Payload, Robot};
 
 /// A leader that has not heard of a quorum for this many ticks leads no more.
 const LONGEST_SILENCE: u32 = 8;
@@ -23,14 +23,10 @@ impl Total {
         let Some(member) = &mut self.member else {
             return;
         };
-        let mut senders = member.senders.clone();
+        let mut roll = member.roll.clone();
         for index in member.applied + 1..=member.log.last() {
-            if let Some(Entry {
-                what: What::Message { sender, number, .. },
-                ..
-            }) = member.log.get(index)
-            {
-                senders.insert(*sender, *number);
+            if let Some(entry) = member.log.get(index) {
+                roll.advance(&entry.what);
             }
         }
         member.leader = Some(life);
@@ -42,21 +38,25 @@ impl Total {
             start: last + 1,
             sent: last,
             told: member.commit,
+            past: [(member.log.base(), 0); 4],
+            round: 0,
+            calls: 0,
             followers: BTreeMap::new(),
-            senders,
+            roll,
         });
         member.put(What::Start);
         let term = member.term;
         robot.report(self.port, BroadcastEvent::Lead { term });
         self.replicate(robot, true);
-        self.propose(robot);
+        self.propose_anew(robot);
     }
 
-    /// Messages for the log.
+    /// A life has messages for the log, the oldest of which that still waits has this number.
     pub(super) fn put_messages(
         &mut self,
         robot: &mut Robot<'_>,
-        sender: Sender,
+        from: Life,
+        oldest: u32,
         messages: Vec<(u32, Payload)>,
     ) {
         let Some(member) = &mut self.member else {
@@ -64,15 +64,17 @@ impl Total {
         };
         for (number, content) in messages {
             let has_room = member.has_room();
-            let Role::Leading(leading) = &mut member.role else {
+            let Role::Leading(leading) = &member.role else {
                 return;
             };
-            let last = leading.senders.get(&sender).copied().unwrap_or(0);
-            // With so much undecided, it has to be proposed again.
-            if last < number && has_room {
-                remember(&mut leading.senders, sender, number);
+            let Some(last) = leading.roll.last(from) else {
+                return; // it does not vote yet, or no longer
+            };
+            // Where an earlier message is missing or there is no room, it has to be proposed again.
+            if number == oldest.max(last.saturating_add(1)) && has_room {
+                let from = from.robot;
                 member.put(What::Message {
-                    sender,
+                    from,
                     number,
                     content,
                 });
@@ -82,21 +84,25 @@ impl Total {
     }
 
     /// Sends all what is new in the log, unless the last that was sent is not decided: then it is sent with
-    /// what comes meanwhile. A beat is sent in any case.
+    /// what comes meanwhile, as soon as that fills a datagram. A beat is sent in any case.
     pub(super) fn replicate(&mut self, robot: &mut Robot<'_>, is_beat: bool) {
         self.decide(robot);
         let Some(member) = &mut self.member else {
             return;
         };
+        member.admit();
         let floor = member.floor();
         let Role::Leading(leading) = &mut member.role else {
             return;
         };
-        let may_send = is_beat || leading.sent <= member.commit;
+        let (sent, last) = (leading.sent, member.log.last());
+        let may_send =
+            is_beat || sent <= member.commit || member.log.size_between(sent, last) >= CHUNK;
         let has_news = leading.sent < member.log.last() && may_send;
         if !has_news && !is_beat && leading.told >= member.commit {
             return;
         }
+        leading.round += 1;
         let previous = leading.sent;
         leading.told = member.commit;
         if has_news {
@@ -142,71 +148,6 @@ impl Total {
         }
     }
 
-    /// A member has taken entries, or lacks some.
-    pub(super) fn taken_by(
-        &mut self,
-        robot: &mut Robot<'_>,
-        from: Life,
-        (through, is_whole, applied): (u64, bool, u64),
-    ) {
-        let Some(member) = &mut self.member else {
-            return;
-        };
-        let Role::Leading(leading) = &mut member.role else {
-            return;
-        };
-        if through > member.log.last() {
-            return; // no member has more than its leader
-        }
-        let new = Follower {
-            life: from,
-            matched: 0,
-            applied: 0,
-            silence: 0,
-            is_behind: false,
-        };
-        let follower = leading.followers.entry(from.robot).or_insert(new.clone());
-        if follower.life != from {
-            *follower = new;
-        }
-        follower.silence = 0;
-        if applied < follower.applied {
-            return; // it comes late
-        }
-        follower.applied = applied;
-        if is_whole {
-            follower.matched = follower.matched.max(through);
-        } else {
-            follower.is_behind = true;
-        }
-        let lacks = through < leading.sent && follower.is_behind;
-        follower.is_behind &= lacks;
-        let last = leading.sent;
-        if lacks && through < member.log.base() {
-            self.send_snapshot(robot, from.robot);
-        } else if lacks {
-            let floor = member.floor();
-            let (body, _) = member.append_after(through, last, floor, true);
-            self.say(robot, Destination::Robot(from.robot), body);
-        }
-        self.replicate(robot, false);
-    }
-
-    /// Sends a robot what it has to know to go on from here.
-    pub(super) fn send_snapshot(&self, robot: &mut Robot<'_>, to: RobotId) {
-        let Some(member) = &self.member else { return };
-        let index = member.applied;
-        let body = Body::Snapshot {
-            quorum: member.quorum,
-            term: member.term,
-            index,
-            index_term: member.log.term(index).unwrap_or(0),
-            voters: member.log.voters_at(index).to_vec(),
-            senders: member.senders.iter().map(|(&s, &n)| (s, n)).collect(),
-        };
-        self.say(robot, Destination::Robot(to), body);
-    }
-
     /// A leader's tick.
     pub(super) fn beat(&mut self, robot: &mut Robot<'_>) {
         let life = self.life(robot);
@@ -221,7 +162,7 @@ impl Total {
             follower.silence = follower.silence.saturating_add(1);
         }
         let near = leading.followers.values().filter(|f| f.silence <= 2);
-        let mut near: alloc::collections::BTreeSet<Life> = near.map(|f| f.life).collect();
+        let mut near: BTreeSet<Life> = near.map(|f| f.life).collect();
         near.insert(life);
         if member.is_quorum(&near) {
             member.silence = 0;
@@ -230,7 +171,12 @@ impl Total {
             member.leader = None;
             return;
         }
-        member.admit();
         self.replicate(robot, true);
+        if let Some(member) = &mut self.member
+            && let Role::Leading(leading) = &mut member.role
+        {
+            leading.past.rotate_left(1);
+            leading.past[3] = (member.commit, leading.round);
+        }
     }
 }

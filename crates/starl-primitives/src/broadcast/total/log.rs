@@ -3,8 +3,9 @@
 //! Invariant: `configurations` are those of the entries that are kept, in order, after the one in force
 //! before them; there is always one.
 
-use super::packet::{Entry, Life, What};
-use super::{MOST_BYTES, MOST_LOG};
+use super::MOST_BYTES;
+use super::life::Life;
+use super::packet::{Entry, What};
 use alloc::collections::VecDeque;
 use alloc::vec::Vec;
 
@@ -14,7 +15,7 @@ pub(super) struct Log {
     base: u64,
     base_term: u32,
     entries: VecDeque<Entry>,
-    /// About how long they are in all.
+    /// About how much room they take.
     bytes: usize,
     /// Who votes from which index on.
     configurations: VecDeque<(u64, Vec<Life>)>,
@@ -42,19 +43,25 @@ impl Log {
         self.base + self.entries.len() as u64
     }
 
-    /// About how long the entries are in all.
+    /// About how much room the entries take, bytes.
     pub fn bytes(&self) -> usize {
         self.bytes
     }
 
     /// Whether it is to be kept for nobody.
     pub fn is_long(&self) -> bool {
-        self.entries.len() as u64 >= MOST_LOG || self.bytes >= MOST_BYTES
+        self.bytes >= MOST_BYTES
     }
 
     pub fn get(&self, index: u64) -> Option<&Entry> {
         let place = index.checked_sub(self.base)?.checked_sub(1)?;
         self.entries.get(usize::try_from(place).ok()?)
+    }
+
+    /// About how long the entries after one up to another one are in datagrams, bytes.
+    pub fn size_between(&self, after: u64, last: u64) -> usize {
+        let entries = (after.max(self.base) + 1..=last).map_while(|index| self.get(index));
+        entries.map(Entry::size).sum()
     }
 
     /// The term of an entry, that of the last which was dropped included.
@@ -76,7 +83,7 @@ impl Log {
             let index = self.last() + 1;
             self.configurations.push_back((index, voters.clone()));
         }
-        self.bytes += entry.size();
+        self.bytes += entry.room();
         self.entries.push_back(entry);
     }
 
@@ -86,7 +93,7 @@ impl Log {
         while self.entries.len() as u64 > kept
             && let Some(entry) = self.entries.pop_back()
         {
-            self.bytes -= entry.size();
+            self.bytes -= entry.room();
         }
         while self.configurations.len() > 1
             && self.configurations.back().is_some_and(|(at, _)| *at > last)
@@ -102,7 +109,7 @@ impl Log {
         {
             self.base += 1;
             self.base_term = entry.term;
-            self.bytes -= entry.size();
+            self.bytes -= entry.room();
         }
         while self.configurations.len() > 1
             && let Some((at, _)) = self.configurations.get(1)

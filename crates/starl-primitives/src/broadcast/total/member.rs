@@ -1,10 +1,12 @@
 //! What a robot knows as a member of a group.
 
+use super::early::Early;
 use super::followers::Leading;
+use super::life::Life;
 use super::log::Log;
-use super::packet::{Generation, Life, Sender};
-use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::vec::Vec;
+use super::packet::Generation;
+use super::roll::Roll;
+use alloc::collections::BTreeSet;
 
 /// A member of a group.
 #[derive(Clone, Debug)]
@@ -21,10 +23,17 @@ pub(super) struct Member {
     pub commit: u64,
     /// Messages up to here have been handed out.
     pub applied: u64,
-    /// The number of each sender's last message up to there.
-    pub senders: BTreeMap<Sender, u32>,
+    /// Who may send up to there.
+    pub roll: Roll,
     /// Who leads in that term, as far as known.
     pub leader: Option<Life>,
+    /// The last of that leader's rounds and calls that it has heard.
+    pub round: u64,
+    pub call: u64,
+    /// The log is known to be that leader's up to here.
+    pub agreed: u64,
+    /// What of that leader's log came too early.
+    pub early: Early,
     /// Ticks since the leader was heard; of a leader, since it heard of a quorum.
     pub silence: u32,
     /// It asks to lead after so many.
@@ -54,8 +63,9 @@ impl Member {
         generation: Generation,
         quorum: u32,
         (index, term): (u64, u32),
-        voters: Vec<Life>,
+        roll: Roll,
     ) -> Member {
+        let voters = roll.rows().iter().map(|row| row.0).collect();
         Member {
             generation,
             quorum,
@@ -64,20 +74,18 @@ impl Member {
             log: Log::after(index, term, voters),
             commit: index,
             applied: index,
-            senders: BTreeMap::new(),
+            roll,
             leader: None,
+            round: 0,
+            call: 0,
+            agreed: 0,
+            early: Early::default(),
             silence: 0,
             patience: 0,
             role: Role::Following,
             is_active: false,
             gone: BTreeSet::new(),
         }
-    }
-
-    /// How many of the voters decide.
-    pub fn needed(&self) -> usize {
-        let majority = self.log.voters().len() / 2 + 1;
-        majority.max(self.quorum as usize)
     }
 
     /// Whether these are enough of the voters to decide.
@@ -88,7 +96,8 @@ impl Member {
 
     /// A robot has said, when asked, that it is this life. If another one of it votes, that one is gone.
     pub fn see(&mut self, life: Life, is_elsewhere: bool) {
-        for voters in [self.log.voters(), self.log.voters_at(self.commit)] {
+        let either = [self.log.voters(), self.log.voters_at(self.commit)];
+        for voters in either {
             let voter = voters.iter().find(|voter| voter.robot == life.robot);
             if let Some(&voter) = voter
                 && (voter != life || is_elsewhere)
@@ -96,13 +105,15 @@ impl Member {
                 self.gone.insert(voter);
             }
         }
+        let votes = |life: &Life| either.iter().any(|voters| voters.contains(life));
+        self.gone.retain(votes);
     }
 
     /// Whether so many voters are gone that the others will never be enough.
     pub fn is_dead(&self) -> bool {
         let is_dead = |voters: &[Life]| {
             let left = voters.iter().filter(|voter| !self.gone.contains(voter));
-            left.count() < (voters.len() / 2 + 1).max(self.quorum as usize)
+            left.count() < self.needed_of(voters.len())
         };
         // Who votes by an entry that is not decided may yet be who voted before.
         is_dead(self.log.voters()) && is_dead(self.log.voters_at(self.commit))
@@ -115,6 +126,7 @@ impl Member {
             && self.commit <= self.log.last()
             && self.log.last_term() <= self.term
             && !self.log.voters().is_empty()
+            && self.roll.is_of(self.log.voters_at(self.applied))
     }
 
     /// Takes note of a later term.
@@ -123,6 +135,8 @@ impl Member {
             self.term = term;
             self.vote = None;
             self.leader = None;
+            (self.round, self.call, self.agreed) = (0, 0, 0);
+            self.early = Early::default();
             self.role = Role::Following;
         }
     }

@@ -7,8 +7,9 @@
 //!
 //! Where ours differs: nothing is kept when a robot stops. A robot that starts again is another voter, which
 //! knows nothing; the leader lets it in with what it has to know, and takes its earlier life off the list of
-//! voters, one change at a time. So nobody votes twice or forgets what it acknowledged, which is what goes
-//! wrong where replicas come back under their old names (Michael et al. 2017). If so many stop at once that
+//! voters. So nobody votes twice or forgets what it acknowledged, which is what goes
+//! wrong where replicas come back under their old names (Michael et al. 2017). That list, an entry of the log
+//! itself, also says who may put messages into the log: see [`roll`]. If so many stop at once that
 //! those left can decide nothing more, the group is dead, which its members find out by asking: then
 //! a majority of the fleet founds the next group, with an empty log.
 //!
@@ -24,16 +25,22 @@
 //!
 //! A robot without a majority hands out nothing, and says so: [`Total::failed`].
 
+mod early;
 mod election;
+mod feeding;
 mod followers;
 mod following;
 mod founding;
 mod hearing;
 mod leading;
+mod life;
 mod log;
 mod member;
+mod membership;
 mod packet;
 mod proposing;
+mod roll;
+mod snapshots;
 
 use super::{Gap, Gaps};
 use crate::Failure;
@@ -43,20 +50,21 @@ use alloc::collections::VecDeque;
 use alloc::vec::Vec;
 use founding::Idle;
 use member::{Member, Role};
-use packet::{Body, Generation, Life, Said};
+use packet::{Body, Generation, Said};
 use proposing::Proposal;
 use starl_core::event::BroadcastEvent;
 use starl_core::event::messaging::LeaveReason;
-use starl_core::random::hash_key;
 use starl_core::{Destination, Duration, Input, Port, Random, Robot, TimerKey, timers};
 
-/// A log with this many entries or bytes is long: it is no longer kept for those who are away. Besides,
-/// it may hold as much that is not decided.
-const MOST_LOG: u64 = 512;
-const MOST_BYTES: usize = 1 << 18;
+/// A log that takes this many bytes is long: it is no longer kept for those who are away. Besides, it may
+/// hold as much that is not decided.
+const MOST_BYTES: usize = 1 << 21;
 
 /// Datagrams are not much longer than this, bytes, unless one message is.
 const CHUNK: usize = 1000;
+
+/// So many bytes are sent to one robot, or by one to the leader, before it has answered.
+const WINDOW: usize = 16 * CHUNK;
 
 /// A count this far ahead is none that robots could have come to.
 const FURTHEST: u32 = 1 << 20;
@@ -77,6 +85,8 @@ pub(super) struct Total {
     pub port: Port,
     options: Options,
     incarnation: Incarnation,
+    /// Names this start of the robot.
+    start: Option<u64>,
     /// Counts this robot's lives, beyond its starts.
     lives: u32,
     /// The greatest counter of a group that was heard of.
@@ -90,8 +100,13 @@ pub(super) struct Total {
     /// The number of this robot's last message.
     last: u32,
     proposals: VecDeque<Proposal>,
-    /// The last of those that were sent to the leader and wait for their places.
-    in_flight: Option<u32>,
+    /// The last of those that were sent to the present leader.
+    sent: u32,
+    /// Ticks since the first of those was sent, or one had its place; and after how many they are sent again.
+    waited: u32,
+    retry: u32,
+    /// Datagrams with entries that the leader has sent to all since then.
+    passed: u32,
     failures: VecDeque<Failure>,
     gaps: Gaps,
     /// Ticks without a leader.
@@ -111,6 +126,7 @@ impl Total {
             port,
             options,
             incarnation: Incarnation::default(),
+            start: None,
             lives: 0,
             highest: 0,
             member: None,
@@ -119,7 +135,10 @@ impl Total {
             position: None,
             last: 0,
             proposals: VecDeque::new(),
-            in_flight: None,
+            sent: 0,
+            waited: 0,
+            retry: 0,
+            passed: 0,
             failures: VecDeque::new(),
             gaps: Gaps::default(),
             silence: 0,
@@ -242,19 +261,9 @@ impl Total {
         self.ask_number = random.bits();
     }
 
-    /// This robot's life.
-    fn life(&mut self, robot: &mut Robot<'_>) -> Life {
-        let start = u64::from(self.incarnation.of(robot));
-        Life {
-            robot: robot.id(),
-            number: hash_key(start, &[u64::from(self.lives)]) as u32,
-        }
-    }
-
-    fn say(&self, robot: &mut Robot<'_>, to: Destination, body: Body) {
-        let start = u64::from(self.incarnation.known().unwrap_or(0));
+    fn say(&mut self, robot: &mut Robot<'_>, to: Destination, body: Body) {
         let said = Said {
-            life: hash_key(start, &[u64::from(self.lives)]) as u32,
+            life: self.life(robot).name,
             generation: self.member.as_ref().map(|member| member.generation),
             body,
         };

@@ -1,16 +1,9 @@
 //! What robots say to each other to agree on an order.
 
+use super::life::{Life, LifeName};
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 use starl_core::{Payload, RobotId};
-
-/// A robot from the moment at which it remembers nothing of the group to the next such moment: another
-/// one after each start, and whenever it gives a group up. It is a member of at most one group.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub(super) struct Life {
-    pub robot: RobotId,
-    pub number: u32,
-}
 
 /// Names a group, that is a log. Robots only go from lesser ones to greater ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -18,9 +11,6 @@ pub(super) struct Generation {
     pub counter: u32,
     pub founder: Life,
 }
-
-/// Names who numbers messages: a robot and its incarnation, as records have it.
-pub(super) type Sender = (RobotId, u32);
 
 /// An entry of the log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,11 +25,11 @@ pub(super) struct Entry {
 pub(super) enum What {
     /// A leader begins.
     Start,
-    /// From here on these vote.
+    /// From here on these vote, at most one life of each robot, in their order.
     Voters(Vec<Life>),
-    /// A message.
+    /// A message of this robot's life that votes here.
     Message {
-        sender: Sender,
+        from: RobotId,
         number: u32,
         content: Payload,
     },
@@ -49,10 +39,17 @@ pub(super) enum What {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Said {
     /// The sender's life.
-    pub life: u32,
+    pub life: LifeName,
     /// Its group.
     pub generation: Option<Generation>,
     pub body: Body,
+}
+
+/// Names one asking of one life: only what answers it is known to have been said after it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Question {
+    pub asker: LifeName,
+    pub number: u32,
 }
 
 /// What is said.
@@ -62,8 +59,8 @@ pub(super) enum Body {
     Hello {
         /// The greatest group in which it has taken or may have to take messages.
         bound_to: Option<Generation>,
-        /// The number of the [`Body::Ask`] that this answers, of a group that is not the sender's.
-        answer: Option<u32>,
+        /// The [`Body::Ask`] that this answers, of a group that is not the sender's.
+        answer: Option<Question>,
     },
     /// These lives, which are in no group, found one.
     Found {
@@ -86,7 +83,7 @@ pub(super) enum Body {
     },
     /// The answer to that.
     Vote {
-        number: u32,
+        question: Question,
         /// The term that the sender of this is in.
         term: u32,
         is_granted: bool,
@@ -94,6 +91,8 @@ pub(super) enum Body {
     /// The leader's log goes on like this.
     Append {
         term: u32,
+        /// Counts the rounds of this leader.
+        round: u64,
         /// The entry before these.
         previous: u64,
         previous_term: u32,
@@ -108,27 +107,38 @@ pub(super) enum Body {
     /// The answer to that.
     Taken {
         term: u32,
+        /// The last round of that term's leader that it has heard; 0 if it has heard none.
+        round: u64,
         /// The log is the leader's up to here.
         through: u64,
-        /// Whether it could take what it was sent; if not, it lacks what comes after `through`.
-        is_whole: bool,
+        /// After that it lacks these parts: what comes after the first, up to the second.
+        lacks: Vec<(u64, u64)>,
         /// It has handed out messages up to here.
         applied: u64,
+        /// The last call of that term's leader that it has heard; 0 if it has heard none.
+        call: u64,
     },
-    /// What a robot has to know to go on from some place in the log.
+    /// The leader wants a sign of life, which is a [`Body::Taken`] with this call.
+    Call { to: LifeName, term: u32, call: u64 },
+    /// What a life has to know to go on from some place in the log.
     Snapshot {
+        to: LifeName,
+        /// A call as well.
+        call: u64,
         quorum: u32,
         term: u32,
         /// The place: all up to here is decided.
         index: u64,
         index_term: u32,
-        voters: Vec<Life>,
-        /// The last message of each sender.
-        senders: Vec<(Sender, u32)>,
+        /// The leader has no entries up to here to send.
+        base: u64,
+        /// The voters, and the last message of each.
+        roll: Vec<(Life, u32)>,
     },
-    /// Messages to be put into the log, the oldest on its way first.
+    /// Messages to be put into the log, in the order of their numbers.
     Propose {
-        incarnation: u32,
+        /// The number of the oldest message that still waits for its place.
+        oldest: u32,
         messages: Vec<(u32, Payload)>,
     },
 }
