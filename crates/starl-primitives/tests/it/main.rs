@@ -33,6 +33,7 @@ mod mutex_newcomers_wait_their_turn;
 mod mutex_quorums;
 mod mutex_recovers_from_corruption;
 mod mutex_requests_keep_their_turn;
+mod mutex_under_contention;
 mod reach_avoid_flags;
 mod reach_avoid_follows_points;
 mod reach_avoid_plans_again;

@@ -15,6 +15,8 @@ pub(super) struct Entry {
     pub is_inquired: bool,
     /// Without a word from the robot the entry is dropped then.
     pub until: Time,
+    /// When it was heard of last, or asked whether it is still needed.
+    pub heard: Time,
     /// The number of what was granted.
     pub number: u64,
 }
@@ -27,6 +29,10 @@ pub(super) struct Terms {
     pub clock: u64,
     /// How long it keeps what it hears nothing of; none for ever.
     pub lease: Option<Duration>,
+    /// After so long a silence it asks whether what was granted is still needed.
+    pub patience: Duration,
+    /// The same for what is waited for.
+    pub patience_waiting: Duration,
     /// For whom it waits before it grants anything; none if it is ready.
     pub unready: Option<RobotId>,
 }
@@ -43,15 +49,25 @@ pub(super) fn is_later(number: u32, other: u32) -> bool {
 }
 
 impl Entry {
-    pub fn new(wish: Wish, until: Time) -> Entry {
+    pub fn new(wish: Wish, terms: Terms) -> Entry {
         Entry {
             wish,
             is_granted: false,
             is_told: false,
             is_inquired: false,
-            until,
+            until: terms.until(),
+            heard: terms.now,
             number: 0,
         }
+    }
+
+    /// Whether it is to be asked again if it is still needed, by the time.
+    pub fn is_silent(&self, terms: Terms) -> bool {
+        let patience = match self.is_granted {
+            true => terms.patience,
+            false => terms.patience_waiting,
+        };
+        terms.now.since(self.heard) >= patience || self.heard > terms.now
     }
 
     /// Who goes first: the earlier request, by Lamport's clock.
