@@ -30,6 +30,7 @@ mod mutex_is_safe_and_live;
 mod mutex_leases;
 mod mutex_messages;
 mod mutex_newcomers_wait_their_turn;
+mod mutex_numbers_grow;
 mod mutex_quorums;
 mod mutex_recovers_from_corruption;
 mod mutex_requests_keep_their_turn;

@@ -59,7 +59,9 @@ impl Arbiter {
                     is_news = entry.wish.clock != wish.clock || entry.is_granted || wish.is_entered;
                     entry.until = terms.until();
                     entry.heard = terms.now;
-                    entry.is_told = false;
+                    if terms.lease.is_none() {
+                        entry.told = None;
+                    }
                     entry.wish.clock = wish.clock;
                     entry.wish.is_entered = wish.is_entered;
                     // An earlier one only makes the robot believe in the lease for less long.
@@ -205,7 +207,7 @@ impl Arbiter {
     /// Grants what can be granted, and tells all others how it stands.
     pub fn settle(&mut self, terms: Terms, post: &mut Post) {
         self.expire(terms);
-        for standing in standings(&self.entries) {
+        for standing in standings(&self.entries, terms.tells) {
             if let Some(behind) = terms.unready {
                 self.tell(standing.robot, behind, terms, post);
                 continue;
@@ -224,6 +226,13 @@ impl Arbiter {
                 }
             }
         }
+    }
+
+    /// Those who wait are to be told again for whom.
+    pub fn tell_again(&mut self) {
+        self.entries
+            .values_mut()
+            .for_each(|entry| entry.told = None);
     }
 
     /// Forgets those who no longer take part.
@@ -249,7 +258,6 @@ impl Arbiter {
         }
         for entry in self.entries.values_mut() {
             entry.is_granted = random.chance(0.5);
-            entry.is_told = random.chance(0.5);
             entry.is_inquired = random.chance(0.5);
             if random.chance(0.5) {
                 entry.wish.id.number = u64::from(random.bits());
@@ -299,7 +307,7 @@ impl Arbiter {
         }
         entry.is_granted = true;
         entry.is_inquired = false;
-        entry.is_told = false;
+        entry.told = None;
         entry.until = terms.until();
         let Wish {
             id, attempt, round, ..
@@ -314,12 +322,13 @@ impl Arbiter {
         post.send(robot, grant);
     }
 
-    /// Tells a robot whom it waits for, once for each time that it asks. With leases nobody needs to know: what a
-    /// robot does that dies comes to its end.
+    /// Tells a robot whom it waits for, once for each time that it asks. With leases nobody needs to know, as what a
+    /// robot has that dies comes to its end, but for an arbiter that cannot grant anything.
     fn tell(&mut self, robot: RobotId, behind: RobotId, terms: Terms, post: &mut Post) {
         let entry = self.entries.get_mut(&robot);
-        if let Some(entry) = entry.filter(|entry| !entry.is_told) {
-            entry.is_told = true;
+        let is_new = |entry: &&mut Entry| entry.told != Some(behind);
+        if let Some(entry) = entry.filter(is_new).filter(|_| terms.tells) {
+            entry.told = Some(behind);
             let Wish { id, attempt, .. } = entry.wish;
             let wait = Packet::Wait {
                 id,
@@ -327,9 +336,7 @@ impl Arbiter {
                 clock: terms.clock,
                 behind: Behind::Robot(behind),
             };
-            if terms.lease.is_none() {
-                post.send(robot, wait);
-            }
+            post.send(robot, wait);
         }
     }
 

@@ -9,8 +9,8 @@ use starl_core::{Duration, RobotId, Time};
 pub(super) struct Entry {
     pub wish: Wish,
     pub is_granted: bool,
-    /// It was told that it must wait.
-    pub is_told: bool,
+    /// For whom it was told last that it waits.
+    pub told: Option<RobotId>,
     /// It was asked to yield.
     pub is_inquired: bool,
     /// Without a word from the robot the entry is dropped then.
@@ -35,6 +35,8 @@ pub(super) struct Terms {
     pub patience_waiting: Duration,
     /// For whom it waits before it grants anything; none if it is ready.
     pub unready: Option<RobotId>,
+    /// Whether robots that wait are told for whom.
+    pub tells: bool,
 }
 
 impl Terms {
@@ -53,7 +55,7 @@ impl Entry {
         Entry {
             wish,
             is_granted: false,
-            is_told: false,
+            told: None,
             is_inquired: false,
             until: terms.until(),
             heard: terms.now,

@@ -215,7 +215,7 @@ impl Arbitration {
                 post.send(from, Packet::Release { id, left, number });
             }
             Packet::Recall { nonce, list } => {
-                self.answer(common, (from, robot.now()), nonce, list, post);
+                self.answer(common, robot, from, (nonce, list), post);
             }
             Packet::Recalled { list, .. } if list != self.list => {}
             Packet::Recalled {
@@ -223,9 +223,11 @@ impl Arbitration {
                 holds,
                 number,
                 remembers,
+                incarnation,
                 ..
             } => {
-                if self.recovery.hear(from, nonce, remembers) {
+                let forgot = (!remembers).then_some(incarnation);
+                if self.recovery.hear(from, nonce, forgot) {
                     self.arbiter.numbers.raise_floor(number);
                     if let Some(wish) = holds {
                         self.arbiter.reinstate(from, wish, terms);
@@ -280,6 +282,9 @@ impl Arbitration {
             patience: lease(common).map_or(common.options.timeout(0), |lease| lease / 5 * 2),
             patience_waiting: lease(common).unwrap_or(common.options.timeout(u32::MAX) * 2),
             unready: (!self.recovery.is_ready).then(silent),
+            tells: lease(common).is_none_or(|lease| {
+                !self.recovery.is_ready && self.recovery.is_late(robot.now(), lease)
+            }),
         }
     }
 

@@ -27,7 +27,7 @@ pub(super) enum Packet {
         /// The grant's number, greater than all before it that were for one of its resources.
         number: u64,
     },
-    /// To a robot: it has to wait. With leases only where the arbiter goes by another list.
+    /// To a robot: it has to wait. With leases only where the arbiter grants nothing.
     Wait {
         id: RequestId,
         attempt: u32,
@@ -62,6 +62,8 @@ pub(super) enum Packet {
         number: u64,
         /// Whether the sender remembers what it granted.
         remembers: bool,
+        /// In which of its lives.
+        incarnation: u32,
     },
 }
 

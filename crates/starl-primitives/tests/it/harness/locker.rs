@@ -247,7 +247,8 @@ pub fn entries(world: &World, crashes: &[(Time, u32)]) -> BTreeMap<u32, usize> {
                     "{robot} releases {resource} at {at:?}"
                 );
             }
-            MutexEvent::Acquire { .. } | MutexEvent::Withdraw { .. } => {}
+            MutexEvent::Acquire { .. } | MutexEvent::Withdraw { .. } | MutexEvent::Ready { .. } => {
+            }
         }
     }
     let counted = entries
@@ -278,6 +279,7 @@ pub fn numbers(world: &World) -> usize {
             | MutexEvent::Withdraw { resource }
             | MutexEvent::Release { resource }
             | MutexEvent::Expire { resource } => (resource, None),
+            MutexEvent::Ready { .. } => continue,
         };
         let holders = holders.entry(resource.to_string()).or_default();
         if let Some(number) = number {
