@@ -44,6 +44,7 @@ mod register_claims_lose_no_update;
 mod register_claims_survive_restarts;
 mod register_heals;
 mod register_is_linearizable;
+mod register_under_contention;
 mod registration_agrees;
 mod registration_corruption;
 mod registration_messages;

@@ -23,6 +23,9 @@ use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use starl_core::{Duration, Random, RobotId, Time};
 
+/// With this repetition, and those after it, robots that had forgotten too are asked whether they know more by now.
+const FORGETFUL_ASKED: u32 = 3;
+
 /// How far an arbiter is.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Recovery {
@@ -109,12 +112,14 @@ impl Recovery {
     /// Who is to be asked: who has not answered, and whose answer may be another one by now.
     pub fn to_ask(&self, others: &[RobotId]) -> Vec<RobotId> {
         let answer = |peer: &RobotId| self.begun.as_ref()?.answers.get(peer).copied();
-        let is_silence_over = self.begun.as_ref().is_some_and(|b| b.is_silence_over);
+        let begun = self.begun.as_ref();
+        let asks_again =
+            begun.is_some_and(|b| b.is_silence_over && b.repetitions >= FORGETFUL_ASKED);
         let others = others.iter().copied();
         others
             .filter(|peer| match answer(peer) {
                 None => true,
-                Some(forgot) => is_silence_over && forgot.is_some(),
+                Some(forgot) => asks_again && forgot.is_some(),
             })
             .collect()
     }
