@@ -21,10 +21,10 @@ const MARGIN: Duration = Duration::from_millis(1);
 
 /// The time to the next renewal where so much of a lease is left.
 fn renewal(left: Duration, belief: Duration) -> Duration {
-    let early = left.0.saturating_sub((belief / RENEWED).0);
+    let early = left - belief / RENEWED;
     let after = match early {
-        0 => (belief / RENEWALS).min(Duration(left.0.saturating_sub(MARGIN.0))),
-        early => Duration(early),
+        Duration::ZERO => (belief / RENEWALS).min(left - MARGIN),
+        early => early,
     };
     after.max(MARGIN)
 }

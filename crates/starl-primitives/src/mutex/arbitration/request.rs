@@ -116,30 +116,30 @@ impl Request {
         if self.sent.len() > ROUNDS {
             self.sent.pop_front();
         }
-        let all = matches!(enough, Enough::Majority(..));
-        let to_ask = self.asked.iter();
-        let to_ask = to_ask.filter(|(_, asked)| all || asked.granted.is_none());
-        if !all {
-            for (&arbiter, _) in to_ask {
+        if matches!(enough, Enough::All) {
+            let missing = self
+                .asked
+                .iter()
+                .filter(|(_, asked)| asked.granted.is_none());
+            for (&arbiter, _) in missing {
                 post.send(arbiter, Packet::Request(self.wish(arbiter, common)));
             }
             return;
         }
-        let mut wish = None;
-        let mut attempts = Vec::new();
-        for (&arbiter, asked) in to_ask.clone() {
-            wish = wish.or_else(|| Some(self.wish(arbiter, common)));
-            if asked.attempt != 0 {
-                attempts.push((arbiter, asked.attempt));
-            }
-        }
-        let Some(mut wish) = wish else {
+        let Some(first) = self.arbiters().next() else {
             return;
         };
-        wish.attempt = 0;
-        for (&arbiter, _) in to_ask {
-            let (wish, attempts) = (wish.clone(), attempts.clone());
-            post.send(arbiter, Packet::Repeat { wish, attempts });
+        // The same to all, so that it is one datagram.
+        let attempts = self
+            .asked
+            .iter()
+            .map(|(&arbiter, asked)| (arbiter, asked.attempt));
+        let repeat = Packet::Repeat {
+            wish: self.wish(first, common),
+            attempts: attempts.filter(|&(_, attempt)| attempt != 0).collect(),
+        };
+        for arbiter in self.arbiters() {
+            post.send(arbiter, repeat.clone());
         }
     }
 
