@@ -283,7 +283,7 @@ impl Arbitration {
             patience_waiting: lease(common).unwrap_or(common.options.timeout(u32::MAX) * 2),
             unready: (!self.recovery.is_ready).then(silent),
             tells: lease(common).is_none_or(|lease| {
-                !self.recovery.is_ready && self.recovery.is_late(robot.now(), lease)
+                !self.recovery.is_ready && self.recovery.has_asked_for(lease * 4, robot.now())
             }),
         }
     }

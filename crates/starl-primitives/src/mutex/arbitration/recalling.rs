@@ -102,9 +102,13 @@ impl Arbitration {
             return false;
         }
         let others = common.others(robot);
-        let asks_anew = lease(common)
-            .is_some_and(|lease| self.recovery.ends_stage(robot.now(), &others, lease));
-        let outlook = self.recovery.outlook(robot.now(), &others, lease(common));
+        let (now, lease) = (robot.now(), lease(common));
+        let mut outlook = self.recovery.outlook(now, &others, lease);
+        let asks_anew = outlook == Outlook::Unready
+            && lease.is_some_and(|lease| self.recovery.ends_stage(now, &others, lease));
+        if asks_anew {
+            outlook = self.recovery.outlook(now, &others, lease);
+        }
         let is_anew = outlook == Outlook::ReadyWithoutNumbers;
         if is_anew {
             self.arbiter.numbers.raise_floor(number_at(robot.now()));

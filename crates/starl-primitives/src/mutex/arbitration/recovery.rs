@@ -90,10 +90,10 @@ impl Recovery {
         self.begun.as_mut().filter(|_| !is_ready)
     }
 
-    /// Whether it may have to wait for long: it has asked for two leases.
-    pub fn is_late(&self, now: Time, lease: Duration) -> bool {
+    /// Whether it has asked for so long.
+    pub fn has_asked_for(&self, span: Duration, now: Time) -> bool {
         let begun = self.begun.as_ref();
-        begun.is_some_and(|begun| now.since(begun.since) >= lease * 2)
+        begun.is_some_and(|begun| now.since(begun.since) >= span)
     }
 
     /// Who has not answered; none if all have.
@@ -186,7 +186,7 @@ impl Recovery {
         let remember = begun.answers.values().filter(|forgot| forgot.is_none());
         // It has forgotten too.
         let forgot = 1 + begun.forgetful().filter(|&(_, seen)| seen).count();
-        let is_late = self.is_late(now, lease);
+        let is_late = self.has_asked_for(lease * 2, now);
         if !begun.is_silence_over || begun.is_change && !all {
             Outlook::Unready
         } else if remember.count() > count - majority || begun.is_change && self.remembers {
