@@ -83,12 +83,12 @@ fn at_least(messages: impl Fn(f64) -> f64 + 'static) -> Box<dyn Fn(f64) -> Strin
 
 fn mutexes() -> Vec<Task> {
     use mutex::Algorithm::{Lease, Permission, Quorum};
-    // Request and permission; or request, grant and release. In a crowd those who have to wait are told, asked
+    // Request and permission; or request, grant and release. In a crowd those who wait for a quorum are told, asked
     // to yield, and yield.
     let each = |algorithm| match algorithm {
         Permission => ("2", 2.0, "1", 2.0),
         Quorum => ("2", 3.0, "2", 6.0),
-        Lease => ("2", 3.0, "2", 8.0),
+        Lease => ("2", 3.0, "2", 3.0),
     };
     let named = [
         (
