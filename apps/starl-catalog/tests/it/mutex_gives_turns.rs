@@ -155,8 +155,8 @@ fn leases_go_on_though_a_minority_stays_dead() {
     (0..40).into_par_iter().for_each(|seed| {
         let (first, second) = (3000 + 37 * seed, 5000 + 53 * seed);
         let faults = format!(
-            "[[fault]]\nat = \"{first}ms\"\nkind = \"crash\"\nrobots = [0]\n\
-             [[fault]]\nat = \"{second}ms\"\nkind = \"crash\"\nrobots = [1]\n"
+            "[[fault]]\nat = \"{first}ms\"\nkind = \"crash\"\nrobots = [\"robot0\"]\n\
+             [[fault]]\nat = \"{second}ms\"\nkind = \"crash\"\nrobots = [\"robot1\"]\n"
         );
         let case = Case {
             robots: Some("create=5"),

@@ -284,7 +284,7 @@ impl Arbiter {
             }
             behind = behind.or(Some(peer));
             if other.is_silent(terms) {
-                other.heard = terms.now;
+                other.was_asked(terms);
                 inquire(peer, other, is_later, post);
             }
         }

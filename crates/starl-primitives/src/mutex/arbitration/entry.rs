@@ -63,13 +63,21 @@ impl Entry {
         }
     }
 
-    /// Whether it is to be asked again if it is still needed, by the time.
+    /// Whether it is to be asked if it is still needed, by the time.
     pub fn is_silent(&self, terms: Terms) -> bool {
-        let patience = match self.is_granted {
+        terms.now.since(self.heard) >= self.patience(terms) || self.heard > terms.now
+    }
+
+    /// It was asked, and is asked again soon if it says nothing: the question or the answer may be lost.
+    pub fn was_asked(&mut self, terms: Terms) {
+        self.heard = terms.now - (self.patience(terms) - terms.patience);
+    }
+
+    fn patience(&self, terms: Terms) -> Duration {
+        match self.is_granted {
             true => terms.patience,
             false => terms.patience_waiting,
-        };
-        terms.now.since(self.heard) >= patience || self.heard > terms.now
+        }
     }
 
     /// Who goes first: the earlier request, by Lamport's clock.
