@@ -143,3 +143,27 @@ fn requests_that_were_given_back_unheard_block_nobody() {
     .run();
     assert_eq!(run.outcome(), Outcome::Reached, "{:?}", run.violations());
 }
+
+/// Two of five robots die while all want something all the time, and stay dead. What they held is free after its lease.
+#[test]
+fn leases_go_on_though_a_minority_stays_dead() {
+    let sets = [
+        "parameters.algorithm=lease",
+        "parameters.entries=60",
+        "parameters.longest_use=30",
+    ];
+    (0..40).into_par_iter().for_each(|seed| {
+        let (first, second) = (3000 + 37 * seed, 5000 + 53 * seed);
+        let faults = format!(
+            "[[fault]]\nat = \"{first}ms\"\nkind = \"crash\"\nrobots = [\"robot0\"]\n\
+             [[fault]]\nat = \"{second}ms\"\nkind = \"crash\"\nrobots = [\"robot1\"]\n"
+        );
+        let case = Case {
+            robots: Some("create=5"),
+            faults: &faults,
+            ..Case::new("mutex", &sets, seed)
+        };
+        let run = case.run();
+        assert_eq!(run.violations(), [], "seed {seed}");
+    });
+}

@@ -137,6 +137,15 @@ events! {
             /// Which.
             resource: Arc<str>,
         },
+        /// With quorums and leases: it knows what it has granted others before, and grants from now on.
+        Ready = "ready" {
+            /// How many robots take part.
+            participants: u32,
+            /// How many of them have to be ready for a request to be granted.
+            needed: u32,
+            /// With leases: nobody can know the last number, as a majority has forgotten it or there was none.
+            anew: bool,
+        },
     }
 }
 

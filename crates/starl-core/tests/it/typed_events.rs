@@ -245,6 +245,11 @@ fn events() -> Vec<PrimitiveEvent> {
         MutexEvent::Expire {
             resource: resource(),
         },
+        MutexEvent::Ready {
+            participants: 3,
+            needed: 2,
+            anew: true,
+        },
     ];
     events.extend(mutexes.map(PrimitiveEvent::from));
     let barriers = [

@@ -2,6 +2,7 @@
 
 use crate::harness::crosser::{Crosser, arrive, crosser};
 use crate::harness::elector::{ELECT, Elector, agreed, by};
+use crate::harness::keeper::{self, Keeper};
 use crate::harness::locker::{self, Locker, acquire, mutex, release};
 use crate::harness::registrar::{Registrar, agree, register, unregister};
 use crate::harness::{Wire, World};
@@ -27,6 +28,7 @@ pub struct Task {
 pub fn all() -> Vec<Task> {
     let mut all = Vec::new();
     all.extend(mutexes());
+    all.extend(registers());
     all.extend(elections());
     all.extend(registrations());
     all.push(crossing());
@@ -81,46 +83,71 @@ fn at_least(messages: impl Fn(f64) -> f64 + 'static) -> Box<dyn Fn(f64) -> Strin
 
 fn mutexes() -> Vec<Task> {
     use mutex::Algorithm::{Lease, Permission, Quorum};
-    // Request and permission; or request, grant and release. In a crowd those who have to wait are told, asked
+    // Request and permission; or request, grant and release. In a crowd those who wait for a quorum are told, asked
     // to yield, and yield.
     let each = |algorithm| match algorithm {
         Permission => ("2", 2.0, "1", 2.0),
         Quorum => ("2", 3.0, "2", 6.0),
-        Lease => ("2", 3.0, "2", 8.0),
+        Lease => ("2", 3.0, "2", 3.0),
     };
     let named = [
-        (Permission, "mutex, permission", "mutex, permission, crowd"),
-        (Quorum, "mutex, quorum", "mutex, quorum, crowd"),
-        (Lease, "mutex, lease", "mutex, lease, crowd"),
+        (
+            Permission,
+            [
+                "mutex, permission",
+                "mutex, permission, crowd",
+                "mutex, permission, kept",
+            ],
+        ),
+        (
+            Quorum,
+            [
+                "mutex, quorum",
+                "mutex, quorum, crowd",
+                "mutex, quorum, kept",
+            ],
+        ),
+        (
+            Lease,
+            ["mutex, lease", "mutex, lease, crowd", "mutex, lease, kept"],
+        ),
     ];
-    let tasks = named.into_iter().flat_map(|(algorithm, alone, crowd)| {
-        let (delays, messages, crowd_delays, crowd_messages) = each(algorithm);
-        let asked = move |robots: f64| locker::asked(algorithm, robots as usize);
-        let prepare = move |robots, seed, delay_ms| {
-            let mut world = fleet(robots, seed, delay_ms, Locker::bare(algorithm));
-            world.run_for(Duration::from_seconds(5));
-            turns(&mut world);
-            world
-        };
-        let task = |name, run: fn(&mut World) -> Duration, messages, delays| Task {
-            name,
-            port: "lock",
-            prepare: Box::new(prepare),
-            run: Box::new(run),
-            is_of_each: true,
-            messages,
-            delays,
-        };
-        [
-            task(alone, turns, exactly(move |n| messages * asked(n)), delays),
-            task(
-                crowd,
-                all_at_once,
-                at_most(move |n| crowd_messages * asked(n)),
-                crowd_delays,
-            ),
-        ]
-    });
+    let tasks = named
+        .into_iter()
+        .flat_map(|(algorithm, [alone, crowd, kept])| {
+            let (delays, messages, crowd_delays, crowd_messages) = each(algorithm);
+            let asked = move |robots: f64| locker::asked(algorithm, robots as usize);
+            let prepare = move |robots, seed, delay_ms| {
+                let mut world = fleet(robots, seed, delay_ms, Locker::bare(algorithm));
+                world.run_for(Duration::from_seconds(5));
+                turns(&mut world);
+                world
+            };
+            let task = |name, run: fn(&mut World) -> Duration, messages, delays| Task {
+                name,
+                port: "lock",
+                prepare: Box::new(prepare),
+                run: Box::new(run),
+                is_of_each: true,
+                messages,
+                delays,
+            };
+            [
+                task(alone, turns, exactly(move |n| messages * asked(n)), delays),
+                task(
+                    crowd,
+                    all_at_once,
+                    at_most(move |n| crowd_messages * asked(n)),
+                    crowd_delays,
+                ),
+                task(
+                    kept,
+                    all_for_a_while,
+                    Box::new(|_| "repetitions".into()),
+                    crowd_delays,
+                ),
+            ]
+        });
     tasks.collect()
 }
 
@@ -138,6 +165,15 @@ fn turns(world: &mut World) -> Duration {
 
 /// All robots ask at once, and give back what they get at once.
 fn all_at_once(world: &mut World) -> Duration {
+    one_after_the_other(world, Duration::ZERO)
+}
+
+/// All robots ask at once, and keep what they get for 150 ms.
+fn all_for_a_while(world: &mut World) -> Duration {
+    one_after_the_other(world, Duration::from_millis(150))
+}
+
+fn one_after_the_other(world: &mut World, kept: Duration) -> Duration {
     let robots = world.size();
     let begun = world.now;
     (0..robots).for_each(|robot| world.command(robot, acquire(&["a"])));
@@ -146,9 +182,50 @@ fn all_at_once(world: &mut World) -> Duration {
         let granted = run_until(world, |world| inside(world).is_some());
         granted.expect("everybody gets it");
         let robot = inside(world).expect("somebody has it");
+        world.run_for(kept);
         world.command(robot, release(&["a"]));
     }
     world.now.since(begun)
+}
+
+fn registers() -> Vec<Task> {
+    let task = |name, run: fn(&mut World), messages, delays| Task {
+        name,
+        port: "register",
+        prepare: Box::new(|robots, seed, delay_ms| {
+            let mut world = fleet(robots, seed, delay_ms, Keeper::boxed(false, None));
+            world.run_for(Duration::from_seconds(5));
+            world
+        }),
+        run: Box::new(move |world| {
+            let begun = world.now;
+            run(world);
+            world.now.since(begun)
+        }),
+        is_of_each: true,
+        messages,
+        delays,
+    };
+    let write_all = |world: &mut World| {
+        (0..world.size()).for_each(|robot| world.command(robot, keeper::write(robot as u32)));
+        keeper::until_done(world);
+    };
+    vec![
+        // Two questions to all and their answers, all robots at once; then gossip.
+        task(
+            "register, all write",
+            write_all,
+            exactly(|n| 4.0 * (n - 1.0)),
+            "4 for all",
+        ),
+        // The same for a claim and what writes it, if nobody is refused.
+        task(
+            "register, all claim and write",
+            keeper::all_count,
+            at_least(|n| 4.0 * (n - 1.0)),
+            ">= 4",
+        ),
+    ]
 }
 
 fn elections() -> Vec<Task> {

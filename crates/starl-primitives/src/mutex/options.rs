@@ -26,7 +26,7 @@ pub struct Options {
     /// The time between repetitions doubles up to this. Default 2 s.
     pub longest_timeout: Duration,
     /// For how long a majority grants something: [`Algorithm::Lease`] only, and the same on all robots.
-    /// What a robot held that fails is free after this time. It is renewed five times in it, so let it be
+    /// What a robot held that fails is free after this time. It is renewed when half of it is left, so let it be
     /// many times the network's delay. Default 2 s.
     pub lease: Duration,
     /// No robot's clock runs faster or slower than true time by more than this share: for

@@ -8,7 +8,7 @@ use super::packet::{Entry, QuestionId};
 use super::tag::Tag;
 use super::version::Version;
 use super::{Alarm, Register};
-use starl_core::{Robot, RobotId};
+use starl_core::{Duration, Robot, RobotId};
 
 /// What a participant says to a question.
 pub(super) enum Said {
@@ -191,19 +191,27 @@ impl Register {
         if !self.is_refused(robot, number) {
             return;
         }
-        let longest = match self.operations.get_mut(&number) {
+        match self.operations.get_mut(&number) {
             Some(operation) if matches!(operation.kind, Kind::Write(_)) => {
-                return self.finish(robot, number);
+                self.finish(robot, number);
             }
             Some(operation) if !operation.is_backing_off => {
                 operation.is_backing_off = true;
                 operation.rounds = operation.rounds.saturating_add(1);
-                self.options.timeout(operation.rounds)
+                self.wait_at_random(robot, number);
             }
-            _ => return,
-        };
-        let after = longest.seconds() * robot.random().between(0.0, 1.0);
-        let after = starl_core::Duration::from_seconds_f64(after);
+            _ => {}
+        }
+    }
+
+    /// Waits before the next claim: the longer the more often it was refused, as so many may want the same.
+    pub(super) fn wait_at_random(&mut self, robot: &mut Robot<'_>, number: u32) {
+        let rounds = self.operations.get(&number).map_or(0, |o| o.rounds);
+        let for_all = self.options.first_timeout * robot.fleet().len() as u64;
+        let longest = self.options.longest_timeout.max(for_all);
+        let after = (self.options.first_timeout * (1 << rounds.min(20))).min(longest);
+        let after = after.seconds() * robot.random().between(0.0, 1.0);
+        let after = Duration::from_seconds_f64(after);
         robot.set_timer(self.timer(Alarm::Operation(number)), after);
     }
 }

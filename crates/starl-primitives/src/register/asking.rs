@@ -59,13 +59,29 @@ impl Register {
     /// The time for answers is over.
     pub(super) fn ask_again(&mut self, robot: &mut Robot<'_>, number: u32) {
         if self.is_refused(robot, number) {
-            return self.claim_anew(robot, number);
+            return match self.lets_another_go_first(number) {
+                true => self.wait_at_random(robot, number),
+                false => self.claim_anew(robot, number),
+            };
         }
         // A corruption may have taken away answers, or brought such as nobody gave.
         self.answer_own(robot, number);
         self.advance(robot, number);
         self.ask(robot, number);
         self.judge(robot, number);
+    }
+
+    /// Whether another claim is under way, as far as this robot's own copy shows, for which it has not waited yet.
+    fn lets_another_go_first(&mut self, number: u32) -> bool {
+        let Some(operation) = self.operations.get_mut(&number) else {
+            return false;
+        };
+        let promised = self.replica.promised(&operation.register);
+        let stored = self.replica.get(&operation.register);
+        let is_under_way = promised > stored.map(|version| version.tag);
+        let lets_go = is_under_way && promised > operation.let_go;
+        operation.let_go = promised;
+        lets_go
     }
 
     /// Says so if no majority seems to answer.

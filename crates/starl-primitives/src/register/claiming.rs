@@ -121,7 +121,8 @@ impl Register {
         let stored = self.replica.get(register).map(|version| version.tag);
         let known = [promised, stored, self.last_ballot, operation.greatest];
         let greatest = known.into_iter().max().flatten();
-        let ballot = Tag::after(greatest, robot.id(), incarnation);
+        // Whoever was refused often goes before those who begin at the same time.
+        let ballot = Tag::after(greatest, robot.id(), incarnation).later_by(operation.rounds);
         self.last_ballot = Some(ballot);
         operation.claim(ballot);
         self.set_out(robot, OperationId(number));

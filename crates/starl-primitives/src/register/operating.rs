@@ -107,6 +107,7 @@ impl Register {
             repetitions: 0,
             rounds: 0,
             is_backing_off: false,
+            let_go: None,
             is_stuck: false,
         };
         self.operations.insert(id.0, operation);

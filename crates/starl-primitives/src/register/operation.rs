@@ -28,6 +28,8 @@ pub(super) struct Operation {
     pub rounds: u32,
     /// Whether it is refused and waits before it asks under a greater ballot.
     pub is_backing_off: bool,
+    /// The greatest ballot that was let go first.
+    pub let_go: Option<Tag>,
     /// Whether no majority seems to answer.
     pub is_stuck: bool,
 }

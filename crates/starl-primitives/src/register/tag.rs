@@ -37,6 +37,12 @@ impl Tag {
         self.count <= GREATEST
     }
 
+    /// One that is so much greater.
+    pub(super) fn later_by(mut self, counts: u32) -> Tag {
+        self.count = (self.count + u64::from(counts)).min(GREATEST);
+        self
+    }
+
     /// A greater one than those that were found, the greatest of which is given.
     pub(super) fn after(found: Option<Tag>, writer: RobotId, incarnation: u32) -> Tag {
         let found = found.map_or(0, |tag| tag.count);

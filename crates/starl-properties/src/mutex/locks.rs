@@ -1,5 +1,6 @@
 //! What is on record of one mutex: who holds what, and who waits for what.
 
+use super::arbiters::{Arbiters, Fleet};
 use super::waiting::Waiting;
 use super::{FENCING, SAFETY};
 use crate::{Excuse, Excused, Violation};
@@ -15,9 +16,12 @@ pub(super) struct Locks {
     holders: BTreeMap<Arc<str>, Vec<Holder>>,
     /// By resource: the number that it was held with last, and by whom.
     numbers: BTreeMap<Arc<str>, (u64, RobotId)>,
+    /// The same before a majority has forgotten it.
+    forgotten: BTreeMap<Arc<str>, (u64, RobotId)>,
     /// By resource: all numbers that it was held with while clocks need not keep their bound.
     used: BTreeMap<Arc<str>, BTreeMap<u64, RobotId>>,
     pub(super) waiting: BTreeMap<RobotId, Waiting>,
+    pub(super) arbiters: Arbiters,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -132,6 +136,10 @@ impl Locks {
         entry: Entry,
         excused: &mut Excused,
     ) -> Option<Violation> {
+        let forgotten = self.forgotten.remove(&resource);
+        if forgotten.is_some_and(|(last, _)| last >= number) {
+            excused.note(FENCING, Excuse::NoMajority);
+        }
         let before = if entry.is_exclusive {
             let last = self.numbers.insert(resource.clone(), (number, robot));
             last.filter(|&(last, _)| last >= number)
@@ -183,6 +191,14 @@ impl Locks {
             holder.is_doubtful = true;
         }
         self.numbers.clear();
+        self.forgotten.clear();
+        self.used.clear();
+    }
+
+    /// Nobody can know the numbers that were given.
+    pub fn forget_numbers(&mut self) {
+        let mut numbers = core::mem::take(&mut self.numbers);
+        self.forgotten.append(&mut numbers);
         self.used.clear();
     }
 
@@ -198,10 +214,10 @@ impl Locks {
         &mut self,
         now: Time,
         bound: Duration,
-        well_since: &dyn Fn() -> (Time, Excuse),
+        fleet: &Fleet<'_>,
         judged: (&mut Vec<Violation>, &mut Excused),
     ) -> Time {
-        self.look_at_requests(now, bound, well_since, judged)
+        self.look_at_requests(now, bound, fleet, judged)
     }
 
     /// A name that is kept once.

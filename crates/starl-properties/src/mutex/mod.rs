@@ -4,9 +4,13 @@
 //! when its robot crashes. With leases two robots may hold a resource where clocks break the bound that the
 //! leases count on; that is not judged then, and the numbers must tell the two apart even so.
 //!
+//! Where a majority of the arbiters of leases has forgotten all at once, nobody can know the last number. If they say
+//! so, numbers need be greater only than those since then.
+//!
 //! After a corruption of state anywhere, robots may believe that they hold what others hold until they have
 //! given it back: what is entered within the bound after it is not judged against others.
 
+mod arbiters;
 mod locks;
 mod waiting;
 
@@ -15,6 +19,7 @@ use super::parts::Parts;
 use super::pending::Pending;
 use super::report::Report;
 use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
+use arbiters::Fleet;
 use locks::{Entry, Locks};
 use starl_core::event::{Event, Fault, MutexEvent};
 use starl_core::{Duration, Port, Record, RobotId, Time};
@@ -37,6 +42,10 @@ pub(super) struct Mutex {
     locks: BTreeMap<Port, Locks>,
     /// What is entered until then may be held by others too, for the corruption of some state.
     doubtful_until: Time,
+    /// When a state was overwritten last; zero if none was.
+    corrupted_at: Time,
+    /// Whether a crash leaves robots what they have stored.
+    keeps_storage: bool,
     pending: Pending,
     /// When requests are looked at next.
     next_look: Time,
@@ -55,6 +64,8 @@ impl Mutex {
             parts: Parts::new(robots, bound),
             locks: BTreeMap::new(),
             doubtful_until: Time::ZERO,
+            corrupted_at: Time::ZERO,
+            keeps_storage: setting.keeps_storage,
             pending: Pending::new(setting),
             next_look: Time::ZERO,
             excused: Excused::default(),
@@ -69,6 +80,16 @@ impl Mutex {
             MutexEvent::Withdraw { resource } => locks.withdraw(robot, resource, at),
             MutexEvent::Release { resource } | MutexEvent::Expire { resource } => {
                 locks.release(robot, resource, at);
+            }
+            &MutexEvent::Ready {
+                participants,
+                needed,
+                anew,
+            } => {
+                let arbiters = &mut locks.arbiters;
+                if arbiters.ready(robot, at, participants, needed, anew) {
+                    locks.forget_numbers();
+                }
             }
             MutexEvent::Enter {
                 resource,
@@ -87,10 +108,13 @@ impl Mutex {
         self.look_after(at);
     }
 
-    /// A robot has forgotten what it held and asked for.
-    fn forget(&mut self, robot: RobotId, at: Time) {
+    /// A robot has forgotten what it held and asked for, and what it had granted unless that `is_kept`.
+    fn forget(&mut self, robot: RobotId, at: Time, is_kept: bool) {
         for locks in self.locks.values_mut() {
             locks.forget(robot, at);
+            if !is_kept {
+                locks.arbiters.forgot(robot);
+            }
         }
         self.look_after(at);
     }
@@ -100,6 +124,7 @@ impl Mutex {
         self.pending
             .retain(Excuse::Corruption, &mut self.excused, |_| false);
         self.doubtful_until = at + self.bound;
+        self.corrupted_at = at;
         for locks in self.locks.values_mut() {
             locks.doubt(robot, at);
         }
@@ -117,20 +142,15 @@ impl Mutex {
         if now <= self.next_look {
             return;
         }
-        let (health, parts, robots) = (&self.health, &self.parts, self.robots);
-        let well_since = || {
-            let all = || (0..robots).map(RobotId);
-            let together = all().map(|robot| parts.together_since(RobotId(0), robot));
-            let parted = together.max().map(|since| (since, Excuse::Partition));
-            let unwell = all().map(|robot| (health.well_from(robot), health.excuse(robot)));
-            unwell
-                .chain(parted)
-                .max()
-                .unwrap_or((Time::ZERO, Excuse::Recovery))
+        let fleet = Fleet {
+            robots: self.robots,
+            health: &self.health,
+            parts: &self.parts,
+            corrupted: self.corrupted_at,
         };
         let mut next = Time::NEVER;
         for locks in self.locks.values_mut() {
-            next = next.min(locks.look(now, self.bound, &well_since, (found, &mut self.excused)));
+            next = next.min(locks.look(now, self.bound, &fleet, (found, &mut self.excused)));
         }
         self.next_look = next;
     }
@@ -170,7 +190,10 @@ impl Checker for Mutex {
                 self.health.observe(record);
                 self.parts.observe(record);
                 match (record.robot, fault) {
-                    (Some(robot), Fault::Crash) => self.forget(robot, record.at),
+                    (Some(robot), Fault::Crash) => {
+                        self.forget(robot, record.at, self.keeps_storage);
+                    }
+                    (Some(robot), Fault::StorageLost) => self.forget(robot, record.at, false),
                     (Some(robot), Fault::CorruptState) => self.corrupted(robot, record.at),
                     _ => {}
                 }

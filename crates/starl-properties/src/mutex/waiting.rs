@@ -5,8 +5,9 @@
 //! bound; a request that nobody's overlaps with is to be granted itself (non-interference). And of those who
 //! wait for the same, nobody is to be granted it again and again while another waits.
 //!
-//! All robots have to be well and together meanwhile.
+//! Who has to be well and together meanwhile, the arbiters say: see [`super::arbiters`].
 
+use super::arbiters::Fleet;
 use super::locks::Locks;
 use super::{NON_INTERFERENCE, PROGRESS};
 use crate::{Excuse, Excused, Violation, robot_list};
@@ -80,14 +81,16 @@ impl Locks {
         &mut self,
         now: Time,
         bound: Duration,
-        well_since: &dyn Fn() -> (Time, Excuse),
+        fleet: &Fleet<'_>,
         (found, excused): (&mut Vec<Violation>, &mut Excused),
     ) -> Time {
         let mut next = Time::NEVER;
         if self.waiting.is_empty() {
             return next;
         }
-        let (well_since, excuse) = well_since();
+        let waiting = self.waiting.keys();
+        let well = waiting.map(|&robot| (robot, self.arbiters.well_since(robot, fleet)));
+        let well: BTreeMap<RobotId, (Time, Excuse)> = well.collect();
         let mut left: BTreeSet<RobotId> = self.waiting.keys().copied().collect();
         while let Some(first) = left.first().copied() {
             let resources = self.waiting[&first].resources.iter();
@@ -96,35 +99,35 @@ impl Locks {
             let is_held = reached.iter().any(|resource| self.is_held(resource));
             left.retain(|robot| !group.contains(robot));
             left.remove(&first);
-            self.look_for_overtaken(&group, well_since, found);
+            self.look_for_overtaken(&group, &well, found);
             if is_held {
                 continue;
             }
             let changes = group.iter().map(|robot| self.waiting[robot].changed);
-            // Who comes later does not excuse those who were there.
+            // Who comes later does not excuse those who were there, and who cannot go on none of those who can.
             let changed = changes.min().unwrap_or(now);
-            let latest = changed.max(well_since);
-            let due = if well_since == Time::NEVER {
-                now + bound
-            } else {
-                latest + bound
+            let since = |robot: &RobotId| self.waiting[robot].changed.max(well[robot].0);
+            let latest = group.iter().map(since).min().unwrap_or(now);
+            let due = match latest {
+                Time::NEVER => now + bound,
+                latest => latest + bound,
             };
             if due >= now {
                 next = next.min(due);
                 if changed + bound >= now {
                     next = next.min(changed + bound);
-                } else if let Some(first) = self.waiting.get_mut(&first)
-                    && first.excused.replace(changed) != Some(changed)
+                } else if let Some(waiting) = self.waiting.get_mut(&first)
+                    && waiting.excused.replace(changed) != Some(changed)
                 {
                     let property = match group.len() {
                         1 => NON_INTERFERENCE,
                         _ => PROGRESS,
                     };
-                    excused.note(property, excuse);
+                    excused.note(property, well[&first].1);
                 }
                 continue;
             }
-            let waits = |robot: &&RobotId| self.waiting[robot].changed + bound <= due;
+            let waits = |robot: &&RobotId| since(robot) <= latest;
             let late: Vec<RobotId> = group.iter().filter(waits).copied().collect();
             let is_reported = |robot: &RobotId| self.waiting[robot].is_reported;
             if late.is_empty() || late.iter().any(is_reported) {
@@ -158,14 +161,14 @@ impl Locks {
     fn look_for_overtaken(
         &mut self,
         group: &[RobotId],
-        well_since: Time,
+        well: &BTreeMap<RobotId, (Time, Excuse)>,
         found: &mut Vec<Violation>,
     ) {
         for &robot in group {
             let Some(waiting) = self.waiting.get_mut(&robot) else {
                 continue;
             };
-            if well_since > waiting.since {
+            if well[&robot].0 > waiting.since {
                 waiting.overtaken.clear();
                 waiting.starved = None;
             }

@@ -10,10 +10,12 @@ use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
 use search::{Content, Id, Search, Verdict};
 use starl_core::event::storing as event;
 use starl_core::event::{Event, Fault, RegisterEvent};
-use starl_core::{Port, Record, RobotId, Time};
+use starl_core::{Duration, Port, Record, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet};
 
 const LINEARIZABILITY: &str = "register.linearizability";
+/// Copies that were left from before have spread so long after a majority has come back.
+const SETTLED: Duration = Duration::from_seconds(35);
 
 /// Watches all registers.
 #[derive(Clone, Debug, Default)]
@@ -23,6 +25,9 @@ pub(super) struct Register {
     last: Id,
     /// Whether some state was corrupted, so that copies may hold what was never written.
     corrupted: bool,
+    /// Who is down, and whether the network is parted.
+    down: BTreeSet<RobotId>,
+    is_parted: bool,
     /// Whether a crash leaves robots what they have stored.
     keeps_storage: bool,
     excused: Excused,
@@ -34,11 +39,16 @@ struct Instance {
     registers: BTreeMap<String, Search>,
     /// What is under way: by robot and its number for it.
     operations: BTreeMap<(RobotId, u32), Operation>,
+    /// What will not end, but may still take effect on a register that is to be judged again.
+    loose: Vec<Operation>,
     /// Who has kept copies at some time, and who does now.
     members: BTreeSet<RobotId>,
     up: BTreeSet<RobotId>,
     /// Whether a majority has been down or recovering at once, having forgotten all, so that values may be lost.
     is_lost: bool,
+    /// After that: since when nothing has happened that may bring back what was lost; [`Time::NEVER`] while no
+    /// majority is up. [`SETTLED`] later it is judged again.
+    quiet_since: Time,
 }
 
 #[derive(Clone, Debug)]
@@ -46,6 +56,22 @@ struct Operation {
     id: Id,
     register: String,
     kind: Kind,
+    /// What it writes, and in the place of what.
+    value: i64,
+    found: Content,
+    begun: Time,
+    /// Whether another operation on the register was under way meanwhile.
+    is_crowded: bool,
+}
+
+impl Operation {
+    fn begin(&self, search: &mut Search) {
+        match self.kind {
+            Kind::Read => search.read_begins(self.id),
+            Kind::Write => search.write_begins(self.id, self.value),
+            Kind::Update => search.update_begins(self.id, self.found, self.value),
+        }
+    }
 }
 
 /// What an operation does.
@@ -58,14 +84,42 @@ enum Kind {
 }
 
 impl Instance {
-    fn search(&mut self, register: &str) -> &mut Search {
-        self.registers.entry(register.into()).or_default()
+    /// The history of a register; none as long as nobody can know what it holds.
+    fn search(&mut self, register: &str) -> Option<&mut Search> {
+        if !self.is_lost {
+            return Some(self.registers.entry(register.into()).or_default());
+        }
+        self.registers.get_mut(register)
     }
 
-    fn abandon(&mut self, operation: &Operation) {
-        if let Some(search) = self.registers.get_mut(&operation.register) {
-            search.is_abandoned(operation.id);
+    /// An operation will not end, but may still take effect.
+    fn abandon(&mut self, operation: Operation) {
+        match self.registers.get_mut(&operation.register) {
+            Some(search) => search.is_abandoned(operation.id),
+            None => self.loose.push(operation),
         }
+    }
+
+    /// An operation that has ended shows what its register holds, after a majority had forgotten it, if it was the
+    /// only one: from now on the register is judged again.
+    fn learn(&mut self, ended: &Operation, result: Content) {
+        let is_settled = ended.begun >= self.quiet_since + SETTLED;
+        if ended.is_crowded || !is_settled || self.quiet_since == Time::NEVER {
+            return;
+        }
+        let mut search = Search::holding(match ended.kind {
+            Kind::Read => result,
+            Kind::Write | Kind::Update => Content::Value(ended.value),
+        });
+        self.loose.retain(|operation| {
+            let is_of_it = operation.register == ended.register;
+            if is_of_it {
+                operation.begin(&mut search);
+                search.is_abandoned(operation.id);
+            }
+            !is_of_it
+        });
+        self.registers.insert(ended.register.clone(), search);
     }
 
     fn crashed(&mut self, robot: RobotId) {
@@ -73,19 +127,32 @@ impl Instance {
         let keys: Vec<(RobotId, u32)> = under_way.map(|(&key, _)| key).collect();
         for key in keys {
             if let Some(operation) = self.operations.remove(&key) {
-                self.abandon(&operation);
+                self.abandon(operation);
             }
         }
     }
 
-    /// A robot has lost its copies.
-    fn forgot(&mut self, robot: RobotId) {
+    /// A robot has lost its copies. Whether that made a majority, so that values may be lost.
+    fn forgot(&mut self, robot: RobotId) -> bool {
+        let had_majority = self.up.len() > self.members.len() / 2;
         self.up.remove(&robot);
-        if self.up.len() <= self.members.len() / 2 && self.members.contains(&robot) {
+        let has_majority = self.up.len() > self.members.len() / 2;
+        let loses = had_majority && !has_majority;
+        if loses {
             self.is_lost = true;
-            self.operations.clear();
             self.registers.clear();
         }
+        loses
+    }
+
+    /// Something has happened that may bring back what was lost, or a majority is there again.
+    fn stir(&mut self, at: Time, is_whole: bool) {
+        self.loose.clear();
+        let has_majority = self.up.len() > self.members.len() / 2;
+        self.quiet_since = match has_majority && is_whole {
+            true => at,
+            false => Time::NEVER,
+        };
     }
 
     /// An operation is under way no longer.
@@ -98,10 +165,14 @@ impl Instance {
         &mut self,
         report: &Report<'_, RegisterEvent>,
         operation: &event::Operation,
+        result: Option<Content>,
         end: impl FnOnce(&mut Search, &Operation),
     ) -> Option<Violation> {
         let operation = self.ends(report.robot, operation)?;
-        let search = self.search(&operation.register);
+        let Some(search) = self.search(&operation.register) else {
+            self.learn(&operation, result?);
+            return None;
+        };
         let before = search.verdict();
         end(search, &operation);
         let verdict = search.verdict();
@@ -125,19 +196,18 @@ impl Register {
     fn reported(&mut self, report: &Report<'_, RegisterEvent>, found: &mut Vec<Violation>) {
         let instance = self.instances.entry(report.port).or_default();
         if let RegisterEvent::Up { .. } = report.event {
-            return instance.is_up(report.robot);
+            instance.is_up(report.robot);
+            return self.stir(report.at);
         }
-        if instance.is_lost || self.corrupted {
+        if self.corrupted {
             return;
         }
         match report.event {
             RegisterEvent::Read { operation } => {
-                self.begins(report, operation, Kind::Read, Search::read_begins);
+                self.begins(report, operation, Kind::Read, (Content::Nothing, 0));
             }
             RegisterEvent::Write { operation, value } => {
-                self.begins(report, operation, Kind::Write, |search, id| {
-                    search.write_begins(id, *value);
-                });
+                self.begins(report, operation, Kind::Write, (Content::Nothing, *value));
             }
             RegisterEvent::Update {
                 operation,
@@ -145,18 +215,17 @@ impl Register {
                 value,
             } => {
                 let found = found.map_or(Content::Nothing, Content::Value);
-                self.begins(report, operation, Kind::Update, |search, id| {
-                    search.update_begins(id, found, *value);
-                });
+                self.begins(report, operation, Kind::Update, (found, *value));
             }
             RegisterEvent::Withdraw { operation } | RegisterEvent::Refused { operation, .. } => {
                 if let Some(operation) = instance.ends(report.robot, operation) {
-                    instance.abandon(&operation);
+                    instance.abandon(operation);
                 }
             }
             RegisterEvent::Done { operation, value } => {
-                found.extend(instance.judge(report, operation, |search, ending| {
-                    let content = value.map_or(Content::Nothing, Content::Value);
+                let content = value.map_or(Content::Nothing, Content::Value);
+                let result = Some(content);
+                found.extend(instance.judge(report, operation, result, |search, ending| {
                     match ending.kind {
                         Kind::Write | Kind::Update => search.write_ends(ending.id),
                         Kind::Read => search.read_ends(ending.id, content),
@@ -164,13 +233,23 @@ impl Register {
                 }));
             }
             RegisterEvent::Lost { operation, .. } => {
-                found.extend(instance.judge(report, operation, |search, ending| {
+                found.extend(instance.judge(report, operation, None, |search, ending| {
                     search.update_is_lost(ending.id);
                 }));
             }
             RegisterEvent::Up { .. }
             | RegisterEvent::Claim { .. }
             | RegisterEvent::NoQuorum { .. } => {}
+        }
+    }
+
+    /// A robot is down; whether what it stores `is_kept`.
+    fn crashed(&mut self, robot: RobotId, is_kept: bool) {
+        for instance in self.instances.values_mut() {
+            instance.crashed(robot);
+            if !is_kept && instance.forgot(robot) {
+                self.excused.note(LINEARIZABILITY, Excuse::NoMajority);
+            }
         }
     }
 
@@ -183,19 +262,39 @@ impl Register {
             register,
         }: &event::Operation,
         kind: Kind,
-        begin: impl FnOnce(&mut Search, Id),
+        (found, value): (Content, i64),
     ) {
         self.last += 1;
         let instance = self.instances.entry(report.port).or_default();
-        begin(instance.search(register), self.last);
-        let begun = Operation {
+        let mut begun = Operation {
             id: self.last,
             register: register.to_string(),
             kind,
+            value,
+            found,
+            begun: report.at,
+            is_crowded: false,
         };
-        instance
-            .operations
-            .insert((report.robot, *operation), begun);
+        if let Some(search) = instance.search(register) {
+            begun.begin(search);
+        } else {
+            let others = instance.operations.values_mut();
+            for other in others.filter(|other| *other.register == **register) {
+                other.is_crowded = true;
+                begun.is_crowded = true;
+            }
+        }
+        let key = (report.robot, *operation);
+        instance.operations.insert(key, begun);
+    }
+
+    /// Something has happened that may bring back what a majority has lost, or a majority is there again.
+    fn stir(&mut self, at: Time) {
+        // Storage may hold what the others have forgotten.
+        let is_whole = !self.is_parted && (!self.keeps_storage || self.down.is_empty());
+        for instance in self.instances.values_mut() {
+            instance.stir(at, is_whole);
+        }
     }
 }
 
@@ -253,28 +352,27 @@ impl Checker for Register {
                     self.reported(&report, violations);
                 }
             }
-            Event::Fault(fault) => match (record.robot, fault) {
-                (Some(robot), Fault::Crash | Fault::StorageLost) => {
-                    let keeps = self.keeps_storage && *fault == Fault::Crash;
-                    for instance in self.instances.values_mut() {
-                        let was_lost = instance.is_lost;
-                        instance.crashed(robot);
-                        if !keeps {
-                            instance.forgot(robot);
-                        }
-                        if instance.is_lost && !was_lost {
-                            self.excused.note(LINEARIZABILITY, Excuse::NoMajority);
-                        }
+            Event::Fault(fault) => {
+                match (record.robot, fault) {
+                    (Some(robot), Fault::Crash | Fault::StorageLost) => {
+                        self.down.insert(robot);
+                        self.crashed(robot, self.keeps_storage && *fault == Fault::Crash);
                     }
-                }
-                (_, Fault::CorruptState) => {
-                    if !self.instances.is_empty() {
-                        self.excused.note(LINEARIZABILITY, Excuse::Corruption);
+                    (Some(robot), Fault::Restart) => {
+                        self.down.remove(&robot);
                     }
-                    self.corrupted = true;
+                    (_, Fault::CorruptState) => {
+                        if !self.instances.is_empty() {
+                            self.excused.note(LINEARIZABILITY, Excuse::Corruption);
+                        }
+                        self.corrupted = true;
+                    }
+                    (None, Fault::Partition) => self.is_parted = true,
+                    (None, Fault::Heal) => self.is_parted = false,
+                    _ => return,
                 }
-                _ => {}
-            },
+                self.stir(record.at);
+            }
             _ => {}
         }
     }

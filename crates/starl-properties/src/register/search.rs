@@ -79,8 +79,15 @@ impl Configuration {
 impl Default for Search {
     /// A register that nobody has written.
     fn default() -> Search {
+        Search::holding(Content::Nothing)
+    }
+}
+
+impl Search {
+    /// A register that holds this.
+    pub fn holding(content: Content) -> Search {
         let first = Configuration {
-            content: Content::Nothing,
+            content,
             effective: BTreeSet::new(),
             possible: BTreeMap::new(),
         };
@@ -93,9 +100,7 @@ impl Default for Search {
             verdict: Verdict::Possible,
         }
     }
-}
 
-impl Search {
     /// What has become of it. Once it is not linearizable, or that cannot be said, it stays so.
     pub fn verdict(&self) -> Verdict {
         self.verdict

@@ -9,6 +9,7 @@ mod election_leaders;
 mod excuses;
 mod geocast_exclusion;
 mod geocast_inclusion;
+mod mutex_of_the_living;
 mod mutex_progress;
 mod mutex_safety;
 mod no_collision;

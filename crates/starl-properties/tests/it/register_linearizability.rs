@@ -165,3 +165,97 @@ fn it_can_be_switched_off() {
     story.setting.properties.register = false;
     assert_none(&story.verdict(5000));
 }
+
+/// A majority forgets all at 500 ms, and one of the two is up again at 2 s; then there are these operations.
+fn after_a_majority_forgot(operations: &[(u32, &'static str, u64, u64, i64)]) -> Story {
+    let mut story = story(operations);
+    operation(&mut story, 0, "write", "x", (300, Some(400)), 5);
+    for robot in 0..3 {
+        story.report(100, robot, ("register", "up"), [("life", Value::Int(1))]);
+    }
+    for robot in [0, 1] {
+        story.fault(500, Some(robot), "crash");
+    }
+    story.fault(1000, Some(0), "restart");
+    story.report(2000, 0, ("register", "up"), [("life", Value::Int(2))]);
+    story
+}
+
+#[test]
+fn it_is_judged_again_when_a_majority_is_back_though_a_robot_stays_dead() {
+    // What a lost majority wrote may be there or not, and what it then turns out to be stays.
+    for found in [0, 5] {
+        let reads = [(2, "read", 40_000, 40_100, found)];
+        assert_none(&after_a_majority_forgot(&reads).verdict(60_000));
+        let wrong = [reads[0], (0, "read", 41_000, 41_100, 5 - found)];
+        assert_only(
+            &after_a_majority_forgot(&wrong).verdict(60_000),
+            "register.linearizability",
+            41_100,
+            &[0],
+        );
+    }
+    let lost = [
+        (2, "write", 40_000, 40_100, 7),
+        (0, "read", 41_000, 41_100, 5),
+    ];
+    assert_only(
+        &after_a_majority_forgot(&lost).verdict(60_000),
+        "register.linearizability",
+        41_100,
+        &[0],
+    );
+}
+
+#[test]
+fn it_is_not_judged_while_what_was_lost_may_come_back() {
+    let wrong = [
+        (2, "write", 40_000, 40_100, 7),
+        (0, "read", 41_000, 41_100, 5),
+    ];
+    let story = || after_a_majority_forgot(&wrong);
+    // So far nothing is excused.
+    assert_eq!(story().verdict(60_000).len(), 1);
+    // No majority, one that came back shortly before, and a network in parts.
+    assert_none(&story().fault(30_000, Some(2), "crash").verdict(60_000));
+    let mut late = story();
+    late.fault(10_000, Some(1), "restart");
+    late.report(11_000, 1, ("register", "up"), [("life", Value::Int(2))]);
+    assert_none(&late.verdict(60_000));
+    assert_none(&story().fault(3000, None, "partition").verdict(60_000));
+    // Early operations say nothing of what the register holds.
+    let early = [
+        (2, "write", 10_000, 10_100, 7),
+        (0, "read", 41_000, 41_100, 5),
+    ];
+    assert_none(&after_a_majority_forgot(&early).verdict(60_000));
+}
+
+#[test]
+fn operations_at_the_same_time_do_not_say_what_a_register_holds() {
+    let crowded = [
+        (2, "write", 40_000, 40_300, 7),
+        (0, "write", 40_100, 40_200, 8),
+        (2, "read", 41_000, 41_100, 8),
+        (0, "read", 42_000, 42_100, 8),
+    ];
+    assert_none(&after_a_majority_forgot(&crowded).verdict(60_000));
+    let mut wrong = crowded;
+    wrong[3].4 = 7;
+    assert_only(
+        &after_a_majority_forgot(&wrong).verdict(60_000),
+        "register.linearizability",
+        42_100,
+        &[0],
+    );
+    // One that was given up may take effect later.
+    let mut abandoned = after_a_majority_forgot(&[
+        (0, "write", 40_000, 0, 9),
+        (2, "write", 41_000, 41_100, 7),
+        (2, "read", 42_000, 42_100, 9),
+    ]);
+    let name = ("register", Value::Text("x".into()));
+    let fields = [("operation", Value::Int(40_000)), name];
+    abandoned.report(40_500, 0, ("register", "withdraw"), fields);
+    assert_none(&abandoned.verdict(60_000));
+}

@@ -84,7 +84,9 @@ impl Checker for Exclusion {
                 MutexEvent::Release { resource } | MutexEvent::Expire { resource } => {
                     self.0.remove(&**resource);
                 }
-                MutexEvent::Acquire { .. } | MutexEvent::Withdraw { .. } => {}
+                MutexEvent::Acquire { .. }
+                | MutexEvent::Withdraw { .. }
+                | MutexEvent::Ready { .. } => {}
             },
             _ => {}
         }

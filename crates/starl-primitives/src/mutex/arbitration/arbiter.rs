@@ -2,9 +2,13 @@
 //!
 //! Each robot asks for one set at a time, so there is one entry for each. An arbiter grants a request that
 //! overlaps neither with one that it has granted nor with an earlier one that waits; where an earlier one
-//! waits for a later one it asks that one to yield (Maekawa 1985, with sets in place of the one resource).
-//! It tells whoever must wait that it must, also one whose turn it was until an earlier request came: that
-//! was missing in the original and could deadlock (Sanders 1987).
+//! waits for a later one it asks that one to yield (Maekawa 1985, with sets in place of the one resource), which
+//! it does at once unless it has entered. So the earliest of those who wait for each other is never kept waiting by
+//! one that has not entered, and there is no deadlock (which Maekawa's original has: Sanders 1987).
+//!
+//! Nothing is sent to those who wait, except where somebody has to be told that it waits in vain: a crowd of n
+//! that asks again and again would bring about n answers each time. Only what was granted and of which nothing was
+//! heard for a while is asked about.
 //!
 //! Invariant: the requests that are granted are disjoint.
 
@@ -17,7 +21,6 @@ use super::packet::{Behind, Packet, Wish};
 use super::saving::Kept;
 use super::standing::standings;
 use alloc::collections::BTreeMap;
-use alloc::vec::Vec;
 use starl_core::{Random, RobotId};
 
 /// The state of an arbiter.
@@ -32,6 +35,7 @@ pub(super) struct Arbiter {
 impl Arbiter {
     /// A robot asks, asks again, or asks to keep what it has.
     pub fn request(&mut self, from: RobotId, wish: Wish, terms: Terms, post: &mut Post) {
+        let before = self.entries.len();
         self.expire(terms);
         let id = wish.id;
         let last = self.finished.get(&from).copied();
@@ -41,8 +45,7 @@ impl Arbiter {
                 return post.send(from, Packet::Outdated { id });
             }
         }
-        let until = terms.until();
-        let mut is_repeated = false;
+        let (mut is_repeated, mut is_news) = (false, true);
         match self.entries.get_mut(&from) {
             Some(entry) if entry.wish.id == id => {
                 if is_later(entry.wish.attempt, wish.attempt) {
@@ -50,12 +53,17 @@ impl Arbiter {
                     return inquire(from, entry, false, post);
                 }
                 if wish.attempt != entry.wish.attempt {
-                    *entry = Entry::new(wish, until);
+                    *entry = Entry::new(wish, terms);
                 } else {
                     is_repeated = true;
-                    entry.until = until;
-                    entry.is_told = false;
+                    is_news = entry.wish.clock != wish.clock || entry.is_granted || wish.is_entered;
+                    entry.until = terms.until();
+                    entry.heard = terms.now;
+                    if terms.lease.is_none() {
+                        entry.told = None;
+                    }
                     entry.wish.clock = wish.clock;
+                    entry.wish.is_entered = wish.is_entered;
                     // An earlier one only makes the robot believe in the lease for less long.
                     entry.wish.round = wish.round;
                     entry.wish.number = entry.wish.number.max(wish.number);
@@ -63,6 +71,7 @@ impl Arbiter {
                         // It may have given back some of it.
                         entry.wish.resources.retain(|r| wish.resources.contains(r));
                     } else {
+                        is_news |= entry.wish.resources != wish.resources;
                         entry.wish.resources = wish.resources;
                     }
                 }
@@ -72,15 +81,20 @@ impl Arbiter {
                 return inquire(from, entry, false, post);
             }
             _ => {
-                self.entries.insert(from, Entry::new(wish, until));
+                self.entries.insert(from, Entry::new(wish, terms));
             }
+        }
+        if let Some(entry) = self.entries.get(&from).filter(|e| e.wish.is_entered) {
+            let held = entry.wish.resources.clone();
+            self.end_those_before(from, &held, entry.wish.number, terms);
         }
         if is_repeated && self.entries.get(&from).is_some_and(|e| e.is_granted) {
             self.grant(from, terms, post);
         }
-        self.settle(terms, post);
-        if is_repeated {
-            self.ask_those_in_the_way(from, terms, post);
+        let is_blocked = is_repeated && self.ask_those_in_the_way(from, terms, post);
+        // Most of what a crowd says is only that it still waits.
+        if is_news || !is_blocked || self.entries.len() < before || terms.lease.is_none() {
+            self.settle(terms, post);
         }
     }
 
@@ -89,13 +103,17 @@ impl Arbiter {
         &mut self,
         from: RobotId,
         id: RequestId,
-        left: &Resources,
+        (left, number): (&Resources, u64),
         terms: Terms,
         post: &mut Post,
     ) {
         let entry = self.entries.get_mut(&from);
         if let Some(entry) = entry.filter(|entry| entry.wish.id == id) {
+            let given_back = entry.wish.resources.clone();
             entry.wish.resources.retain(|r| left.contains(r));
+            if number > 0 {
+                self.end_those_before(from, &given_back, number, terms);
+            }
         }
         if left.is_empty() {
             self.entries
@@ -122,7 +140,7 @@ impl Arbiter {
         let entry = Entry {
             is_granted: true,
             number: wish.number,
-            ..Entry::new(wish, terms.until())
+            ..Entry::new(wish, terms)
         };
         self.entries.insert(from, entry);
     }
@@ -159,22 +177,43 @@ impl Arbiter {
             let entry = Entry {
                 is_granted: true,
                 number,
-                ..Entry::new(wish, terms.until())
+                ..Entry::new(wish, terms)
             };
             self.entries.insert(robot, entry);
         }
     }
 
+    /// A robot has come to hold something: whoever held any of it before, with a lower number, holds it no longer.
+    fn end_those_before(
+        &mut self,
+        from: RobotId,
+        resources: &Resources,
+        number: u64,
+        terms: Terms,
+    ) {
+        if terms.lease.is_none() {
+            return;
+        }
+        self.numbers.learn(resources, number);
+        self.entries.retain(|&peer, entry| {
+            let is_over = peer != from
+                && entry.is_granted
+                && entry.number < number
+                && !entry.wish.resources.is_disjoint(resources);
+            !is_over
+        });
+    }
+
     /// Grants what can be granted, and tells all others how it stands.
     pub fn settle(&mut self, terms: Terms, post: &mut Post) {
         self.expire(terms);
-        for standing in standings(&self.entries) {
+        for standing in standings(&self.entries, terms.tells) {
             if let Some(behind) = terms.unready {
-                self.tell(standing.robot, behind, true, terms, post);
+                self.tell(standing.robot, behind, terms, post);
                 continue;
             }
             if let Some(behind) = standing.behind {
-                self.tell(standing.robot, behind, true, terms, post);
+                self.tell(standing.robot, behind, terms, post);
             } else if standing.is_next {
                 self.grant(standing.robot, terms, post);
             }
@@ -187,6 +226,13 @@ impl Arbiter {
                 }
             }
         }
+    }
+
+    /// Those who wait are to be told again for whom.
+    pub fn tell_again(&mut self) {
+        self.entries
+            .values_mut()
+            .for_each(|entry| entry.told = None);
     }
 
     /// Forgets those who no longer take part.
@@ -212,7 +258,6 @@ impl Arbiter {
         }
         for entry in self.entries.values_mut() {
             entry.is_granted = random.chance(0.5);
-            entry.is_told = random.chance(0.5);
             entry.is_inquired = random.chance(0.5);
             if random.chance(0.5) {
                 entry.wish.id.number = u64::from(random.bits());
@@ -223,56 +268,30 @@ impl Arbiter {
         self.numbers.corrupt(random);
     }
 
-    /// Those that have to give way to a request or to be waited for: before it in line, and those that have
-    /// been granted what it wants though they come after it.
-    fn in_the_way(&self, robot: RobotId) -> (Vec<RobotId>, Vec<RobotId>) {
-        let Some(entry) = self.entries.get(&robot) else {
-            return Default::default();
+    /// A robot still waits: whoever is in its way and was not heard of for long is asked whether it still needs what
+    /// it has, and if it comes later to yield. Whether anybody is in its way.
+    fn ask_those_in_the_way(&mut self, robot: RobotId, terms: Terms, post: &mut Post) -> bool {
+        let Some(waiting) = self.entries.get(&robot).filter(|entry| !entry.is_granted) else {
+            return false;
         };
-        let rank = entry.rank(robot);
-        let overlapping = self.entries.iter().filter(|&(&peer, other)| {
-            peer != robot
-                && (other.is_granted || other.rank(peer) < rank)
-                && !other.wish.resources.is_disjoint(&entry.wish.resources)
-        });
-        overlapping
-            .map(|(&peer, other)| (peer, other.rank(peer) < rank))
-            .fold(
-                Default::default(),
-                |mut sides: (Vec<_>, Vec<_>), (peer, is_before)| {
-                    let side = if is_before {
-                        &mut sides.0
-                    } else {
-                        &mut sides.1
-                    };
-                    side.push(peer);
-                    sides
-                },
-            )
-    }
-
-    /// A request was repeated and still waits: what it waits for may be over without a word, also what waits itself
-    /// for what nobody else asks for.
-    fn ask_those_in_the_way(&mut self, robot: RobotId, terms: Terms, post: &mut Post) {
-        if self
-            .entries
-            .get(&robot)
-            .is_none_or(|entry| entry.is_granted)
-        {
-            return;
-        }
-        let (before, after) = self.in_the_way(robot);
-        if before.is_empty()
-            && let Some(&behind) = after.first()
-        {
-            self.tell(robot, behind, false, terms, post);
-        }
-        let both = before.into_iter().map(|peer| (peer, false));
-        for (peer, must_yield) in both.chain(after.into_iter().map(|peer| (peer, true))) {
-            if let Some(entry) = self.entries.get(&peer) {
-                inquire(peer, entry, must_yield, post);
+        let (rank, resources) = (waiting.rank(robot), waiting.wish.resources.clone());
+        let mut behind = None;
+        for (&peer, other) in &mut self.entries {
+            let is_later = other.rank(peer) > rank;
+            let is_in_the_way = peer != robot && (other.is_granted || !is_later);
+            if !is_in_the_way || other.wish.resources.is_disjoint(&resources) {
+                continue;
+            }
+            behind = behind.or(Some(peer));
+            if other.is_silent(terms) {
+                other.was_asked(terms);
+                inquire(peer, other, is_later, post);
             }
         }
+        if let Some(behind) = behind {
+            self.tell(robot, behind, terms, post);
+        }
+        behind.is_some()
     }
 
     fn grant(&mut self, robot: RobotId, terms: Terms, post: &mut Post) {
@@ -288,7 +307,7 @@ impl Arbiter {
         }
         entry.is_granted = true;
         entry.is_inquired = false;
-        entry.is_told = false;
+        entry.told = None;
         entry.until = terms.until();
         let Wish {
             id, attempt, round, ..
@@ -303,24 +322,19 @@ impl Arbiter {
         post.send(robot, grant);
     }
 
-    fn tell(
-        &mut self,
-        robot: RobotId,
-        behind: RobotId,
-        must_wait: bool,
-        terms: Terms,
-        post: &mut Post,
-    ) {
+    /// Tells a robot whom it waits for, once for each time that it asks. With leases nobody needs to know, as what a
+    /// robot has that dies comes to its end, but for an arbiter that cannot grant anything.
+    fn tell(&mut self, robot: RobotId, behind: RobotId, terms: Terms, post: &mut Post) {
         let entry = self.entries.get_mut(&robot);
-        if let Some(entry) = entry.filter(|entry| !entry.is_told) {
-            entry.is_told = must_wait;
+        let is_new = |entry: &&mut Entry| entry.told != Some(behind);
+        if let Some(entry) = entry.filter(is_new).filter(|_| terms.tells) {
+            entry.told = Some(behind);
             let Wish { id, attempt, .. } = entry.wish;
             let wait = Packet::Wait {
                 id,
                 attempt,
                 clock: terms.clock,
                 behind: Behind::Robot(behind),
-                must_wait,
             };
             post.send(robot, wait);
         }

@@ -4,19 +4,30 @@ use super::super::Resources;
 use super::super::common::{Alarm, Common};
 use super::super::quorum::quorum;
 use super::enough::Enough;
-use super::packet::Packet;
 use super::request::Request;
 use super::{Arbitration, Post, is_lease};
 use crate::incarnation::Incarnation;
 use alloc::collections::BTreeSet;
 use starl_core::{Duration, Robot};
 
-/// How many renewals fit into a lease, so that some may be lost.
-const RENEWALS: u64 = 5;
+/// A robot renews what it holds when less than one part in so many of a lease is left.
+const RENEWED: u64 = 2;
+/// Until the renewal has come it asks again after one part in so many of a lease.
+const RENEWALS: u64 = 8;
 /// How many repetitions of a request at least, so that what was granted late is known to be recent.
 const REPETITIONS: u64 = 3;
 /// A robot ceases to believe in a lease this long before its end: timers are no more precise.
 const MARGIN: Duration = Duration::from_millis(1);
+
+/// The time to the next renewal where so much of a lease is left.
+fn renewal(left: Duration, belief: Duration) -> Duration {
+    let early = left - belief / RENEWED;
+    let after = match early {
+        Duration::ZERO => (belief / RENEWALS).min(left - MARGIN),
+        early => early,
+    };
+    after.max(MARGIN)
+}
 
 impl Arbitration {
     /// A request that waits for robots that are suspected tries a quorum without them.
@@ -85,9 +96,11 @@ impl Arbitration {
                     common.held.clear();
                     return self.give_back(common, robot);
                 }
-                after = (belief / RENEWALS)
-                    .min(until.since(now + MARGIN))
-                    .max(MARGIN);
+                let left = until.since(now);
+                after = renewal(left, belief);
+                if left > belief / RENEWED {
+                    return robot.set_timer(common.timer(Alarm::Repeat), after);
+                }
             }
         } else if request.is_entered {
             return;
@@ -96,8 +109,8 @@ impl Arbitration {
             // It would have entered long since: these grants were made up by a fault.
             request.try_all_anew(common, &mut post);
         }
-        request.yield_if_it_must(request.repetitions > 0, common, &mut post);
         request.ask(now, enough, common, &mut post);
+        request.is_hopeful = false;
         request.repetitions = request.repetitions.saturating_add(1);
         robot.set_timer(common.timer(Alarm::Repeat), after);
         self.deliver(common, robot, post);
@@ -109,14 +122,13 @@ impl Arbitration {
         if let Some(request) = self.request.take() {
             robot.cancel_timer(common.timer(Alarm::Repeat));
             for arbiter in request.arbiters() {
-                let (id, left) = (request.id, Resources::new());
-                post.send(arbiter, Packet::Release { id, left });
+                post.send(arbiter, request.release(Resources::new()));
             }
         }
         self.deliver(common, robot, post);
     }
 
-    /// Enters if it may, and yields if it must.
+    /// Enters if it may.
     pub(super) fn go_on(&mut self, common: &mut Common, robot: &mut Robot<'_>, post: &mut Post) {
         let (now, enough) = (robot.now(), self.enough(common));
         let Some(request) = &mut self.request else {
@@ -126,7 +138,12 @@ impl Arbitration {
             return;
         }
         let Some((number, until)) = request.may_enter(now, enough, common, post) else {
-            return request.yield_if_it_must(false, common, post);
+            if request.is_hopeful && request.repetitions > 1 {
+                // Its turn has come, and what is missing may have been lost.
+                request.repetitions = 1;
+                robot.set_timer(common.timer(Alarm::Repeat), common.options.timeout(0));
+            }
+            return;
         };
         request.is_entered = true;
         request.number = number;
@@ -137,9 +154,7 @@ impl Arbitration {
                 common.report_entered(robot);
             }
             Enough::Majority(_, belief) => {
-                let after = (belief / RENEWALS)
-                    .min(until.since(now + MARGIN) / 2)
-                    .max(MARGIN);
+                let after = renewal(until.since(now), belief);
                 robot.set_timer(common.timer(Alarm::Repeat), after);
                 common.report_numbered(robot, number);
             }

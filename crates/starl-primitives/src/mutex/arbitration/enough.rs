@@ -79,9 +79,7 @@ impl Request {
             asked.granted.is_none()
                 && (is_suspected(arbiter)
                     || match &asked.behind {
-                        Some(Behind::Robot(robot)) => {
-                            matches!(enough, Enough::All) && is_suspected(robot)
-                        }
+                        Some(Behind::Robot(robot)) => is_suspected(robot),
                         Some(Behind::OtherList) => true,
                         None => false,
                     })

@@ -9,12 +9,14 @@ use starl_core::{Duration, RobotId, Time};
 pub(super) struct Entry {
     pub wish: Wish,
     pub is_granted: bool,
-    /// It was told that it must wait.
-    pub is_told: bool,
+    /// For whom it was told last that it waits.
+    pub told: Option<RobotId>,
     /// It was asked to yield.
     pub is_inquired: bool,
     /// Without a word from the robot the entry is dropped then.
     pub until: Time,
+    /// When it was heard of last, or asked whether it is still needed.
+    pub heard: Time,
     /// The number of what was granted.
     pub number: u64,
 }
@@ -27,8 +29,14 @@ pub(super) struct Terms {
     pub clock: u64,
     /// How long it keeps what it hears nothing of; none for ever.
     pub lease: Option<Duration>,
+    /// After so long a silence it asks whether what was granted is still needed.
+    pub patience: Duration,
+    /// The same for what is waited for.
+    pub patience_waiting: Duration,
     /// For whom it waits before it grants anything; none if it is ready.
     pub unready: Option<RobotId>,
+    /// Whether robots that wait are told for whom.
+    pub tells: bool,
 }
 
 impl Terms {
@@ -43,14 +51,32 @@ pub(super) fn is_later(number: u32, other: u32) -> bool {
 }
 
 impl Entry {
-    pub fn new(wish: Wish, until: Time) -> Entry {
+    pub fn new(wish: Wish, terms: Terms) -> Entry {
         Entry {
             wish,
             is_granted: false,
-            is_told: false,
+            told: None,
             is_inquired: false,
-            until,
+            until: terms.until(),
+            heard: terms.now,
             number: 0,
+        }
+    }
+
+    /// Whether it is to be asked if it is still needed, by the time.
+    pub fn is_silent(&self, terms: Terms) -> bool {
+        terms.now.since(self.heard) >= self.patience(terms) || self.heard > terms.now
+    }
+
+    /// It was asked, and is asked again soon if it says nothing: the question or the answer may be lost.
+    pub fn was_asked(&mut self, terms: Terms) {
+        self.heard = terms.now - (self.patience(terms) - terms.patience);
+    }
+
+    fn patience(&self, terms: Terms) -> Duration {
+        match self.is_granted {
+            true => terms.patience,
+            false => terms.patience_waiting,
         }
     }
 

@@ -88,8 +88,7 @@ impl Arbitration {
         let mut post = Post::default();
         if let Some(request) = &self.request {
             for arbiter in request.arbiters() {
-                let (id, left) = (request.id, common.held.clone());
-                post.send(arbiter, Packet::Release { id, left });
+                post.send(arbiter, request.release(common.held.clone()));
             }
         }
         self.deliver(common, robot, post);
@@ -187,13 +186,18 @@ impl Arbitration {
                 .is_some_and(|request| request.id == id)
         };
         match packet {
+            Packet::Repeat { mut wish, attempts } => {
+                let me = robot.id();
+                let mine = attempts.iter().find(|(arbiter, _)| *arbiter == me);
+                wish.attempt = mine.map_or(0, |&(_, attempt)| attempt);
+                self.take(common, robot, from, Packet::Request(wish), post);
+            }
             Packet::Request(wish) if wish.list != self.list => {
                 let wait = Packet::Wait {
                     id: wish.id,
                     attempt: wish.attempt,
                     clock: terms.clock,
                     behind: Behind::OtherList,
-                    must_wait: true,
                 };
                 post.send(from, wait);
             }
@@ -203,13 +207,15 @@ impl Arbitration {
                     self.arbiter.request(from, wish, terms, post);
                 }
             }
-            Packet::Release { id, left } => self.arbiter.release(from, id, &left, terms, post),
+            Packet::Release { id, left, number } => {
+                self.arbiter.release(from, id, (&left, number), terms, post);
+            }
             Packet::Inquire { id, .. } if !mine(id) => {
-                let left = Resources::new();
-                post.send(from, Packet::Release { id, left });
+                let (left, number) = (Resources::new(), 0);
+                post.send(from, Packet::Release { id, left, number });
             }
             Packet::Recall { nonce, list } => {
-                self.answer(common, (from, robot.now()), nonce, list, post);
+                self.answer(common, robot, from, (nonce, list), post);
             }
             Packet::Recalled { list, .. } if list != self.list => {}
             Packet::Recalled {
@@ -217,9 +223,11 @@ impl Arbitration {
                 holds,
                 number,
                 remembers,
+                incarnation,
                 ..
             } => {
-                if self.recovery.hear(from, nonce, remembers) {
+                let forgot = (!remembers).then_some(incarnation);
+                if self.recovery.hear(from, nonce, forgot) {
                     self.arbiter.numbers.raise_floor(number);
                     if let Some(wish) = holds {
                         self.arbiter.reinstate(from, wish, terms);
@@ -271,7 +279,12 @@ impl Arbitration {
             now: robot.now(),
             clock: common.clock(),
             lease: lease(common),
+            patience: lease(common).map_or(common.options.timeout(0), |lease| lease / 5 * 2),
+            patience_waiting: lease(common).unwrap_or(common.options.timeout(u32::MAX) * 2),
             unready: (!self.recovery.is_ready).then(silent),
+            tells: lease(common).is_none_or(|lease| {
+                !self.recovery.is_ready && self.recovery.has_asked_for(lease * 4, robot.now())
+            }),
         }
     }
 
@@ -308,11 +321,8 @@ fn hear(
             ..
         } => request.grant(from, attempt, round, number, enough),
         Packet::Wait {
-            attempt,
-            behind,
-            must_wait,
-            ..
-        } => request.wait(from, attempt, behind, must_wait),
+            attempt, behind, ..
+        } => request.wait(from, attempt, behind),
         Packet::Inquire {
             attempt,
             must_yield,

@@ -2,6 +2,7 @@
 
 use super::super::Resources;
 use super::super::common::RequestId;
+use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 use starl_core::RobotId;
 
@@ -10,6 +11,11 @@ use starl_core::RobotId;
 pub(super) enum Packet {
     /// To an arbiter: the sender wants these resources, or wants to keep them.
     Request(Wish),
+    /// To several arbiters: the same, with the attempts of those among them with which it is not the first.
+    Repeat {
+        wish: Wish,
+        attempts: Vec<(RobotId, u32)>,
+    },
     /// To a robot: as far as this arbiter is concerned, it may have what it asked for.
     Grant {
         id: RequestId,
@@ -21,24 +27,27 @@ pub(super) enum Packet {
         /// The grant's number, greater than all before it that were for one of its resources.
         number: u64,
     },
-    /// To a robot: it has to wait.
+    /// To a robot: it has to wait. With leases only where the arbiter grants nothing.
     Wait {
         id: RequestId,
         attempt: u32,
         clock: u64,
         behind: Behind,
-        /// Whether whoever is in the way goes before it; otherwise that one has been asked to yield.
-        must_wait: bool,
     },
-    /// To a robot that was granted something: does it still need it?
+    /// To a robot: does it still need what it asked for?
     Inquire {
         id: RequestId,
         attempt: u32,
-        /// Somebody who goes before it wants one of the resources.
+        /// Somebody who goes before it wants one of the resources: it is to yield unless it has entered.
         must_yield: bool,
     },
     /// To an arbiter: of what was granted only this is still needed.
-    Release { id: RequestId, left: Resources },
+    Release {
+        id: RequestId,
+        left: Resources,
+        /// The number of what was held; 0 if nothing was, and without leases.
+        number: u64,
+    },
     /// To a robot: its request counts as older than another that it has made.
     Outdated { id: RequestId },
     /// To all: an arbiter that remembers nothing asks what it had granted.
@@ -53,6 +62,8 @@ pub(super) enum Packet {
         number: u64,
         /// Whether the sender remembers what it granted.
         remembers: bool,
+        /// In which of its lives.
+        incarnation: u32,
     },
 }
 
@@ -69,6 +80,8 @@ pub(super) struct Wish {
     pub clock: u64,
     /// The grant is to have this number at least.
     pub number: u64,
+    /// Whether the robot holds the resources, by this number.
+    pub is_entered: bool,
     /// A hash of the list of participants.
     pub list: u32,
     pub resources: Resources,

@@ -6,8 +6,9 @@ use super::packet::Packet;
 use super::recovery::Outlook;
 use super::{Arbitration, Post, lease};
 use alloc::vec::Vec;
+use starl_core::event::MutexEvent;
 use starl_core::random::hash_key;
-use starl_core::{Robot, RobotId, Time};
+use starl_core::{Robot, RobotId};
 
 impl Arbitration {
     /// Begins what has to be begun: see [`recovery`]. Called with every input.
@@ -44,6 +45,7 @@ impl Arbitration {
     pub(super) fn recall(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         let mut post = Post::default();
         self.review(common, robot, &mut post);
+        self.arbiter.tell_again();
         self.ask_others(common, robot, &mut post);
         self.deliver(common, robot, post);
     }
@@ -58,6 +60,22 @@ impl Arbitration {
         if self.review(common, robot, post) {
             self.ask_others(common, robot, post);
         }
+    }
+
+    /// This robot is an arbiter from now on; `is_anew` if nobody can know the last number.
+    pub(super) fn begin_to_grant(&mut self, common: &Common, robot: &mut Robot<'_>, is_anew: bool) {
+        self.recovery.is_ready = true;
+        self.recovery.remembers = true;
+        let participants = self.everyone.len() as u32;
+        let ready = MutexEvent::Ready {
+            participants,
+            needed: match lease(common) {
+                Some(_) => participants / 2 + 1,
+                None => participants,
+            },
+            anew: is_anew,
+        };
+        robot.report(common.port, ready);
     }
 
     fn ask_others(&mut self, common: &Common, robot: &mut Robot<'_>, post: &mut Post) {
@@ -79,20 +97,24 @@ impl Arbitration {
     }
 
     /// Looks whether enough has been heard to be an arbiter; whether others are to be asked at once.
-    fn review(&mut self, common: &Common, robot: &Robot<'_>, post: &mut Post) -> bool {
+    fn review(&mut self, common: &Common, robot: &mut Robot<'_>, post: &mut Post) -> bool {
         if self.recovery.is_ready {
             return false;
         }
         let others = common.others(robot);
-        let asks_anew = lease(common)
-            .is_some_and(|lease| self.recovery.ends_silence(robot.now(), &others, lease));
-        let outlook = self.recovery.outlook(robot.now(), &others, lease(common));
-        if outlook == Outlook::ReadyWithoutNumbers {
+        let (now, lease) = (robot.now(), lease(common));
+        let mut outlook = self.recovery.outlook(now, &others, lease);
+        let asks_anew = outlook == Outlook::Unready
+            && lease.is_some_and(|lease| self.recovery.ends_stage(now, &others, lease));
+        if asks_anew {
+            outlook = self.recovery.outlook(now, &others, lease);
+        }
+        let is_anew = outlook == Outlook::ReadyWithoutNumbers;
+        if is_anew {
             self.arbiter.numbers.raise_floor(number_at(robot.now()));
         }
         if outlook != Outlook::Unready {
-            self.recovery.is_ready = true;
-            self.recovery.remembers = true;
+            self.begin_to_grant(common, robot, is_anew);
             self.arbiter.settle(self.terms(common, robot), post);
         }
         asks_anew
@@ -101,10 +123,10 @@ impl Arbitration {
     /// An arbiter asks what it had granted this robot. What is only waited for is asked for anew.
     pub(super) fn answer(
         &mut self,
-        common: &Common,
-        (from, now): (RobotId, Time),
-        nonce: u32,
-        list: u32,
+        common: &mut Common,
+        robot: &mut Robot<'_>,
+        from: RobotId,
+        (nonce, list): (u32, u32),
         post: &mut Post,
     ) {
         if list != self.list {
@@ -131,9 +153,10 @@ impl Arbitration {
             number: match remembers {
                 true => known,
                 // It may have forgotten numbers that went on from its time.
-                false => known.max(number_at(now)),
+                false => known.max(number_at(robot.now())),
             },
             remembers,
+            incarnation: common.incarnation.of(robot),
         };
         post.send(from, answer);
     }

@@ -8,9 +8,13 @@
 //! enough. With leases a lease of silence shows as much, and what is missing then are the numbers, so it asks
 //! once more: a number that somebody entered with by a forgotten grant may have come to those who gave the
 //! others after they had answered. A number that somebody has entered with is known to a majority, so those who
-//! remember and have answered must be too many for such a majority to avoid. Where so many remember nothing, all
-//! being new, or do not answer within another lease, numbers go on from the time in milliseconds, the latest of
-//! those that have forgotten: no counting is as fast, and so they grow unless clocks have been set back.
+//! remember and have answered must be too many for such a majority to avoid. No clock has a part in that.
+//!
+//! Where so many cannot be, as a majority has forgotten, nobody can know the last number. A robot takes that for
+//! granted only if it has seen it: a majority, itself among them, that remembered nothing at one moment, since each
+//! said so in the same life before it and after it. That is so too when the fleet is new. Then numbers go on from
+//! the time in milliseconds, the latest of those who have forgotten: no counting is as fast, so they grow unless
+//! clocks are wrong. Robots that are silent, whether they are down or cut off, are waited for.
 //!
 //! After a change of participants all of the new ones have to answer, having changed too: two quorums of
 //! different lists need have nobody in common.
@@ -18,6 +22,9 @@
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use starl_core::{Duration, Random, RobotId, Time};
+
+/// With this repetition, and those after it, robots that had forgotten too are asked whether they know more by now.
+const FORGETFUL_ASKED: u32 = 3;
 
 /// How far an arbiter is.
 #[derive(Clone, Debug, Default)]
@@ -34,12 +41,16 @@ pub(super) struct Recovery {
 pub(super) struct Begun {
     pub nonce: u32,
     since: Time,
+    /// When it has asked for the first time with this nonce.
+    stage_since: Time,
     /// Whether the participants have changed; otherwise the robot has started.
     is_change: bool,
     /// Whether nobody can enter by a grant that was forgotten; with leases.
     is_silence_over: bool,
-    /// Who has answered, and whether they remember what they granted.
-    answers: BTreeMap<RobotId, bool>,
+    /// Who has answered, and in which life if it has forgotten what it granted.
+    answers: BTreeMap<RobotId, Option<u32>>,
+    /// Who had forgotten that before it asked with this nonce, and in which life.
+    forgot_before: BTreeMap<RobotId, u32>,
     /// How often it has asked.
     pub repetitions: u32,
 }
@@ -64,9 +75,11 @@ impl Recovery {
         self.begun = Some(Begun {
             nonce,
             since: now,
+            stage_since: now,
             is_change,
             is_silence_over: false,
             answers: BTreeMap::new(),
+            forgot_before: BTreeMap::new(),
             repetitions: 0,
         });
     }
@@ -75,6 +88,12 @@ impl Recovery {
     pub fn asking(&mut self) -> Option<&mut Begun> {
         let is_ready = self.is_ready;
         self.begun.as_mut().filter(|_| !is_ready)
+    }
+
+    /// Whether it has asked for so long.
+    pub fn has_asked_for(&self, span: Duration, now: Time) -> bool {
+        let begun = self.begun.as_ref();
+        begun.is_some_and(|begun| now.since(begun.since) >= span)
     }
 
     /// Who has not answered; none if all have.
@@ -92,25 +111,33 @@ impl Recovery {
 
     /// Who is to be asked: who has not answered, and whose answer may be another one by now.
     pub fn to_ask(&self, others: &[RobotId]) -> Vec<RobotId> {
-        let remembers = |peer: &RobotId| self.begun.as_ref()?.answers.get(peer).copied();
-        let is_silence_over = self.begun.as_ref().is_some_and(|b| b.is_silence_over);
+        let answer = |peer: &RobotId| self.begun.as_ref()?.answers.get(peer).copied();
+        let begun = self.begun.as_ref();
+        let asks_again =
+            begun.is_some_and(|b| b.is_silence_over && b.repetitions >= FORGETFUL_ASKED);
         let others = others.iter().copied();
         others
-            .filter(|peer| match remembers(peer) {
+            .filter(|peer| match answer(peer) {
                 None => true,
-                Some(remembers) => is_silence_over && !remembers,
+                Some(forgot) => asks_again && forgot.is_some(),
             })
             .collect()
     }
 
-    /// Whether it is now that nobody can enter by a forgotten grant any longer: then all are asked once more.
-    pub fn ends_silence(&mut self, now: Time, others: &[RobotId], lease: Duration) -> bool {
+    /// Whether all are to be asked once more from now on: when nobody can enter by a forgotten grant any longer, and
+    /// later when somebody has forgotten since it asked.
+    pub fn ends_stage(&mut self, now: Time, others: &[RobotId], lease: Duration) -> bool {
         let all = self.silent(others).is_empty();
-        let Some(begun) = self.asking().filter(|begun| !begun.is_silence_over) else {
+        let Some(begun) = self.asking() else {
             return false;
         };
-        let has_ended = all || !begun.is_change && now.since(begun.since) >= lease;
+        let is_late = !begun.is_change && now.since(begun.stage_since) >= lease;
+        let needs_another = !begun.is_silence_over || begun.forgetful().any(|(_, seen)| !seen);
+        let has_ended = needs_another && (all || is_late);
         if has_ended {
+            let forgot = begun.forgetful().map(|(answer, _)| answer);
+            begun.forgot_before = forgot.collect();
+            begun.stage_since = now;
             begun.is_silence_over = true;
             begun.nonce = begun.nonce.wrapping_add(1);
             begun.answers.clear();
@@ -121,18 +148,20 @@ impl Recovery {
 
     /// The time until more can be known without an answer: until one lease is over, or two.
     pub fn until_more(&self, now: Time, lease: Duration) -> Option<Duration> {
-        let since = self.begun.as_ref()?.since;
-        let mut ends = [since + lease, since + lease * 2].into_iter();
+        let begun = self.begun.as_ref()?;
+        let ends = [begun.since, begun.since + lease, begun.stage_since];
+        let ends = ends.into_iter().map(|start| start + lease);
         // Timers are no more precise.
         let least = Duration::from_millis(1);
-        Some(ends.find(|&end| end > now)?.since(now).max(least))
+        let next = ends.filter(|&end| end > now).min()?;
+        Some(next.since(now).max(least))
     }
 
-    /// Takes an answer; false if it is to another question.
-    pub fn hear(&mut self, from: RobotId, nonce: u32, remembers: bool) -> bool {
+    /// Takes an answer, with the life of a robot that has forgotten; false if it is to another question.
+    pub fn hear(&mut self, from: RobotId, nonce: u32, forgot: Option<u32>) -> bool {
         match self.asking() {
             Some(begun) if begun.nonce == nonce => {
-                begun.answers.insert(from, remembers);
+                begun.answers.insert(from, forgot);
                 true
             }
             _ => false,
@@ -154,17 +183,15 @@ impl Recovery {
         };
         let count = others.len() + 1;
         let majority = count / 2 + 1;
-        let remember = begun
-            .answers
-            .values()
-            .filter(|&&remembers| remembers)
-            .count();
-        let is_late = now.since(begun.since) >= lease * 2;
+        let remember = begun.answers.values().filter(|forgot| forgot.is_none());
+        // It has forgotten too.
+        let forgot = 1 + begun.forgetful().filter(|&(_, seen)| seen).count();
+        let is_late = self.has_asked_for(lease * 2, now);
         if !begun.is_silence_over || begun.is_change && !all {
             Outlook::Unready
-        } else if remember > count - majority || begun.is_change && self.remembers {
+        } else if remember.count() > count - majority || begun.is_change && self.remembers {
             Outlook::Ready
-        } else if all || begun.answers.len() + 1 >= majority && is_late {
+        } else if forgot >= majority && (all || is_late) {
             Outlook::ReadyWithoutNumbers
         } else {
             Outlook::Unready
@@ -175,5 +202,17 @@ impl Recovery {
     pub fn corrupt(&mut self, random: &mut Random) {
         self.is_ready = random.chance(0.5);
         self.begun = None;
+    }
+}
+
+impl Begun {
+    /// Who has forgotten what it granted, and in which life; and whether it had before this robot asked.
+    fn forgetful(&self) -> impl Iterator<Item = ((RobotId, u32), bool)> {
+        let answers = self.answers.iter();
+        let forgot = answers.filter_map(|(&peer, forgot)| Some((peer, (*forgot)?)));
+        forgot.map(|(peer, life)| {
+            let seen = self.forgot_before.get(&peer) == Some(&life);
+            ((peer, life), seen)
+        })
     }
 }

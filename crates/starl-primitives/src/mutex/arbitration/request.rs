@@ -29,6 +29,8 @@ pub(super) struct Request {
     pub list: u32,
     /// How often it was repeated since something changed.
     pub repetitions: u32,
+    /// Whether an arbiter has granted it since it was repeated, so that its turn seems to have come.
+    pub is_hopeful: bool,
     pub(super) asked: BTreeMap<RobotId, Asked>,
     round: u32,
     /// When the latest rounds were sent, by the robot's clock.
@@ -42,10 +44,6 @@ pub(super) struct Asked {
     /// Until when it has granted it, and with what number.
     pub granted: Option<(Time, u64)>,
     pub behind: Option<Behind>,
-    /// It said that an earlier request goes first.
-    pub must_wait: bool,
-    /// It asked to yield.
-    pub is_inquired: bool,
 }
 
 impl Request {
@@ -64,6 +62,7 @@ impl Request {
             number: 0,
             list,
             repetitions: 0,
+            is_hopeful: false,
             asked: arbiters
                 .into_iter()
                 .map(|peer| (peer, Asked::default()))
@@ -104,6 +103,7 @@ impl Request {
             round: self.round,
             clock: self.clock,
             number: self.number,
+            is_entered: self.is_entered,
             list: self.list,
             resources,
         }
@@ -116,11 +116,39 @@ impl Request {
         if self.sent.len() > ROUNDS {
             self.sent.pop_front();
         }
-        let all = matches!(enough, Enough::Majority(..));
-        for (&arbiter, asked) in &self.asked {
-            if all || asked.granted.is_none() {
+        if matches!(enough, Enough::All) {
+            let missing = self
+                .asked
+                .iter()
+                .filter(|(_, asked)| asked.granted.is_none());
+            for (&arbiter, _) in missing {
                 post.send(arbiter, Packet::Request(self.wish(arbiter, common)));
             }
+            return;
+        }
+        let Some(first) = self.arbiters().next() else {
+            return;
+        };
+        // The same to all, so that it is one datagram.
+        let attempts = self
+            .asked
+            .iter()
+            .map(|(&arbiter, asked)| (arbiter, asked.attempt));
+        let repeat = Packet::Repeat {
+            wish: self.wish(first, common),
+            attempts: attempts.filter(|&(_, attempt)| attempt != 0).collect(),
+        };
+        for arbiter in self.arbiters() {
+            post.send(arbiter, repeat.clone());
+        }
+    }
+
+    /// Tells an arbiter that only this is still needed.
+    pub fn release(&self, left: Resources) -> Packet {
+        Packet::Release {
+            id: self.id,
+            left,
+            number: if self.is_entered { self.number } else { 0 },
         }
     }
 
@@ -143,25 +171,24 @@ impl Request {
         if let (Some(asked), Some(until)) = (self.asked.get_mut(&from), until)
             && asked.attempt == attempt
         {
+            self.is_hopeful |= asked.granted.is_none();
             let before = asked.granted.unwrap_or((Time::ZERO, 0));
             asked.granted = Some((before.0.max(until), before.1.max(number)));
             asked.behind = None;
-            asked.must_wait = false;
         }
     }
 
     /// An arbiter says that it has to wait.
-    pub fn wait(&mut self, from: RobotId, attempt: u32, behind: Behind, must_wait: bool) {
+    pub fn wait(&mut self, from: RobotId, attempt: u32, behind: Behind) {
         if let Some(asked) = self.asked.get_mut(&from)
             && asked.attempt == attempt
             && (asked.granted.is_none() || self.is_entered)
         {
             asked.behind = Some(behind);
-            asked.must_wait |= must_wait;
         }
     }
 
-    /// An arbiter asks whether its grant is still needed.
+    /// An arbiter asks whether its grant is still needed. The robot yields if it must.
     pub fn inquire(
         &mut self,
         from: RobotId,
@@ -172,8 +199,7 @@ impl Request {
     ) {
         let Some(asked) = self.asked.get_mut(&from) else {
             // It was made up by a fault.
-            let (id, left) = (self.id, Resources::new());
-            return post.send(from, Packet::Release { id, left });
+            return post.send(from, self.release(Resources::new()));
         };
         if (attempt.wrapping_sub(asked.attempt) as i32) > 0 {
             // Only a corruption makes an arbiter know attempts that were not made.
@@ -181,11 +207,10 @@ impl Request {
             self.try_anew(from, common, post);
         } else if self.is_entered {
             if common.held.len() < self.resources.len() {
-                let (id, left) = (self.id, common.held.clone());
-                post.send(from, Packet::Release { id, left });
+                post.send(from, self.release(common.held.clone()));
             }
-        } else if attempt == asked.attempt {
-            asked.is_inquired |= must_yield;
+        } else if must_yield && attempt == asked.attempt {
+            self.try_anew(from, common, post);
         }
     }
 
@@ -207,19 +232,6 @@ impl Request {
         }
     }
 
-    /// Yields to those that asked for it: at once if it has to wait for somebody anyway, otherwise only if
-    /// `is_late`.
-    pub fn yield_if_it_must(&mut self, is_late: bool, common: &Common, post: &mut Post) {
-        let mut asked = self.asked.values();
-        if self.is_entered || !is_late && !asked.any(|asked| asked.must_wait) {
-            return;
-        }
-        let inquired = self.asked.iter().filter(|(_, asked)| asked.is_inquired);
-        for arbiter in inquired.map(|(&peer, _)| peer).collect::<Vec<_>>() {
-            self.try_anew(arbiter, common, post);
-        }
-    }
-
     /// Overwrites the state at random; `some` are what it comes to ask for.
     pub fn corrupt(&mut self, random: &mut Random, some: Resources) {
         self.resources = some;
@@ -233,8 +245,6 @@ impl Request {
             if random.chance(0.5) {
                 asked.granted = random.chance(0.5).then(|| (Time(random.bits().into()), 0));
                 asked.attempt = random.bits();
-                asked.is_inquired = random.chance(0.5);
-                asked.must_wait = random.chance(0.5);
             }
         }
     }

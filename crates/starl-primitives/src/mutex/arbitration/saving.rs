@@ -32,7 +32,7 @@ pub(super) struct Kept {
 
 impl Arbitration {
     /// Takes up what storage holds, when the robot starts; whether that is all that there was.
-    pub(super) fn restore(&mut self, common: &Common, robot: &Robot<'_>) -> bool {
+    pub(super) fn restore(&mut self, common: &Common, robot: &mut Robot<'_>) -> bool {
         let Some(saved) = robot.saved() else {
             return false;
         };
@@ -46,8 +46,7 @@ impl Arbitration {
             None if saved.is_whole() => {}
             None => return false,
         }
-        self.recovery.is_ready = true;
-        self.recovery.remembers = true;
+        self.begin_to_grant(common, robot, false);
         true
     }
 

@@ -20,8 +20,8 @@ pub(super) struct Standing {
     pub granted_before_it: Vec<RobotId>,
 }
 
-/// All that wait, the earliest first.
-pub(super) fn standings(entries: &BTreeMap<RobotId, Entry>) -> Vec<Standing> {
+/// All that wait, the earliest first; `tells` if robots are told whom they wait for.
+pub(super) fn standings(entries: &BTreeMap<RobotId, Entry>, tells: bool) -> Vec<Standing> {
     let mut order: Vec<(RobotId, &Entry)> =
         entries.iter().map(|(&id, entry)| (id, entry)).collect();
     order.sort_unstable_by_key(|(robot, entry)| entry.rank(*robot));
@@ -41,7 +41,7 @@ pub(super) fn standings(entries: &BTreeMap<RobotId, Entry>) -> Vec<Standing> {
             let granted_before_it: Vec<RobotId> = later.map(|(peer, _)| *peer).collect();
             standings.push(Standing {
                 robot,
-                behind: match must_wait && !entry.is_told {
+                behind: match must_wait && tells && entry.told.is_none() {
                     true => first_before(entries, robot, entry),
                     false => None,
                 },

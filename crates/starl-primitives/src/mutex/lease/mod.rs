@@ -23,8 +23,6 @@ use starl_core::{Duration, Random, RobotId, Time};
 const BITS: u32 = 20;
 /// No number is greater: programs have signed ones.
 const GREATEST: u64 = (1 << 62) - 1;
-/// A number so much greater than all others is none that counting could have come to.
-const FURTHEST: u64 = 1 << (BITS + 32);
 /// When numbers of more resources than this are known, the greatest stands for all.
 const MOST_RESOURCES: usize = 4096;
 
@@ -71,14 +69,17 @@ impl Numbers {
     /// A number of a robot for these: the one that it asks for, if that is greater than all before.
     pub fn next(&mut self, robot: RobotId, resources: &Resources, wanted: u64) -> u64 {
         let (before, own) = (self.of(resources), own_bits(robot));
-        let is_possible = wanted > before
-            && wanted <= before.saturating_add(FURTHEST).min(GREATEST)
-            && wanted & own_bits(RobotId(u32::MAX)) == own;
+        let is_possible =
+            wanted > before && wanted <= GREATEST && wanted & own_bits(RobotId(u32::MAX)) == own;
         let counted = ((before >> BITS) + 1) << BITS | own;
-        let number = if is_possible {
-            wanted
-        } else {
-            counted.min(GREATEST)
+        let number = match is_possible {
+            true => wanted,
+            false if counted <= GREATEST => counted,
+            // Only a corruption leads here: they begin anew.
+            false => {
+                *self = Numbers::default();
+                1 << BITS | own
+            }
         };
         self.learn(resources, number);
         number
@@ -86,7 +87,7 @@ impl Numbers {
 
     /// Takes note of a number.
     pub fn learn(&mut self, resources: &Resources, number: u64) {
-        if number > self.of(resources).saturating_add(FURTHEST).min(GREATEST) {
+        if number > GREATEST {
             return;
         }
         for resource in resources {

@@ -11,6 +11,9 @@ use starl_primitives::{FailureDetector, Register, failure_detector};
 use std::any::Any;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// A crowd is through by then.
+const LONGEST: Duration = Duration::from_seconds(600);
+
 /// The registers that there are.
 pub const REGISTERS: [&str; 2] = ["x", "y"];
 
@@ -125,6 +128,41 @@ impl Program for Keeper {
 /// The program of a robot that is up.
 pub fn keeper(world: &World, robot: usize) -> &Keeper {
     world.inspect(robot)
+}
+
+/// Runs until what all robots began last is done.
+pub fn until_done(world: &mut World) {
+    let begun = world.now;
+    let is_done = |world: &World, robot| matches!(status(world, robot), Status::Done(_));
+    while !(0..world.size()).all(|robot| is_done(world, robot)) {
+        world.run_for(Duration::from_millis(1));
+        assert!(world.now < begun + LONGEST, "some are never done");
+    }
+}
+
+/// All robots claim `x` at once and write it, and claim it again where that is lost, until each has written it.
+pub fn all_count(world: &mut World) {
+    let (robots, begun) = (world.size(), world.now);
+    (0..robots).for_each(|robot| world.command(robot, claim()));
+    let (mut writes, mut left) = (vec![false; robots], vec![true; robots]);
+    while left.contains(&true) {
+        world.run_for(Duration::from_millis(1));
+        assert!(world.now < begun + LONGEST, "some are never through");
+        for robot in (0..robots).filter(|&robot| left[robot]).collect::<Vec<_>>() {
+            match status(world, robot) {
+                Status::Done(_) if writes[robot] => left[robot] = false,
+                Status::Done(_) => {
+                    writes[robot] = true;
+                    world.command(robot, update(robot as u32));
+                }
+                Status::Lost => {
+                    writes[robot] = false;
+                    world.command(robot, claim());
+                }
+                _ => {}
+            }
+        }
+    }
 }
 
 /// How far a robot's last operation is.

@@ -172,6 +172,34 @@ pub fn asked(algorithm: Algorithm, count: usize) -> f64 {
     sizes.sum::<usize>() as f64 / count as f64
 }
 
+/// All robots ask for random sets whenever they hold nothing, and keep what they get for 150 ms. Gives how often
+/// each robot has come to hold something.
+pub fn contend(world: &mut World, span: Duration) -> Vec<usize> {
+    const STEP: Duration = Duration::from_millis(50);
+    let robots = world.size();
+    let mut random = Random::keyed(7, &[world.now.0]);
+    let (mut held, mut entries) = (vec![0; robots], vec![0; robots]);
+    let end = world.now + span;
+    while world.now < end {
+        for robot in 0..robots {
+            if mutex(world, robot).crit() {
+                entries[robot] += usize::from(held[robot] == 0);
+                held[robot] += 1;
+                if held[robot] > 3 {
+                    world.command(robot, release(&RESOURCES));
+                }
+            } else {
+                held[robot] = 0;
+                if !mutex(world, robot).is_waiting() {
+                    world.command(robot, Command::Acquire(1 + random.below(15)));
+                }
+            }
+        }
+        world.run_for(STEP);
+    }
+    entries
+}
+
 /// The mutex of a robot that is up.
 pub fn mutex(world: &World, robot: usize) -> &Mutex {
     &world.inspect::<Locker>(robot).mutex
@@ -219,7 +247,8 @@ pub fn entries(world: &World, crashes: &[(Time, u32)]) -> BTreeMap<u32, usize> {
                     "{robot} releases {resource} at {at:?}"
                 );
             }
-            MutexEvent::Acquire { .. } | MutexEvent::Withdraw { .. } => {}
+            MutexEvent::Acquire { .. } | MutexEvent::Withdraw { .. } | MutexEvent::Ready { .. } => {
+            }
         }
     }
     let counted = entries
@@ -250,6 +279,7 @@ pub fn numbers(world: &World) -> usize {
             | MutexEvent::Withdraw { resource }
             | MutexEvent::Release { resource }
             | MutexEvent::Expire { resource } => (resource, None),
+            MutexEvent::Ready { .. } => continue,
         };
         let holders = holders.entry(resource.to_string()).or_default();
         if let Some(number) = number {
