@@ -74,7 +74,7 @@ fn memory() {
 
 #[test]
 fn register() {
-    recovers("register", "1s", 30);
+    recovers("register", "1s", 150);
 }
 
 #[test]

@@ -34,9 +34,17 @@ fn every_profile_is_named_and_described() {
     let usual: Vec<&Value> = (profiles.iter().filter(|profile| profile["usual"] == true))
         .map(|profile| &profile["name"])
         .collect();
-    let names = ["calm", "lossy", "partitions", "crashes", "clocks", "chaos"];
+    let names = [
+        "calm",
+        "lossy",
+        "partitions",
+        "crashes",
+        "clocks",
+        "chaos",
+        "swarm",
+    ];
     assert_eq!(usual, names);
-    assert_eq!(profiles.len(), 7);
+    assert_eq!(profiles.len(), 8);
     assert_eq!(profiles[3]["demands_goal"], false);
     assert_eq!(
         profiles[1]["summary"],

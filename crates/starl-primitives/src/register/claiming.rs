@@ -120,7 +120,11 @@ impl Register {
         let promised = self.replica.promised(register);
         let stored = self.replica.get(register).map(|version| version.tag);
         let known = [promised, stored, self.last_ballot, operation.greatest];
-        let greatest = known.into_iter().max().flatten();
+        let greatest = known
+            .into_iter()
+            .flatten()
+            .filter(|tag| tag.is_valid())
+            .max();
         // Whoever was refused often goes before those who begin at the same time.
         let ballot = Tag::after(greatest, robot.id(), incarnation).later_by(operation.rounds);
         self.last_ballot = Some(ballot);

@@ -82,7 +82,8 @@ impl Operation {
 
     /// Takes note of a ballot or tag, so that the next ballot is greater.
     pub fn heard(&mut self, tag: Option<Tag>) {
-        self.greatest = self.greatest.max(tag);
+        // One that no writes can have led to would leave no greater ones.
+        self.greatest = self.greatest.max(tag.filter(|tag| tag.is_valid()));
     }
 
     /// Whether all that have answered have the latest copy, and have promised nothing since.

@@ -28,19 +28,24 @@ pub(super) fn repeat(trouble: &mut Trouble<'_>) {
 /// More than half of the robots crash at once, once or twice, and return together or one by one.
 pub(super) fn majority(trouble: &mut Trouble<'_>) {
     let robots = trouble.robots();
-    for _ in 0..trouble.count(1, 2) {
-        let size = trouble.count(robots.len() as u32 / 2 + 1, robots.len() as u32);
-        let mut struck = trouble.some(robots.clone(), size as usize);
-        let at = trouble.moment();
-        let pause = trouble.span(0.01, 0.2);
-        if trouble.random.chance(0.5) {
-            struck.sort_unstable();
-            down(trouble, struck, at, (at + pause).min(trouble.until));
+    let mut moments = [trouble.moment(), trouble.moment()];
+    moments.sort_unstable();
+    let mut all_up = Time::ZERO;
+    for at in moments.into_iter().take(trouble.count(1, 2) as usize) {
+        if at < all_up {
             continue;
         }
-        for robot in struck {
-            let pause = trouble.span(0.01, 0.2);
-            down(trouble, vec![robot], at, (at + pause).min(trouble.until));
+        let size = trouble.count(robots.len() as u32 / 2 + 1, robots.len() as u32);
+        let mut struck = trouble.some(robots.clone(), size as usize);
+        struck.sort_unstable();
+        let groups = match trouble.random.chance(0.5) {
+            true => vec![struck],
+            false => struck.into_iter().map(|robot| vec![robot]).collect(),
+        };
+        for group in groups {
+            let up = (at + trouble.span(0.01, 0.2)).min(trouble.until);
+            down(trouble, group, at, up);
+            all_up = all_up.max(up);
         }
     }
 }

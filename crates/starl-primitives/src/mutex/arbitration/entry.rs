@@ -63,9 +63,12 @@ impl Entry {
         }
     }
 
-    /// Whether it is to be asked if it is still needed, by the time.
+    /// Whether it is to be asked if it is still needed, by the time. What does not end by itself is asked for
+    /// whenever somebody waits for it.
     pub fn is_silent(&self, terms: Terms) -> bool {
-        terms.now.since(self.heard) >= self.patience(terms) || self.heard > terms.now
+        terms.lease.is_none()
+            || terms.now.since(self.heard) >= self.patience(terms)
+            || self.heard > terms.now
     }
 
     /// It was asked, and is asked again soon if it says nothing: the question or the answer may be lost.
