@@ -37,6 +37,8 @@ pub(super) struct Receiver {
     pub taken: Runs,
     /// What it holds for an earlier message, as it last said. It may have forgotten that since.
     pub held: Runs,
+    /// What it asks for to be told; none once it has said what it has taken.
+    pub token: Option<u32>,
     /// When messages that it has not taken were last sent to it again.
     pub resent: BTreeMap<u32, Time>,
     pub trying: Trying,
@@ -67,6 +69,7 @@ impl Default for Receiver {
         Receiver {
             taken: Runs::before(1),
             held: Runs::before(1),
+            token: None,
             resent: BTreeMap::new(),
             trying: Trying::default(),
         }
@@ -215,6 +218,7 @@ impl Outgoing {
         }
         receiver.taken.fill_to(before.min(next).max(self.base));
         receiver.held = held;
+        receiver.token = None;
         self.receivers.insert(from, receiver);
         self.drop_settled();
         credit

@@ -111,8 +111,7 @@ impl Reliable {
                     is_before(sent, now, first_timeout)
                         || newest.is_some_and(|newest| is_before(sent, newest, first_timeout / 4))
                 };
-                let numbers =
-                    line.resend(robot, outgoing, &mut receiver, (peer, None, CHUNK), lost);
+                let numbers = line.resend(robot, outgoing, &mut receiver, (peer, CHUNK), lost);
                 if numbers.is_empty() {
                     break;
                 }
@@ -150,11 +149,11 @@ impl Reliable {
         let mut receiver = outgoing.receivers.remove(&from).unwrap_or_default();
         // A life that does not know this one holds nothing of it.
         receiver.held = super::runs::Runs::before(1);
+        receiver.token = Some(token);
         let any = |_: Time| true;
-        let greeting = (from, Some(token), CHUNK);
-        let numbers = line.resend(robot, outgoing, &mut receiver, greeting, any);
+        let numbers = line.resend(robot, outgoing, &mut receiver, (from, CHUNK), any);
         if numbers.is_empty() {
-            line.send(robot, outgoing, Head::to(from, &receiver, Some(token)), &[]);
+            line.send(robot, outgoing, Head::to(from, &receiver), &[]);
         }
         let due = now + line.stretched(robot, 0);
         receiver.trying.due.get_or_insert(due);
@@ -276,9 +275,9 @@ impl Head {
     }
 
     /// To one robot. What an earlier life of it has taken will not come again.
-    fn to(peer: RobotId, receiver: &Receiver, token: Option<u32>) -> Head {
+    fn to(peer: RobotId, receiver: &Receiver) -> Head {
         Head {
-            token,
+            token: receiver.token,
             base: receiver.taken.next(),
             ..Head::of(Destination::Robot(peer))
         }
@@ -348,7 +347,7 @@ impl Line {
         robot: &mut Robot<'_>,
         outgoing: &Outgoing,
         receiver: &mut Receiver,
-        (peer, token, most): (RobotId, Option<u32>, usize),
+        (peer, most): (RobotId, usize),
         is_due: impl Fn(Time) -> bool,
     ) -> Vec<u32> {
         let mut missing: Vec<(Time, u32)> = outgoing
@@ -368,7 +367,7 @@ impl Line {
         }
         numbers.sort_unstable();
         if !numbers.is_empty() {
-            self.send(robot, outgoing, Head::to(peer, receiver, token), &numbers);
+            self.send(robot, outgoing, Head::to(peer, receiver), &numbers);
         }
         let again = numbers.iter().map(|&number| (number, robot.now()));
         receiver.resent.extend(again);
@@ -492,9 +491,9 @@ impl Line {
         } else {
             0
         };
-        let numbers = self.resend(robot, outgoing, receiver, (peer, None, most), |_| true);
+        let numbers = self.resend(robot, outgoing, receiver, (peer, most), |_| true);
         if numbers.is_empty() {
-            self.send(robot, outgoing, Head::to(peer, receiver, None), &[]);
+            self.send(robot, outgoing, Head::to(peer, receiver), &[]);
         }
         self.tell(&numbers, peer, notices);
         let trying = &mut receiver.trying;
