@@ -116,6 +116,55 @@ fn what_was_passed_over_is_not_handed_out_any_more() {
     );
 }
 
+/// Robot 0 sends a message in each of two lives; robot 1 is handed both and sends one.
+fn two_lives() -> Story {
+    let mut story = story();
+    sends(&mut story, 1000, 0, 1, "causal");
+    handed(&mut story, 1100, 1, (0, 1));
+    story.fault(1200, Some(0), "crash");
+    story.fault(1300, Some(0), "restart");
+    let fields = [
+        ("number", 1u32.into()),
+        ("incarnation", 8u32.into()),
+        ("retry_span", 4.0.into()),
+        ("order", "causal".into()),
+    ];
+    story.report(1400, 0, ("broadcast", "broadcast"), fields);
+    handed_of_second_life(&mut story, 1500, 1);
+    sends(&mut story, 1600, 1, 1, "causal");
+    story
+}
+
+fn handed_of_second_life(story: &mut Story, millis: u64, robot: u32) {
+    let fields = [
+        ("from", RobotId(0).into()),
+        ("number", 1u32.into()),
+        ("incarnation", 8u32.into()),
+    ];
+    story.report(millis, robot, ("broadcast", "deliver"), fields);
+}
+
+#[test]
+fn what_an_earlier_life_sent_is_not_owed_after_something_of_a_later_one() {
+    let causal = |story: &Story| -> Vec<u64> {
+        let verdict = story.verdict(2500);
+        let found = verdict
+            .iter()
+            .filter(|v| v.property == "broadcast.causal_order");
+        found.map(|violation| violation.at.0 / 1_000_000).collect()
+    };
+    let mut later = two_lives();
+    handed_of_second_life(&mut later, 1700, 2);
+    handed(&mut later, 1800, 2, (1, 1));
+    assert_eq!(causal(&later), []);
+    handed(&mut later, 1900, 2, (0, 1));
+    assert_eq!(causal(&later), [1900], "nor may it come then");
+
+    let mut nothing = two_lives();
+    handed(&mut nothing, 1800, 2, (1, 1));
+    assert_eq!(causal(&nothing), [1800], "both lives' messages are owed");
+}
+
 #[test]
 fn messages_that_know_nothing_of_each_other_come_in_any_causal_order() {
     let mut story = story();
