@@ -77,7 +77,7 @@ fn quorums_of_three_robots() {
 
 #[test]
 fn quorums_with_a_repetition() {
-    assert_eq!(quorum(3, &TWO, 1, 0), (29_766, 120_434, 18));
+    assert_eq!(quorum(3, &TWO, 1, 0), (42_966, 182_658, 19));
 }
 
 #[test]
