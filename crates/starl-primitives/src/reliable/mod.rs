@@ -4,11 +4,11 @@
 //! "a simple protocol that asks for acknowledgment for each message being sent").
 //!
 //! A message to all goes out once to all. Each receiver says what it has taken, and is sent what it lacks, several
-//! messages in a datagram, until it has all or their time is up ([`sending`]). Invariants:
+//! messages in a datagram, until it has all or their time is up (`sending`). Invariants:
 //! - a receiver hands out a message at most once for as long as it runs, however often it is repeated and however
 //!   late its copies are;
 //! - messages of a sender's later life are taken after those of its earlier lives, and how many lives there were
-//!   does not matter: what tells them apart is a handshake, not memory ([`inbox`]);
+//!   does not matter: what tells them apart is a handshake, not memory (`inbox`);
 //! - every message is settled within [`Options::failure_bound`]: nobody waits for ever on a dead robot;
 //! - memory is bounded by the settings and the size of the fleet, and a peer that never speaks costs
 //!   nothing.
