@@ -20,6 +20,7 @@
 //! ones relative to the others.
 
 mod inbox;
+mod line;
 mod notice;
 mod options;
 mod outgoing;
@@ -34,10 +35,10 @@ pub use options::Options;
 use crate::incarnation::Incarnation;
 use alloc::collections::BTreeMap;
 use inbox::Inbox;
+use line::Line;
 use outgoing::Outgoing;
 use packet::{Packet, Stream};
 use receiving::Progress;
-use sending::Line;
 use starl_core::{Input, Payload, Port, Robot, RobotId, Time, message, timers};
 
 timers! {

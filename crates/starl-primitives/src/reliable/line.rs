@@ -1,0 +1,274 @@
+//! What a sender does with one stream: what goes into a datagram, who is tried again, what is given up.
+
+use super::outgoing::{Outgoing, Receiver, Trying};
+use super::packet::{Packet, Stream};
+use super::{MessageId, Notice, Notices};
+use alloc::vec::Vec;
+use starl_core::{Destination, Duration, Robot, RobotId, Time};
+
+/// Datagrams with several messages are not longer than this, bytes.
+pub(super) const CHUNK: usize = 1000;
+
+/// So many robots at most are told that they need not answer.
+const MOST_KNOWN: usize = 100;
+
+/// What is the same for all messages of a stream.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    pub port: starl_core::Port,
+    pub options: super::Options,
+    pub is_local: bool,
+    pub incarnation: u32,
+    /// The receiver; none where it goes to all.
+    pub to: Option<RobotId>,
+}
+
+/// What a datagram says besides its messages.
+#[derive(Debug)]
+pub(super) struct Head {
+    destination: Destination,
+    token: Option<u32>,
+    /// No message before this one will come to its receivers, as far as they differ from others.
+    base: u32,
+    known: Vec<RobotId>,
+}
+
+impl Head {
+    pub fn of(destination: Destination) -> Head {
+        Head {
+            destination,
+            token: None,
+            base: 0,
+            known: Vec::new(),
+        }
+    }
+
+    /// To one robot. What an earlier life of it has taken will not come again.
+    pub fn to(peer: RobotId, receiver: &Receiver) -> Head {
+        Head {
+            token: receiver.token,
+            base: receiver.taken.next(),
+            ..Head::of(Destination::Robot(peer))
+        }
+    }
+}
+
+impl Line {
+    pub fn name(&self, number: u32) -> MessageId {
+        MessageId {
+            incarnation: self.incarnation,
+            to: self.to,
+            number,
+        }
+    }
+
+    pub fn destination(&self) -> Destination {
+        self.to.map_or(Destination::All, Destination::Robot)
+    }
+
+    /// How many robots its messages are for.
+    pub fn receivers(&self, robot: &Robot<'_>) -> usize {
+        self.to.map_or(robot.fleet().len().saturating_sub(1), |_| 1)
+    }
+
+    /// A time-out with its jitter.
+    pub fn stretched(&self, robot: &mut Robot<'_>, attempt: u32) -> Duration {
+        let timeout = self.options.timeout(attempt).seconds();
+        let factor = 1.0 + self.options.safe_jitter() * robot.random().uniform();
+        Duration::from_seconds_f64(timeout * factor)
+    }
+
+    /// Says how far the stream is, with these messages.
+    pub fn send(&self, robot: &mut Robot<'_>, outgoing: &Outgoing, head: Head, numbers: &[u32]) {
+        let content = |&number: &u32| Some((number, &outgoing.get(number)?.content[..]));
+        let packet = Packet::Data {
+            incarnation: self.incarnation,
+            stream: self.stream(),
+            token: head.token,
+            base: head.base.max(outgoing.base()),
+            next: outgoing.next(),
+            known: head.known,
+            messages: numbers.iter().filter_map(content).collect(),
+        };
+        robot.transmit(head.destination, self.port, &packet);
+    }
+
+    /// Says how far the stream is to those who have never answered. Those who have taken all need not answer.
+    fn remind(&self, robot: &mut Robot<'_>, outgoing: &Outgoing) {
+        let receivers = outgoing.receivers.iter();
+        let have_all = receivers.filter(|(_, receiver)| receiver.taken.next() == outgoing.next());
+        let known = have_all.map(|(&peer, _)| peer).take(MOST_KNOWN).collect();
+        let head = Head {
+            known,
+            ..Head::of(self.destination())
+        };
+        self.send(robot, outgoing, head, &[]);
+    }
+
+    fn stream(&self) -> Stream {
+        self.to.map_or(Stream::Multicast, |_| Stream::Direct)
+    }
+
+    /// Sends a receiver a datagram of at most so many bytes, or one message, with messages that it lacks and that
+    /// were last sent when `is_due` says, the longest ago first. Gives them.
+    pub fn resend(
+        &self,
+        robot: &mut Robot<'_>,
+        outgoing: &Outgoing,
+        receiver: &mut Receiver,
+        (peer, most): (RobotId, usize),
+        is_due: impl Fn(Time) -> bool,
+    ) -> Vec<u32> {
+        let mut missing: Vec<(Time, u32)> = outgoing
+            .missing(receiver, self.options.window)
+            .filter_map(|number| Some((outgoing.last_sent(receiver, number)?, number)))
+            .filter(|(sent, _)| is_due(*sent))
+            .collect();
+        missing.sort_unstable();
+        let (mut numbers, mut size) = (Vec::new(), 0);
+        for (_, number) in missing {
+            let length = outgoing.get(number).map_or(0, |m| m.content.len() + 4);
+            if size + length > most && !numbers.is_empty() {
+                break;
+            }
+            size += length;
+            numbers.push(number);
+        }
+        numbers.sort_unstable();
+        if !numbers.is_empty() {
+            self.send(robot, outgoing, Head::to(peer, receiver), &numbers);
+        }
+        let again = numbers.iter().map(|&number| (number, robot.now()));
+        receiver.resent.extend(again);
+        numbers
+    }
+
+    /// What the owner learns of messages that were sent again.
+    pub fn tell(&self, numbers: &[u32], to: RobotId, notices: &mut Notices) {
+        let names = numbers.iter().map(|&number| self.name(number));
+        let to = || alloc::vec![to];
+        notices.extend(names.map(|message| Notice::Repeated { message, to: to() }));
+    }
+
+    /// Gives up the first message.
+    pub fn give_up(&self, robot: &Robot<'_>, outgoing: &mut Outgoing, notices: &mut Notices) {
+        let number = outgoing.base();
+        let has_taken = |peer: &RobotId| {
+            let receiver = outgoing.receivers.get(peer);
+            receiver.is_some_and(|receiver| receiver.taken.contains(number))
+        };
+        let is_meant = |peer: &RobotId| !self.is_local || outgoing.receivers.contains_key(peer);
+        let unreached: Vec<RobotId> = match self.to {
+            Some(to) => alloc::vec![to],
+            None => robot
+                .peers()
+                .filter(|peer| is_meant(peer) && !has_taken(peer))
+                .collect(),
+        };
+        let message = self.name(number);
+        if outgoing.pop() {
+            notices.push(match unreached.is_empty() {
+                true => Notice::Acknowledged(message),
+                false => Notice::Failed { message, unreached },
+            });
+        }
+    }
+
+    /// Whether the time of the first message is up. One that a receiver holds for another one gets a little
+    /// more, in which the receiver hears that the other one was given up.
+    fn is_over(&self, outgoing: &Outgoing, now: Time) -> bool {
+        let Some((number, message)) = outgoing.first() else {
+            return false;
+        };
+        let mut receivers = outgoing.receivers.values();
+        let is_held = receivers.any(|receiver| receiver.held.contains(number));
+        now >= message.sent + self.options.patience(is_held)
+    }
+
+    /// Gives up what is over and tries those again that are due. Gives when to do so next.
+    pub fn look_after(
+        &self,
+        robot: &mut Robot<'_>,
+        outgoing: &mut Outgoing,
+        notices: &mut Notices,
+    ) -> Option<Time> {
+        let now = robot.now();
+        let base = outgoing.base();
+        while self.is_over(outgoing, now) {
+            self.give_up(robot, outgoing, notices);
+        }
+        let has_given_up = outgoing.base() > base;
+        let (_, first) = outgoing.first()?;
+        let mut wake = first.sent + self.options.patience(false);
+        if wake <= now {
+            wake = now + self.options.first_timeout;
+        }
+        let receivers: Vec<RobotId> = outgoing.receivers.keys().copied().collect();
+        for peer in receivers {
+            let Some(mut receiver) = outgoing.receivers.remove(&peer) else {
+                continue;
+            };
+            if let Some(pending) = outgoing.first_pending(&receiver) {
+                if has_given_up && receiver.held.contains(pending) {
+                    receiver.trying = Trying {
+                        attempt: 0,
+                        due: Some(now),
+                    };
+                }
+                let due = self.try_again(robot, outgoing, (peer, &mut receiver), notices);
+                wake = wake.min(due);
+            }
+            outgoing.receivers.insert(peer, receiver);
+        }
+        if outgoing.receivers.len() < self.receivers(robot) {
+            let mut trying = outgoing.strangers;
+            let due = trying.due.unwrap_or(now);
+            if due <= now {
+                self.remind(robot, outgoing);
+                trying.attempt = trying.attempt.saturating_add(1);
+                trying.due = Some(now + self.stretched(robot, trying.attempt));
+            }
+            outgoing.strangers = trying;
+            wake = wake.min(trying.due.unwrap_or(wake));
+        }
+        Some(wake)
+    }
+
+    /// Tries a receiver with what it lacks, if it is time; gives when it is next.
+    fn try_again(
+        &self,
+        robot: &mut Robot<'_>,
+        outgoing: &Outgoing,
+        (peer, receiver): (RobotId, &mut Receiver),
+        notices: &mut Notices,
+    ) -> Time {
+        let now = robot.now();
+        let pending = outgoing.first_pending(receiver);
+        let sent = pending
+            .and_then(|number| outgoing.get(number))
+            .map(|m| m.sent);
+        let first = sent.unwrap_or(now) + self.options.first_timeout;
+        let due = receiver.trying.due.unwrap_or(first);
+        if due > now {
+            receiver.trying.due = Some(due);
+            return due;
+        }
+        receiver.resent = receiver.resent.split_off(&outgoing.base());
+        // Where several together do not get through one alone may.
+        let most = if receiver.trying.attempt < 2 {
+            CHUNK
+        } else {
+            0
+        };
+        let numbers = self.resend(robot, outgoing, receiver, (peer, most), |_| true);
+        if numbers.is_empty() {
+            self.send(robot, outgoing, Head::to(peer, receiver), &[]);
+        }
+        self.tell(&numbers, peer, notices);
+        let trying = &mut receiver.trying;
+        trying.attempt = trying.attempt.saturating_add(1);
+        let due = now + self.stretched(robot, trying.attempt);
+        trying.due = Some(due);
+        due
+    }
+}
