@@ -146,32 +146,24 @@ impl Profile {
 
 /// Each kind of trouble three times out of four.
 fn chaos(trouble: &mut Trouble<'_>) {
-    let kinds: [fn(&mut Trouble<'_>); 4] = [
+    let kinds = [
         network::lossy,
         partitions::part,
         crashes::crash,
         clocks::set_wrong,
     ];
-    for kind in kinds {
-        if trouble.random.chance(0.75) {
-            kind(trouble);
-        }
-    }
+    trouble.draw(0.75, kinds);
 }
 
 /// Each kind of trouble every other time.
 fn swarm(trouble: &mut Trouble<'_>) {
-    let kinds: [fn(&mut Trouble<'_>); 4] = [
+    let kinds = [
         network::lossy,
         network::late,
         partitions::part,
         clocks::set_wrong,
     ];
-    for kind in kinds {
-        if trouble.random.chance(0.5) {
-            kind(trouble);
-        }
-    }
+    trouble.draw(0.5, kinds);
     // One way to go down at a time, so that whoever is down is known.
     match trouble.random.below(5) {
         0 => crashes::crash(trouble),
@@ -190,6 +182,15 @@ struct Trouble<'a> {
 }
 
 impl Trouble<'_> {
+    /// Each of these with this likelihood.
+    fn draw(&mut self, likelihood: f64, kinds: [fn(&mut Trouble<'_>); 4]) {
+        for kind in kinds {
+            if self.random.chance(likelihood) {
+                kind(self);
+            }
+        }
+    }
+
     fn robots(&self) -> Vec<RobotId> {
         (0..self.scenario.fleet.len() as u32).map(RobotId).collect()
     }

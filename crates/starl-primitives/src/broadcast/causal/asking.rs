@@ -10,7 +10,7 @@ pub(super) struct Doubt {
     ticket: u32,
     /// The life that was heard then, and how much of it had been taken.
     taken: Option<(u32, u32)>,
-    /// What had arrived then.
+    /// How many messages had arrived when it was asked.
     since: u64,
     /// The count of looks then.
     looks: Look,
@@ -74,7 +74,8 @@ impl Causal {
             life.taken = last;
         }
         life.settled = life.settled.min(last);
-        // What had arrived by then cannot come after more, and of other lives none is yet to come.
+        // Messages that had arrived before the question name no later messages than that, and any other life
+        // that they name is over.
         for held in self.held.values_mut().flatten() {
             let about = held
                 .after

@@ -147,7 +147,7 @@ impl Causal {
         robot.deliver(arrival.from, port, arrival.content);
     }
 
-    /// What comes before and has not come is not waited for any longer.
+    /// Stops waiting for a message; that is on record if it was missed.
     fn pass_over(&mut self, robot: &mut Robot<'_>, need: &Need) {
         let After { process, number } = need.after;
         let from = process.robot;

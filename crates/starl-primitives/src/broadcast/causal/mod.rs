@@ -50,7 +50,7 @@ type Look = u32;
 pub(super) struct Causal {
     pub channel: Channel,
     vector: Vector,
-    /// What is held back, by its sender, in the order in which it came.
+    /// Messages that wait, by sender, in the order in which they arrived.
     held: BTreeMap<RobotId, VecDeque<Held>>,
     /// How many messages that are.
     count: usize,
@@ -175,7 +175,7 @@ impl Causal {
             number: number - 1,
         });
         let queue = self.held.entry(from).or_default();
-        // What it sent in an earlier life comes first.
+        // Messages of the sender's earlier life are handed out first.
         let before = queue.back().map(|last| &last.arrival);
         after.extend(
             before

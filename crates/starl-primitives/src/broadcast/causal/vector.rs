@@ -50,7 +50,7 @@ struct Unheard {
     since: u64,
 }
 
-/// What is known of a robot.
+/// The lives of one robot.
 #[derive(Clone, Debug, Default)]
 struct Known {
     present: Option<Life>,
@@ -73,7 +73,7 @@ impl Known {
     }
 }
 
-/// What a life is to this robot.
+/// How far a life has been heard.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Standing {
     /// It is heard.
@@ -181,8 +181,8 @@ impl Vector {
         }
     }
 
-    /// What a message that is sent now comes after: of each robot the life that is heard, and as
-    /// long as nothing was taken of that, those before it.
+    /// The messages that come before one that is sent now. Of each robot that is the life that is heard. As long
+    /// as nothing was taken of it, its earlier lives are listed too.
     pub fn now(&self) -> Vec<After> {
         let mut all = Vec::new();
         for (&robot, known) in &self.0 {
