@@ -9,6 +9,9 @@ use starl_core::{Destination, Duration, Robot, RobotId, Time};
 /// Datagrams with several messages are not longer than this, bytes.
 pub(super) const CHUNK: usize = 1000;
 
+/// So many datagrams are sent again at once to a receiver that answers.
+const BURST: usize = 4;
+
 /// So many robots at most are told that they need not answer.
 const MOST_KNOWN: usize = 100;
 
@@ -111,7 +114,7 @@ impl Line {
 
     /// Sends a receiver a datagram of at most so many bytes, or one message, with messages that it lacks and that
     /// were last sent when `is_due` says, the longest ago first. Gives them.
-    pub fn resend(
+    fn resend(
         &self,
         robot: &mut Robot<'_>,
         outgoing: &Outgoing,
@@ -143,8 +146,67 @@ impl Line {
         numbers
     }
 
+    /// Sends a receiver a datagram with messages that it lacks, or where it lacks none, how far the stream is.
+    pub fn bring_up(
+        &self,
+        robot: &mut Robot<'_>,
+        outgoing: &Outgoing,
+        receiver: &mut Receiver,
+        (peer, most): (RobotId, usize),
+        notices: &mut Notices,
+    ) {
+        let numbers = self.resend(robot, outgoing, receiver, (peer, most), |_| true);
+        if numbers.is_empty() {
+            self.send(robot, outgoing, Head::to(peer, receiver), &[]);
+        }
+        self.tell(&numbers, peer, notices);
+    }
+
+    /// Sends a receiver again what was lost, as what it has shows: `newest` is when the latest of that was sent. Gives
+    /// when it is tried next, if it lacks anything.
+    pub fn recover(
+        &self,
+        robot: &mut Robot<'_>,
+        outgoing: &mut Outgoing,
+        peer: RobotId,
+        newest: Option<Time>,
+        notices: &mut Notices,
+    ) -> Option<Time> {
+        let now = robot.now();
+        let first_timeout = self.options.first_timeout;
+        let mut receiver = outgoing.receivers.remove(&peer)?;
+        if outgoing.first_pending(&receiver).is_none() {
+            receiver.trying = Trying::default();
+            receiver.resent.clear();
+            outgoing.receivers.insert(peer, receiver);
+            return None;
+        }
+        // Whoever answers would have had what was sent a time-out ago, or well before what it has.
+        let is_before = |sent: Time, later: Time, gap| sent + gap <= later;
+        let lost = |sent: Time| {
+            is_before(sent, now, first_timeout)
+                || newest.is_some_and(|newest| is_before(sent, newest, first_timeout / 4))
+        };
+        for _ in 0..BURST {
+            let numbers = self.resend(robot, outgoing, &mut receiver, (peer, CHUNK), lost);
+            if numbers.is_empty() {
+                break;
+            }
+            self.tell(&numbers, peer, notices);
+        }
+        if newest.is_some() || receiver.trying.due.is_none() {
+            receiver.trying = Trying {
+                attempt: 0,
+                due: Some(now + self.stretched(robot, 0)),
+            };
+        }
+        let due = receiver.trying.due;
+        outgoing.receivers.insert(peer, receiver);
+        due
+    }
+
     /// What the owner learns of messages that were sent again.
-    pub fn tell(&self, numbers: &[u32], to: RobotId, notices: &mut Notices) {
+    fn tell(&self, numbers: &[u32], to: RobotId, notices: &mut Notices) {
         let names = numbers.iter().map(|&number| self.name(number));
         let to = || alloc::vec![to];
         notices.extend(names.map(|message| Notice::Repeated { message, to: to() }));
@@ -260,11 +322,7 @@ impl Line {
         } else {
             0
         };
-        let numbers = self.resend(robot, outgoing, receiver, (peer, most), |_| true);
-        if numbers.is_empty() {
-            self.send(robot, outgoing, Head::to(peer, receiver), &[]);
-        }
-        self.tell(&numbers, peer, notices);
+        self.bring_up(robot, outgoing, receiver, (peer, most), notices);
         let trying = &mut receiver.trying;
         trying.attempt = trying.attempt.saturating_add(1);
         let due = now + self.stretched(robot, trying.attempt);

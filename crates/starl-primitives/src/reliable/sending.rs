@@ -5,15 +5,12 @@
 //! lacks after a time-out, which doubles each time. What is sent again to a receiver shares datagrams.
 
 use super::line::{CHUNK, Head};
-use super::outgoing::{Credit, Trying};
+use super::outgoing::Credit;
 use super::packet::Stream;
 use super::{Alarm, MessageId, Notice, Notices, Reliable};
 use alloc::vec::Vec;
 use core::ops::Range;
 use starl_core::{Duration, Payload, Robot, RobotId, Time, TimerKey};
-
-/// So many datagrams are sent again at once to a receiver that answers.
-const BURST: usize = 4;
 
 impl Reliable {
     /// Sends a new message to one robot or to all.
@@ -71,57 +68,8 @@ impl Reliable {
         let ahead = runs(before, &ahead);
         let Credit { settled, newest } = outgoing.credit(from, before, &ahead, are_taken);
         let settled = settled.into_iter().map(|number| line.name(number));
-        let notices: Notices = settled.map(Notice::Acknowledged).collect();
-        self.recover(robot, to, from, newest, notices)
-    }
-
-    /// Sends a receiver again what was lost, as what it has shows.
-    fn recover(
-        &mut self,
-        robot: &mut Robot<'_>,
-        to: Option<RobotId>,
-        peer: RobotId,
-        newest: Option<Time>,
-        mut notices: Notices,
-    ) -> Notices {
-        let incarnation = self.incarnation.of(robot);
-        let line = self.line(incarnation, to);
-        let now = robot.now();
-        let first_timeout = self.options.first_timeout;
-        let Some(outgoing) = self.outgoing(to) else {
-            return notices;
-        };
-        let Some(mut receiver) = outgoing.receivers.remove(&peer) else {
-            return notices;
-        };
-        let mut wake = None;
-        if outgoing.first_pending(&receiver).is_none() {
-            receiver.trying = Trying::default();
-            receiver.resent.clear();
-        } else {
-            for _ in 0..BURST {
-                // Whoever answers would have had what was sent a time-out ago, or well before what it has.
-                let is_before = |sent: Time, later: Time, gap| sent + gap <= later;
-                let lost = |sent: Time| {
-                    is_before(sent, now, first_timeout)
-                        || newest.is_some_and(|newest| is_before(sent, newest, first_timeout / 4))
-                };
-                let numbers = line.resend(robot, outgoing, &mut receiver, (peer, CHUNK), lost);
-                if numbers.is_empty() {
-                    break;
-                }
-                line.tell(&numbers, peer, &mut notices);
-            }
-            if newest.is_some() || receiver.trying.due.is_none() {
-                receiver.trying = Trying {
-                    attempt: 0,
-                    due: Some(now + line.stretched(robot, 0)),
-                };
-            }
-            wake = receiver.trying.due;
-        }
-        outgoing.receivers.insert(peer, receiver);
-        match wake {
+        let mut notices: Notices = settled.map(Notice::Acknowledged).collect();
+        match line.recover(robot, outgoing, from, newest, &mut notices) {
             Some(due) => self.wake_to_resend(robot, due),
             None => self.rest(robot),
         }
@@ -145,19 +93,14 @@ impl Reliable {
         // A life that does not know this one holds nothing of it.
         receiver.held = super::runs::Runs::before(1);
         receiver.token = Some(token);
-        let any = |_: Time| true;
-        let numbers = line.resend(robot, outgoing, &mut receiver, (from, CHUNK), any);
-        if numbers.is_empty() {
-            line.send(robot, outgoing, Head::to(from, &receiver), &[]);
-        }
+        let mut notices = Notices::new();
+        line.bring_up(robot, outgoing, &mut receiver, (from, CHUNK), &mut notices);
         let due = now + line.stretched(robot, 0);
         receiver.trying.due.get_or_insert(due);
         outgoing.receivers.insert(from, receiver);
         if !self.is_idle() {
             self.wake_to_resend(robot, due);
         }
-        let mut notices = Notices::new();
-        line.tell(&numbers, from, &mut notices);
         notices
     }
 
@@ -166,9 +109,9 @@ impl Reliable {
         let soon = robot.now() + self.options.first_timeout;
         let direct = self.direct.get_mut(&peer);
         let all = core::iter::once(&mut self.multicast).chain(direct);
-        let mut receivers = all.filter_map(|outgoing| outgoing.receivers.get_mut(&peer));
+        let receivers = all.filter_map(|outgoing| outgoing.receivers.get_mut(&peer));
         let mut is_tried = false;
-        for receiver in receivers.by_ref() {
+        for receiver in receivers {
             if receiver.trying.due.is_some_and(|due| due > soon) {
                 receiver.trying.due = Some(soon);
                 is_tried = true;
