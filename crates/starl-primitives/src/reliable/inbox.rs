@@ -159,3 +159,39 @@ impl Sequence {
         (self.taken.next(), ahead.collect())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether the first message of an incarnation is handed out.
+    fn takes_first(inbox: &mut Inbox, incarnation: u32) -> bool {
+        // It answers the present token, if it is not heard already.
+        inbox.token = Some(3);
+        assert!(inbox.begin(incarnation, 3, 1));
+        let mut arrived = Arrived::new();
+        let sequence = inbox.sequence(incarnation).expect("it is heard");
+        sequence.hold(1, Payload::new(), 8, &mut arrived);
+        !arrived.is_empty()
+    }
+
+    #[test]
+    fn a_restart_of_either_side_undoes_that_messages_are_believed_to_be_taken() {
+        let mut inbox = Inbox::default();
+        // As a fault may have it.
+        inbox.heard = Some((7, Sequence::from(1_000_000)));
+        assert!(!takes_first(&mut inbox, 7));
+        assert!(takes_first(&mut inbox, 8), "the sender has restarted");
+        let mut inbox = Inbox::default();
+        assert!(takes_first(&mut inbox, 7), "the receiver has restarted");
+    }
+
+    #[test]
+    fn a_life_that_answers_an_earlier_token_is_not_heard() {
+        let mut inbox = Inbox::default();
+        inbox.token = Some(3);
+        assert!(inbox.begin(7, 3, 1));
+        assert!(!inbox.begin(6, 3, 1), "the token was answered before");
+        assert!(inbox.sequence(6).is_none() && inbox.sequence(7).is_some());
+    }
+}
