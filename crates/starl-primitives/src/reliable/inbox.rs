@@ -177,9 +177,11 @@ mod tests {
 
     #[test]
     fn a_restart_of_either_side_undoes_that_messages_are_believed_to_be_taken() {
-        let mut inbox = Inbox::default();
         // As a fault may have it.
-        inbox.heard = Some((7, Sequence::from(1_000_000)));
+        let mut inbox = Inbox {
+            heard: Some((7, Sequence::from(1_000_000))),
+            ..Inbox::default()
+        };
         assert!(!takes_first(&mut inbox, 7));
         assert!(takes_first(&mut inbox, 8), "the sender has restarted");
         let mut inbox = Inbox::default();
@@ -188,8 +190,10 @@ mod tests {
 
     #[test]
     fn a_life_that_answers_an_earlier_token_is_not_heard() {
-        let mut inbox = Inbox::default();
-        inbox.token = Some(3);
+        let mut inbox = Inbox {
+            token: Some(3),
+            ..Inbox::default()
+        };
         assert!(inbox.begin(7, 3, 1));
         assert!(!inbox.begin(6, 3, 1), "the token was answered before");
         assert!(inbox.sequence(6).is_none() && inbox.sequence(7).is_some());
