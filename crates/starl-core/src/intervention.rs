@@ -93,7 +93,7 @@ impl Intervention {
         let is_named = |name: &str| !name.trim().is_empty();
         match self {
             Intervention::Fault(FaultKind::Heal) => true,
-            Intervention::Fault(FaultKind::Partition(groups)) => {
+            Intervention::Fault(FaultKind::Partition(groups) | FaultKind::OneWay(groups)) => {
                 let mut robots: Vec<RobotId> = groups.iter().flatten().copied().collect();
                 robots.sort_unstable();
                 robots.windows(2).all(|pair| pair[0] != pair[1])
@@ -148,7 +148,7 @@ impl Intervention {
                 | FaultKind::FrozenSensor(robots)
                 | FaultKind::Repair(robots)
                 | FaultKind::CorruptState(robots) => sort(robots),
-                FaultKind::Partition(groups) => {
+                FaultKind::Partition(groups) | FaultKind::OneWay(groups) => {
                     groups.iter_mut().for_each(sort);
                     groups.retain(|group| !group.is_empty());
                 }
@@ -190,7 +190,9 @@ impl Intervention {
     pub fn robots(&self) -> Vec<RobotId> {
         match self {
             Intervention::Fault(kind) => match kind {
-                FaultKind::Partition(groups) => groups.iter().flatten().copied().collect(),
+                FaultKind::Partition(groups) | FaultKind::OneWay(groups) => {
+                    groups.iter().flatten().copied().collect()
+                }
                 FaultKind::Heal => Vec::new(),
                 FaultKind::Crash(robots)
                 | FaultKind::Restart(robots)
@@ -235,7 +237,9 @@ pub enum FaultKind {
     Restart(Vec<RobotId>),
     /// Robots in different groups do not hear each other; robots in no group form one more.
     Partition(Vec<Vec<RobotId>>),
-    /// All partitions end.
+    /// Robots of a group are heard neither by groups before theirs nor by robots in no group, and hear them all.
+    OneWay(Vec<Vec<RobotId>>),
+    /// All partitions end, and all that hinders in one direction.
     Heal,
     /// The motors act as if told to stop, whatever the program commands.
     StuckMotor(Vec<RobotId>),

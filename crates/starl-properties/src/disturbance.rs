@@ -45,7 +45,7 @@ impl Disturbance {
             self.corrupted = Some(at);
         }
         match (robot, change) {
-            (None, Change::Fault(Fault::Partition)) => self.is_parted = true,
+            (None, Change::Fault(fault)) if fault.parts() => self.is_parted = true,
             (None, Change::Fault(Fault::Heal)) => self.is_parted = false,
             _ => {}
         }

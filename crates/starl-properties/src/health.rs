@@ -47,7 +47,7 @@ impl Change<'_> {
             Change::Fault(Fault::FrozenSensor) => Some(Excuse::Sensors),
             Change::Fault(Fault::StuckMotor) => Some(Excuse::Motors),
             Change::Fault(Fault::CorruptState) => Some(Excuse::Corruption),
-            Change::Fault(Fault::Partition) => Some(Excuse::Partition),
+            Change::Fault(Fault::Partition | Fault::OneWay) => Some(Excuse::Partition),
             Change::Fault(
                 Fault::StorageLost | Fault::Restart | Fault::Heal | Fault::Repair | Fault::Other(_),
             ) => None,
@@ -187,7 +187,11 @@ impl Health {
             }
             Change::Fault(Fault::CorruptState) => for_a_moment = true,
             Change::Fault(
-                Fault::StorageLost | Fault::Partition | Fault::Heal | Fault::Other(_),
+                Fault::StorageLost
+                | Fault::Partition
+                | Fault::OneWay
+                | Fault::Heal
+                | Fault::Other(_),
             ) => {}
         }
         if condition.is_unwell(needs) {

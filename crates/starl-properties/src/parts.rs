@@ -2,11 +2,12 @@
 //!
 //! The trace says when a partition sets in and when all are healed, not who was in which part. That two
 //! robots were in the same one shows in the datagrams that came through: those sent after the partition
-//! had set in join their senders and receivers. Robots that nothing joined may have been apart.
+//! had set in join their senders and receivers; where robots may hear each other in one direction only, those that
+//! came through in both. Robots that nothing joined may have been apart.
 
 use starl_core::event::{Event, Fault};
 use starl_core::{Duration, Record, RobotId, Time};
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
 /// The partitions of a run, as far back as anyone asks.
 #[derive(Clone, Debug)]
@@ -28,6 +29,8 @@ struct Partition {
     /// By robot: another one of the same part, or itself. Following these leads to the one by which a
     /// part is known (disjoint sets: Galler and Fischer 1964).
     same_as: Vec<u32>,
+    /// Where robots may hear each other in one direction only: who has heard whom.
+    one_way: Option<BTreeSet<(RobotId, RobotId)>>,
 }
 
 impl Parts {
@@ -42,9 +45,9 @@ impl Parts {
     /// Takes note of partitions and datagrams.
     pub fn observe(&mut self, record: &Record) {
         match (&record.event, record.robot) {
-            (Event::Fault(Fault::Partition), None) => {
+            (Event::Fault(fault), None) if fault.parts() => {
                 self.end(record.at);
-                self.begin();
+                self.begin(*fault == Fault::OneWay);
             }
             (Event::Fault(Fault::Heal), None) => self.end(record.at),
             (&Event::Sent { sequence, .. }, Some(robot)) => {
@@ -69,11 +72,12 @@ impl Parts {
         apart.next().map_or(Time::ZERO, |partition| partition.ended)
     }
 
-    fn begin(&mut self) {
+    fn begin(&mut self, one_way: bool) {
         self.partitions.push_back(Partition {
             ended: Time::NEVER,
             sent_before: self.sent.clone(),
             same_as: (0..self.sent.len() as u32).collect(),
+            one_way: one_way.then(BTreeSet::new),
         });
     }
 
@@ -93,7 +97,17 @@ impl Partition {
         let before = self.sent_before.get(from.index()).copied().flatten();
         let (one, other) = (self.part(from), self.part(to));
         let (least, greatest) = (one.min(other), one.max(other));
-        if before.is_none_or(|before| before < sequence)
+        let is_recent = before.is_none_or(|before| before < sequence);
+        let is_answered = match &mut self.one_way {
+            Some(heard) if is_recent => {
+                heard.insert((to, from));
+                heard.contains(&(from, to))
+            }
+            Some(_) => false,
+            None => true,
+        };
+        if is_recent
+            && is_answered
             && let Some(same_as) = self.same_as.get_mut(greatest as usize)
         {
             *same_as = least;
@@ -116,5 +130,48 @@ impl Partition {
             part = next;
         }
         part
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use starl_core::{Destination, Payload, Port};
+
+    /// Robot 0 and robot 1 send a datagram each while the network is cut so, of which these come through.
+    fn together_after(cut: Fault, through: &[(u32, u32)]) -> bool {
+        let mut parts = Parts::new(2, Duration::from_seconds(60));
+        let mut tell = |robot: Option<u32>, event: Event| {
+            let robot = robot.map(RobotId);
+            let at = Time::ZERO;
+            parts.observe(&Record { at, robot, event });
+        };
+        tell(None, Event::Fault(cut));
+        for from in 0..2 {
+            let sent = Event::Sent {
+                sequence: 0,
+                destination: Destination::All,
+                port: Port::named("any"),
+                payload: Payload::new(),
+            };
+            tell(Some(from), sent);
+        }
+        for &(from, to) in through {
+            let from = RobotId(from);
+            tell(Some(to), Event::Delivered { from, sequence: 0 });
+        }
+        parts.together_since(RobotId(0), RobotId(1)) != Time::NEVER
+    }
+
+    #[test]
+    fn who_is_heard_is_in_the_same_part() {
+        assert!(!together_after(Fault::Partition, &[]));
+        assert!(together_after(Fault::Partition, &[(0, 1)]));
+    }
+
+    #[test]
+    fn who_is_heard_and_does_not_hear_may_be_apart() {
+        assert!(!together_after(Fault::OneWay, &[(0, 1)]));
+        assert!(together_after(Fault::OneWay, &[(0, 1), (1, 0)]));
     }
 }

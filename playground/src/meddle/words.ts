@@ -38,6 +38,7 @@ function fault(fault: Fault, names: (robots: number[]) => string): string {
   if ("crash" in fault) return `crash ${names(fault.crash)}`;
   if ("restart" in fault) return `restart ${names(fault.restart)}`;
   if ("partition" in fault) return `cut the network: ${fault.partition.map(names).join(" | ")} | the others`;
+  if ("one_way" in fault) return `let ${fault.one_way.map(names).join(" | ")} not be heard by those before`;
   if ("stuck_motor" in fault) return `stick the motors of ${names(fault.stuck_motor)}`;
   if ("frozen_sensor" in fault) return `freeze the sensors of ${names(fault.frozen_sensor)}`;
   if ("repair" in fault) return `repair ${names(fault.repair)}`;

@@ -101,7 +101,7 @@ impl Story {
             robots: robots.map(|robot| scenario.fleet.name(robot)).collect(),
             coming: partitions
                 .filter_map(|fault| match fault.kind {
-                    FaultKind::Partition(parts) => Some(parts),
+                    FaultKind::Partition(parts) | FaultKind::OneWay(parts) => Some(parts),
                     _ => None,
                 })
                 .collect(),
@@ -165,7 +165,7 @@ impl Story {
 
     fn steered(&mut self, what: &Intervention) {
         match what {
-            Intervention::Fault(FaultKind::Partition(parts)) => {
+            Intervention::Fault(FaultKind::Partition(parts) | FaultKind::OneWay(parts)) => {
                 self.coming.push_front(parts.clone());
             }
             Intervention::Join { name, pose, .. } => {
@@ -234,7 +234,7 @@ impl Story {
         if let Some(last) = self.partitions.last_mut() {
             last.to = last.to.min(at);
         }
-        if *fault == Fault::Partition {
+        if fault.parts() {
             self.partitions.push(Partition {
                 from: at,
                 to: Time::NEVER,

@@ -4,7 +4,8 @@ use super::Name;
 use core::fmt;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A fault that set in, or was healed. A partition and its end are the network's; all others are a robot's.
+/// A fault that set in, or was healed. A partition, in both directions or one, and its end are the network's; all others
+/// are a robot's.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// The robot is down.
@@ -15,6 +16,8 @@ pub enum Fault {
     Restart,
     /// The network falls into parts, which may have been others before.
     Partition,
+    /// Some robots are not heard by others, which they hear.
+    OneWay,
     /// The network is whole again.
     Heal,
     /// The robot's motors do not answer.
@@ -31,17 +34,23 @@ pub enum Fault {
 
 impl Fault {
     /// All that have a name of their own.
-    const KNOWN: [Fault; 9] = [
+    const KNOWN: [Fault; 10] = [
         Fault::Crash,
         Fault::StorageLost,
         Fault::Restart,
         Fault::Partition,
+        Fault::OneWay,
         Fault::Heal,
         Fault::StuckMotor,
         Fault::FrozenSensor,
         Fault::Repair,
         Fault::CorruptState,
     ];
+
+    /// Whether it keeps robots from hearing each other, until the network is whole again.
+    pub fn parts(&self) -> bool {
+        matches!(self, Fault::Partition | Fault::OneWay)
+    }
 
     /// What traces call it.
     pub fn name(&self) -> &str {
@@ -50,6 +59,7 @@ impl Fault {
             Fault::StorageLost => "storage lost",
             Fault::Restart => "restart",
             Fault::Partition => "partition",
+            Fault::OneWay => "one way",
             Fault::Heal => "heal",
             Fault::StuckMotor => "stuck motor",
             Fault::FrozenSensor => "frozen sensor",

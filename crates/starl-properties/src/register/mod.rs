@@ -367,7 +367,7 @@ impl Checker for Register {
                         }
                         self.corrupted = true;
                     }
-                    (None, Fault::Partition) => self.is_parted = true,
+                    (None, fault) if fault.parts() => self.is_parted = true,
                     (None, Fault::Heal) => self.is_parted = false,
                     _ => return,
                 }

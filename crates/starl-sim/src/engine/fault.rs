@@ -98,6 +98,7 @@ pub fn event(kind: &FaultKind) -> Event {
         FaultKind::Crash(_) => event::Fault::Crash,
         FaultKind::Restart(_) => event::Fault::Restart,
         FaultKind::Partition(_) => event::Fault::Partition,
+        FaultKind::OneWay(_) => event::Fault::OneWay,
         FaultKind::Heal => event::Fault::Heal,
         FaultKind::StuckMotor(_) => event::Fault::StuckMotor,
         FaultKind::FrozenSensor(_) => event::Fault::FrozenSensor,

@@ -196,7 +196,8 @@ impl Simulation {
             self.corrupted = at;
         }
         let robots = match kind {
-            FaultKind::Partition(groups) => {
+            FaultKind::Partition(groups) | FaultKind::OneWay(groups) => {
+                self.shared.one_way = matches!(kind, FaultKind::OneWay(_));
                 self.shared.parts = fault::parts(groups, self.shared.bodies.len());
                 return self.note(at, fault::event(kind));
             }

@@ -54,6 +54,8 @@ pub struct Shared {
     pub inboxes: Inboxes,
     /// Each robot's part of a partitioned network; empty while there is none.
     pub parts: Vec<u32>,
+    /// Whether parts hear those before them.
+    pub one_way: bool,
     pub wind: Point,
     /// As the scenario has it, or as it has been changed since.
     pub network: Network,
@@ -65,9 +67,16 @@ pub struct Shared {
 }
 
 impl Shared {
-    /// Whether a partition keeps two robots apart.
-    pub fn parted(&self, a: RobotId, b: RobotId) -> bool {
-        !self.parts.is_empty() && self.parts[a.index()] != self.parts[b.index()]
+    /// Whether a partition keeps a robot from being heard by another.
+    pub fn parted(&self, from: RobotId, to: RobotId) -> bool {
+        if self.parts.is_empty() {
+            return false;
+        }
+        let (from, to) = (self.parts[from.index()], self.parts[to.index()]);
+        match self.one_way {
+            true => from > to,
+            false => from != to,
+        }
     }
 
     /// What disturbs a robot's motion during a step.

@@ -95,6 +95,7 @@ impl Simulation {
             grid: Default::default(),
             inboxes: Default::default(),
             parts: Vec::new(),
+            one_way: false,
             wind: Point::ZERO,
             network: scenario.network.clone(),
             obstacles: scenario.world.obstacles.clone(),

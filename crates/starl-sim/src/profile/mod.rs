@@ -40,7 +40,8 @@ pub enum Profile {
     Chaos,
     /// Variables are overwritten at random.
     Corruption,
-    /// Some of the above, copies that come seconds late, robots that restart again and again, and majorities that
+    /// Some of the above, copies that come seconds late, robots that are not heard by those whom they hear, robots that
+    /// restart again and again, and majorities that
     /// crash at once: each run draws which, so that rare combinations meet (swarm testing, Groce et al. 2012).
     Swarm,
 }
@@ -152,7 +153,7 @@ fn chaos(trouble: &mut Trouble<'_>) {
         crashes::crash,
         clocks::set_wrong,
     ];
-    trouble.draw(0.75, kinds);
+    trouble.draw(0.75, &kinds);
 }
 
 /// Each kind of trouble every other time.
@@ -161,9 +162,10 @@ fn swarm(trouble: &mut Trouble<'_>) {
         network::lossy,
         network::late,
         partitions::part,
+        partitions::one_way,
         clocks::set_wrong,
     ];
-    trouble.draw(0.5, kinds);
+    trouble.draw(0.5, &kinds);
     // One way to go down at a time, so that whoever is down is known.
     match trouble.random.below(5) {
         0 => crashes::crash(trouble),
@@ -183,7 +185,7 @@ struct Trouble<'a> {
 
 impl Trouble<'_> {
     /// Each of these with this likelihood.
-    fn draw(&mut self, likelihood: f64, kinds: [fn(&mut Trouble<'_>); 4]) {
+    fn draw(&mut self, likelihood: f64, kinds: &[fn(&mut Trouble<'_>)]) {
         for kind in kinds {
             if self.random.chance(likelihood) {
                 kind(self);

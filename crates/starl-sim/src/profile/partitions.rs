@@ -7,6 +7,15 @@ use starl_core::RobotId;
 /// One to three partitions one after the other, each into two parts, now and then into three; the last
 /// is healed for good, the others mostly.
 pub(super) fn part(trouble: &mut Trouble<'_>) {
+    cut(trouble, FaultKind::Partition);
+}
+
+/// The same, but that parts hear those before them.
+pub(super) fn one_way(trouble: &mut Trouble<'_>) {
+    cut(trouble, FaultKind::OneWay);
+}
+
+fn cut(trouble: &mut Trouble<'_>, kind: fn(Vec<Vec<RobotId>>) -> FaultKind) {
     let robots = trouble.robots();
     if robots.len() < 2 {
         return;
@@ -16,7 +25,7 @@ pub(super) fn part(trouble: &mut Trouble<'_>) {
     moments.sort_unstable();
     for (index, &at) in moments.iter().enumerate() {
         let parts = split(trouble, robots.clone());
-        trouble.add(at, FaultKind::Partition(parts));
+        trouble.add(at, kind(parts));
         let next = moments.get(index + 1).copied();
         let end = (at + trouble.span(0.05, 0.5)).min(trouble.until);
         match next {

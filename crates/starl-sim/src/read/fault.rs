@@ -86,7 +86,7 @@ pub(super) fn check_time(table: Section<'_>, at: Option<Duration>, duration: Dur
 /// The fields that a kind of fault needs, and those that it may have; none for what is no fault.
 pub(super) fn fields(kind: &str) -> Option<(&'static [&'static str], &'static [&'static str])> {
     match kind {
-        "partition" => Some((&["groups"], &[])),
+        "partition" | "one_way" => Some((&["groups"], &[])),
         "heal" => Some((&[], &[])),
         "crash" | "restart" | "stuck_motor" | "frozen_sensor" | "repair" | "corrupt_state" => {
             Some((&["robots"], &[]))
@@ -127,6 +127,7 @@ pub(super) fn kind(table: Section<'_>, names: &Names, kind: &str) -> Option<Faul
         "crash" => FaultKind::Crash(some()),
         "restart" => FaultKind::Restart(some()),
         "partition" => FaultKind::Partition(names.parts(table, "groups")),
+        "one_way" => FaultKind::OneWay(names.parts(table, "groups")),
         "heal" => FaultKind::Heal,
         "stuck_motor" => FaultKind::StuckMotor(some()),
         "frozen_sensor" => FaultKind::FrozenSensor(some()),

@@ -19,7 +19,9 @@ fn apart(Fault { at, kind }: Fault) -> Vec<Fault> {
         FaultKind::FrozenSensor(_) => FaultKind::FrozenSensor,
         FaultKind::Repair(_) => FaultKind::Repair,
         FaultKind::CorruptState(_) => FaultKind::CorruptState,
-        FaultKind::Partition(_) | FaultKind::Heal => return vec![Fault { at, kind }],
+        FaultKind::Partition(_) | FaultKind::OneWay(_) | FaultKind::Heal => {
+            return vec![Fault { at, kind }];
+        }
     };
     let (FaultKind::Crash(robots)
     | FaultKind::Restart(robots)

@@ -57,6 +57,10 @@ pub fn keep_robots(scenario: &Scenario, kept: &[usize]) -> Scenario {
 
 /// A fault of robots with new numbers; none if it is nobody's any more.
 fn renumbered(fault: &Fault, new: &dyn Fn(&[RobotId]) -> Vec<RobotId>) -> Option<Fault> {
+    let manned = |parts: &[Vec<RobotId>]| -> Vec<Vec<RobotId>> {
+        let parts = parts.iter().map(|part| new(part));
+        parts.filter(|part| !part.is_empty()).collect()
+    };
     let kind = match &fault.kind {
         FaultKind::Crash(robots) => FaultKind::Crash(new(robots)),
         FaultKind::Restart(robots) => FaultKind::Restart(new(robots)),
@@ -65,13 +69,11 @@ fn renumbered(fault: &Fault, new: &dyn Fn(&[RobotId]) -> Vec<RobotId>) -> Option
         FaultKind::Repair(robots) => FaultKind::Repair(new(robots)),
         FaultKind::CorruptState(robots) => FaultKind::CorruptState(new(robots)),
         FaultKind::Heal => FaultKind::Heal,
-        FaultKind::Partition(parts) => {
-            let parts = parts.iter().map(|part| new(part));
-            FaultKind::Partition(parts.filter(|part| !part.is_empty()).collect())
-        }
+        FaultKind::Partition(parts) => FaultKind::Partition(manned(parts)),
+        FaultKind::OneWay(parts) => FaultKind::OneWay(manned(parts)),
     };
     let is_nobodys = match &kind {
-        FaultKind::Heal | FaultKind::Partition(_) => false,
+        FaultKind::Heal | FaultKind::Partition(_) | FaultKind::OneWay(_) => false,
         FaultKind::Crash(robots)
         | FaultKind::Restart(robots)
         | FaultKind::StuckMotor(robots)

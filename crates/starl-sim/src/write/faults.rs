@@ -37,6 +37,7 @@ fn kind_of(kind: &FaultKind) -> (&'static str, Option<&[RobotId]>) {
         FaultKind::Repair(robots) => ("repair", Some(robots)),
         FaultKind::CorruptState(robots) => ("corrupt_state", Some(robots)),
         FaultKind::Partition(_) => ("partition", None),
+        FaultKind::OneWay(_) => ("one_way", None),
         FaultKind::Heal => ("heal", None),
     }
 }
@@ -48,7 +49,7 @@ pub(super) fn set_kind(table: &mut Table, kind: &FaultKind, names: impl Fn(&[Rob
     if let Some(robots) = robots {
         table.set("robots", names(robots));
     }
-    if let FaultKind::Partition(groups) = kind {
+    if let FaultKind::Partition(groups) | FaultKind::OneWay(groups) = kind {
         let manned = groups.iter().filter(|group| !group.is_empty());
         table.set("groups", list(manned.map(|group| names(group))));
     }

@@ -106,6 +106,22 @@ fn a_partition_keeps_its_parts_apart_until_it_heals() {
 }
 
 #[test]
+fn robots_that_are_cut_off_in_one_direction_hear_and_are_not_heard() {
+    // Robot 0 speaks.
+    for (cut, heard_meanwhile) in [(0, 0), (1, 10)] {
+        let mut scenario = pair();
+        let groups = vec![vec![RobotId(cut)]];
+        fault(&mut scenario, 1000, FaultKind::OneWay(groups));
+        fault(&mut scenario, 2000, FaultKind::Heal);
+        let mut simulation = simulate(scenario, Chatter::default());
+        let heard = |event: &Event| matches!(event, Event::Program { .. });
+        assert_eq!(count(&run(&mut simulation, 1.0), heard), 10);
+        assert_eq!(count(&run(&mut simulation, 1.0), heard), heard_meanwhile);
+        assert_eq!(count(&run(&mut simulation, 1.0), heard), 10);
+    }
+}
+
+#[test]
 fn stuck_motors_stand_still_until_repaired() {
     let mut scenario = pair();
     fault(&mut scenario, 1000, FaultKind::StuckMotor(vec![RobotId(0)]));

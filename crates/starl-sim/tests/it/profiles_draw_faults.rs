@@ -69,9 +69,12 @@ fn everything_sets_in_and_mends_within_three_quarters_of_the_time() {
             "{}",
             profile.name()
         );
-        let last = schedule
-            .iter()
-            .rfind(|fault| matches!(fault.kind, FaultKind::Partition(_) | FaultKind::Heal));
+        let last = schedule.iter().rfind(|fault| {
+            matches!(
+                fault.kind,
+                FaultKind::Partition(_) | FaultKind::OneWay(_) | FaultKind::Heal
+            )
+        });
         let healed = last.is_none_or(|fault| fault.kind == FaultKind::Heal);
         assert!(healed, "{} {}", profile.name(), drawn.seed);
     });
@@ -114,7 +117,7 @@ fn partitions_part_the_whole_fleet() {
     let mut partitions = 0;
     every_case(|_, _, drawn| {
         for fault in &drawn.faults.schedule {
-            if let FaultKind::Partition(parts) = &fault.kind {
+            if let FaultKind::Partition(parts) | FaultKind::OneWay(parts) = &fault.kind {
                 partitions += 1;
                 let mut robots: Vec<RobotId> = parts.concat();
                 robots.sort_unstable();

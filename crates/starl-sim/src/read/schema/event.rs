@@ -7,6 +7,7 @@ const KINDS: &[&str] = &[
     "crash",
     "restart",
     "partition",
+    "one_way",
     "heal",
     "stuck_motor",
     "frozen_sensor",
@@ -66,7 +67,7 @@ const FIRST: &[Field] = &[
     field(
         "groups",
         Kind::RobotGroups,
-        Default::Depends("required for `partition`"),
+        Default::Depends("required for `partition` and `one_way`"),
         "The parts of the fleet; robots in none of them form one more.",
     ),
     field(

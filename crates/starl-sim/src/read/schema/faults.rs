@@ -7,6 +7,7 @@ const KINDS: &[&str] = &[
     "crash",
     "restart",
     "partition",
+    "one_way",
     "heal",
     "stuck_motor",
     "frozen_sensor",
@@ -26,13 +27,13 @@ pub(super) const FAULT: &[Field] = &[
     field(
         "robots",
         Kind::Robots,
-        Default::Depends("required, but not for `partition` and `heal`"),
+        Default::Depends("required, but not for `partition`, `one_way` and `heal`"),
         "Whom it concerns.",
     ),
     field(
         "groups",
         Kind::RobotGroups,
-        Default::Depends("required for `partition`, not for others"),
+        Default::Depends("required for `partition` and `one_way`, not for others"),
         "The parts of the fleet; robots in none of them form one more.",
     ),
 ];
