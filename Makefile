@@ -94,7 +94,7 @@ APPLICATIONS = race formation formation-space line intersection search flocking 
 faults: $(STARL)
 	tools/workloads.sh $(STARL) tools/workloads.txt --seeds 25 --out target/faults
 	tools/workloads.sh $(STARL) tools/loads.txt --seeds 2 --profile swarm --out target/faults
-	tools/storage.sh $(STARL) --seeds 25 --out target/faults
+	tools/workloads.sh $(STARL) tools/storage.txt --seeds 25 --out target/faults
 	$(STARL) test $(APPLICATIONS) --seeds 3 --profile lossy,partitions,crashes,clocks,chaos \
 		--out target/faults
 	$(STARL) test search-building intersection-stream --seeds 1 --profile partitions,chaos --out target/faults
@@ -105,7 +105,7 @@ nightly: setup $(RELEASE)
 	tools/examples.sh $(RELEASE) 50
 	tools/workloads.sh $(RELEASE) tools/workloads.txt --seeds 500 --out target/nightly
 	tools/workloads.sh $(RELEASE) tools/loads.txt --seeds 50 --out target/nightly
-	tools/storage.sh $(RELEASE) --seeds 500 --out target/nightly
+	tools/workloads.sh $(RELEASE) tools/storage.txt --seeds 500 --out target/nightly
 	$(RELEASE) test $(APPLICATIONS) --seeds 30 --out target/nightly
 	$(RELEASE) test search-building intersection-stream --seeds 10 --profile partitions,chaos --out target/nightly
 
