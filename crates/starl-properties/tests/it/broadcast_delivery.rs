@@ -64,9 +64,14 @@ fn a_bound_that_has_not_run_out_is_not_judged() {
 #[test]
 fn messages_are_told_apart_by_sender_and_number() {
     let mut story = robot_2_hears_nothing();
-    story.delivers(1100, 2, "broadcast", (0, 2));
-    story.delivers(1100, 2, "broadcast", (1, 1));
-    story.delivers(1100, 2, "geocast", (0, 1));
+    story.broadcasts(1000, 0, 2);
+    story.broadcasts(1000, 1, 1);
+    for robot in [1, 2] {
+        story.delivers(1100, robot, "broadcast", (0, 2));
+    }
+    for robot in [0, 2] {
+        story.delivers(1100, robot, "broadcast", (1, 1));
+    }
     assert_only(&story.verdict(60_000), "broadcast.delivery", 6000, &[0, 2]);
 }
 

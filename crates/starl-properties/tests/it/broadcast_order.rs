@@ -292,3 +292,22 @@ fn a_corruption_excuses_for_a_while() {
     handed(&mut story, 1400, 2, (0, 1));
     assert_none(&story.verdict(9000));
 }
+
+#[test]
+fn without_order_messages_come_in_any_order_and_once() {
+    let mut story = story();
+    for number in 1..=3 {
+        story.broadcasts(1000, 0, number);
+    }
+    for (millis, number) in [(1100, 3), (1110, 1), (1120, 2)] {
+        for robot in 1..3 {
+            handed(&mut story, millis, robot, (0, number));
+        }
+    }
+    assert_none(&story.verdict(9000));
+    let mut twice = story.clone();
+    handed(&mut twice, 1200, 2, (0, 1));
+    assert_only(&twice.verdict(9000), "broadcast.integrity", 1200, &[2, 0]);
+    handed(&mut story, 1200, 2, (0, 4));
+    assert_only(&story.verdict(9000), "broadcast.integrity", 1200, &[2, 0]);
+}
