@@ -70,7 +70,11 @@ impl Agreement {
     /// The sender has given it up: that is wrong only where nothing has happened that explains it, and then
     /// the bound tells.
     pub fn failed(&mut self, key: MessageKey, excused: &mut Excused) {
-        if self.last_fault.is_some() && self.handed.remove(&key).is_some() {
+        let Some((sent, _)) = self.handed.get(&key) else {
+            return;
+        };
+        if self.last_fault.is_some_and(|at| *sent < at + RECOVERY) {
+            self.handed.remove(&key);
             excused.note(AGREEMENT, Excuse::Recovery);
         }
     }
