@@ -1,5 +1,5 @@
 # The two commands of the README, and the parts that `make test` is made of.
-.PHONY: run setup test check unit portable wasm golden wasm-module page site web trace schema examples faults nightly million docs deny bench editors diagrams
+.PHONY: run setup test check unit portable wasm golden wasm-module page site web trace schema examples faults mutants nightly million docs deny bench editors diagrams
 
 VENV = target/venv/bin
 CARGO_TARGET_DIR ?= target
@@ -113,8 +113,14 @@ nightly: setup $(RELEASE)
 million: $(RELEASE)
 	tools/million.sh $(RELEASE) target/million
 
+# Bugs planted in the protocols and checkers, one at a time, and which of them the same workloads catch; goes on where it
+# was stopped. Not part of `make test`, which only looks whether the place of each bug is found: it takes an hour.
+mutants:
+	python3 tools/mutants.py --write
+
 docs:
 	python3 tools/check_docs.py
+	python3 tools/mutants.py --check
 	RUSTDOCFLAGS="--deny warnings" cargo doc --locked --workspace --no-deps
 
 deny:

@@ -1,6 +1,6 @@
 //! Unicast: what is sent to a robot reaches it in time, and once.
 //!
-//! A message is owed until the bound runs out or its sender reports that it has given it up, whichever is first.
+//! What a sender reports as acknowledged has arrived. A message is owed until the bound runs out or its sender reports that it has given it up, whichever is first.
 //! Excused is what a robot that was down sent or was sent, and what a partition kept back.
 
 use super::health::{Health, Needs};
@@ -70,6 +70,10 @@ impl Unicast {
                     self.judge(at, key, to, "before its sender gave it up", found);
                 }
             }
+            UnicastEvent::Transfer(TransferEvent::Acknowledged { message, to }) => {
+                let key = report.message(robot, *message);
+                self.acknowledged(at, key, *to, found);
+            }
             UnicastEvent::Transfer(_) => {}
         }
     }
@@ -88,6 +92,24 @@ impl Unicast {
         let MessageKey { from, number, .. } = *key;
         let text = format!("robot {robot} was handed message {number} of robot {from}, {what}");
         found.push(Violation::new(INTEGRITY, at, [robot, from], text));
+    }
+
+    /// No fault excuses a sender that believes what is not so.
+    fn acknowledged(
+        &mut self,
+        at: Time,
+        key: MessageKey,
+        to: Option<RobotId>,
+        found: &mut Vec<Violation>,
+    ) {
+        let Some(to) = to.filter(|to| self.owed.remove(&(key, *to)).is_some()) else {
+            return;
+        };
+        let MessageKey { from, number, .. } = key;
+        let text = format!(
+            "robot {from} says that robot {to} has acknowledged its message {number}, which did not reach it"
+        );
+        found.push(Violation::new(DELIVERY, at, [from, to], text));
     }
 
     /// The message was to have reached the robot by now.

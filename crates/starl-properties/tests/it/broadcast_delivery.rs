@@ -216,3 +216,20 @@ fn a_cut_that_is_old_when_another_partition_sets_in_is_still_known_while_it_coun
     story.fault(5900, None, "partition");
     assert_none(&story.verdict(60_000));
 }
+
+#[test]
+fn what_is_acknowledged_was_handed_to_all_whatever_has_happened() {
+    let acknowledged = |story: &mut Story| {
+        let fields = [("number", 1u32.into()), ("incarnation", 7u32.into())];
+        story.report(3000, 0, ("broadcast", "acknowledged"), fields);
+    };
+    let mut story = robot_2_hears_nothing();
+    story.fault(1500, Some(2), "crash");
+    acknowledged(&mut story);
+    assert_only(&story.verdict(60_000), "broadcast.delivery", 3000, &[0, 2]);
+    let mut story = robot_2_hears_nothing();
+    story.delivers(1400, 2, "broadcast", (0, 1));
+    story.fault(1500, Some(2), "crash");
+    acknowledged(&mut story);
+    assert_none(&story.verdict(60_000));
+}

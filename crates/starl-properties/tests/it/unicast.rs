@@ -84,3 +84,24 @@ fn what_was_sent_to_another_robot_is_not_handed_out() {
     story.delivers(1200, 1, "unicast", (0, 1));
     assert_only(&story.verdict(60_000), "unicast.integrity", 1200, &[1, 0]);
 }
+
+#[test]
+fn what_is_acknowledged_has_arrived_whatever_has_happened() {
+    let acknowledged = |story: &mut Story| {
+        let fields = [
+            ("number", 1u32.into()),
+            ("incarnation", 7u32.into()),
+            ("to", RobotId(2).into()),
+        ];
+        story.report(3000, 0, ("unicast", "acknowledged"), fields);
+    };
+    let mut story = sent(1, 2);
+    story.fault(1500, Some(2), "crash");
+    acknowledged(&mut story);
+    assert_only(&story.verdict(60_000), "unicast.delivery", 3000, &[0, 2]);
+    let mut story = sent(1, 2);
+    story.delivers(1400, 2, "unicast", (0, 1));
+    story.fault(1500, Some(2), "crash");
+    acknowledged(&mut story);
+    assert_none(&story.verdict(60_000));
+}
