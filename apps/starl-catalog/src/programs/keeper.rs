@@ -1,11 +1,13 @@
-//! A robot that reads, writes and updates one register at random. Programs in the language use registers in actions with
-//! `atomic` alone, which only update.
+//! A robot that reads and writes one register and reads and updates another, at random. Programs in the language use
+//! registers in actions with `atomic` alone, which only update.
 
 use starl_core::{Duration, Payload, Primitives, Program, Random, Robot, Time};
 use starl_primitives::register::{OperationId, Options, Status as Progress};
 use starl_primitives::{FailureDetector, Register, failure_detector};
 
-const REGISTER: &str = "x";
+/// The register that is written, and the one that is claimed to update it: who claims one refuses those who write it.
+const WRITTEN: &str = "written";
+const UPDATED: &str = "updated";
 
 /// The program of one robot.
 #[derive(Clone, Debug, Primitives)]
@@ -48,7 +50,7 @@ impl Keeper {
             Progress::Pending | Progress::NoQuorum => return false,
             Progress::Done(_) if operation.is_claim => {
                 let value = value(robot);
-                let written = self.register.write_claimed(robot, REGISTER, value);
+                let written = self.register.write_claimed(robot, UPDATED, value);
                 self.note(written.ok(), false);
             }
             _ => self.under_way = None,
@@ -80,13 +82,14 @@ impl Program for Keeper {
         self.left -= 1;
         let pause = self.pause.seconds() * robot.random().uniform();
         self.next = now + Duration::from_seconds_f64(pause);
-        let (id, is_claim) = match robot.random().below(3) {
-            0 => (self.register.read(robot, REGISTER), false),
-            1 => {
+        let (id, is_claim) = match robot.random().below(4) {
+            0 => (self.register.read(robot, WRITTEN), false),
+            1 => (self.register.read(robot, UPDATED), false),
+            2 => {
                 let value = value(robot);
-                (self.register.write(robot, REGISTER, value), false)
+                (self.register.write(robot, WRITTEN, value), false)
             }
-            _ => (self.register.claim(robot, REGISTER), true),
+            _ => (self.register.claim(robot, UPDATED), true),
         };
         self.note(id.ok(), is_claim);
     }

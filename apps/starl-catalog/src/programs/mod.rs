@@ -48,7 +48,7 @@ impl Default for Registry {
     fn default() -> Registry {
         let race = "run through the way-points; who is first sends all on";
         let diffusion = "drive straight, turn away from what the proximity rays see";
-        let keeper = "read, write and update one register at random";
+        let keeper = "read, write and update registers at random";
         let radio = "drive in circles and broadcast four bytes at every activation";
         Registry(Vec::new())
             .with("race", race, |parameters| {
