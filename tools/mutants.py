@@ -98,10 +98,10 @@ def command_of(mutant, known, text):
     """A workload's name and more options, or `explore` and its arguments, as arguments of `starl`."""
     first, *more = shlex.split(text)
     if first == "explore":
-        return text, ["explore", *more]
+        return [text, ["explore", *more]]
     if first not in known:
         fail(f"{mutant}: there is no workload {first} in tools/workloads.txt, tools/loads.txt or tools/storage.txt")
-    return text, ["test", *known[first], *more]
+    return [text, ["test", *known[first], *more]]
 
 
 # The copy
@@ -220,13 +220,12 @@ def attempt(mutant, seconds):
             if left <= 0:
                 return {"runs": runs, "seconds": core_seconds() - begun}
             text, arguments, first, seeds = plan
-            block, is_exploration = [], arguments[0] == "explore"
+            is_exploration = arguments[0] == "explore"
             if is_exploration:
                 block = ["--within", "1min", "--save", str(TARGET / "found.json")]
                 plans.remove(plan)
             else:
-                block = ["--seeds", str(seeds), "--first-seed", str(first)]
-                block += ["--shrink", "0"]
+                block = ["--seeds", str(seeds), "--first-seed", str(first), "--shrink", "0"]
             before = core_seconds()
             out = [] if is_exploration else ["--out", str(TARGET / "found" / mutant["name"])]
             found = judge(text, *run(mutant["number"], [*arguments, *block, *out], left))
