@@ -198,8 +198,10 @@ def judge(name, status, output, errors):
     """What a command has found: how many runs there were, what went wrong, and how to see it again."""
     if status == "hung":
         return 0, "a run without end", None
+    if status == -signal.SIGINT:  # stopped before it began
+        return 0, None, None
     if status == 101 or status < 0:
-        return 0, "panic: " + errors.strip().splitlines()[0], None
+        return 0, "panic: " + next(iter(errors.splitlines()), f"signal {-status}"), None
     if status == 2:
         sys.exit(f"{name}: {errors}")
     told = json.loads(output)
@@ -280,14 +282,15 @@ def campaign(mutants, options):
     results = known["results"]
     for mutant in mutants:
         name = mutant["name"]
-        # One that survived is tried again where its workloads or its time have changed.
-        mark, trial = [mutant["file"], mutant["right"], mutant["wrong"]], [mutant["commands"], options.seconds]
+        # One that survived is tried again where its workloads have changed, or it has more time.
+        mark, commands = [mutant["file"], mutant["right"], mutant["wrong"]], mutant["commands"]
         before = results.get(name, {})
-        is_known = before.get("mark") == mark and ("what" in before or before["trial"] == trial)
+        is_tried = before.get("commands") == commands and before.get("seconds", 0) >= options.seconds
+        is_known = before.get("mark") == mark and ("what" in before or is_tried)
         is_wanted = name in options.only if options.only else not is_known
         if is_wanted:
             print(f"{name}: ", end="", flush=True)
-            results[name] = attempt(mutant, options.seconds) | {"mark": mark, "trial": trial}
+            results[name] = attempt(mutant, options.seconds) | {"mark": mark, "commands": commands}
             path.write_text(json.dumps(known, indent=1), encoding="utf-8")
             print(describe(results[name]), flush=True)
     report(mutants, results, options)
