@@ -40,7 +40,8 @@ impl Broadcast {
         Broadcast {
             robots: setting.bodies.len() as u32,
             bound,
-            health: Health::new(setting.bodies.len(), Needs::Computing, bound),
+            // As long as the longest bound, that of causal order.
+            health: Health::new(setting.bodies.len(), Needs::Computing, bound + bound),
             outstanding: Outstanding::default(),
             excused: Excused::default(),
         }

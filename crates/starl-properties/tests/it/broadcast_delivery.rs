@@ -233,3 +233,23 @@ fn what_is_acknowledged_was_handed_to_all_whatever_has_happened() {
     acknowledged(&mut story);
     assert_none(&story.verdict(60_000));
 }
+
+#[test]
+fn a_partition_is_remembered_for_as_long_as_causal_order_has_time() {
+    let mut story = Story::of_ground_robots(2);
+    story.setting.properties.broadcast_bound = seconds(5);
+    let fields = [
+        ("number", 1u32.into()),
+        ("incarnation", 7u32.into()),
+        ("retry_span", 4.0.into()),
+        ("order", "causal".into()),
+    ];
+    story.report(1000, 0, ("broadcast", "broadcast"), fields);
+    let mut lost = story.clone();
+    lost.fault(9000, None, "partition");
+    assert_only(&lost.verdict(60_000), "broadcast.delivery", 11_000, &[0, 1]);
+    dropped(&mut story, 1500, (0, 1), DropReason::Partition);
+    story.fault(2000, None, "heal");
+    story.fault(9000, None, "partition");
+    assert_none(&story.verdict(60_000));
+}

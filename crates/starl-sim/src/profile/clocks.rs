@@ -11,7 +11,11 @@ pub(super) fn set_wrong(trouble: &mut Trouble<'_>) {
         // Evenly in the logarithm, from a millisecond to an hour.
         let millis = math::exp(trouble.random.between(0.0, math::log(3.6e6)));
         let drawn = trouble.count(0, 500);
-        let ppm = if drawn.is_multiple_of(2) { drawn } else { 18 * drawn };
+        let ppm = if drawn.is_multiple_of(2) {
+            drawn
+        } else {
+            18 * drawn
+        };
         let clock = Clock {
             offset: Duration::from_millis(millis as u64),
             // As a scenario's file would give it, to the last bit.
