@@ -325,14 +325,14 @@ def table(mutants, results):
 
 
 def report(mutants, results, options):
-    if any(mutant["name"] not in results for mutant in mutants):
-        return
+    listed = len(mutants)
+    mutants = [mutant for mutant in mutants if mutant["name"] in results]
     caught = [mutant for mutant in mutants if "what" in results[mutant["name"]]]
     left = [mutant for mutant in mutants if mutant not in caught]
     equivalent = [mutant for mutant in left if "equivalent" in mutant]
-    judged = len(mutants) - len(equivalent)
+    judged = max(1, len(mutants) - len(equivalent))
     summary = (
-        f"{len(mutants)} bugs: {len(caught)} caught, {len(equivalent)} equivalent, "
+        f"{len(mutants)} of {listed} bugs tried: {len(caught)} caught, {len(equivalent)} equivalent, "
         f"{judged - len(caught)} survive; {100 * len(caught) / judged:.0f} % of those that are not equivalent"
     )
     text = f"{summary}.\n\n{table(mutants, results)}\n"
