@@ -3,8 +3,8 @@
 #
 # Usage: tools/workloads.sh STARL LIST [OPTION...]
 #
-# STARL is the command, LIST tools/workloads.txt or tools/loads.txt, and OPTION any of `starl test`. The status is 1 if
-# anything went wrong.
+# STARL is the command, LIST tools/workloads.txt, tools/loads.txt or tools/storage.txt, and OPTION any of `starl test`. The
+# status is 1 if anything went wrong.
 set -euo pipefail
 starl=${1:?usage: tools/workloads.sh STARL LIST [OPTION...]}
 list=${2:?usage: tools/workloads.sh STARL LIST [OPTION...]}

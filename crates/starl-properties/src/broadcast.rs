@@ -2,7 +2,7 @@
 //! its broadcast.
 //!
 //! It is owed by every other robot until the bound runs out or the sender reports that it has given
-//! the robot up, whichever is first. Excused are robots that were down, and all of them where the
+//! the robot up, whichever is first. What it reports as acknowledged all have been handed. Excused are robots that were down, and all of them where the
 //! sender was; and those to which a partition swallowed a datagram of the sender's meanwhile.
 
 use super::health::{Health, Needs};
@@ -28,6 +28,8 @@ pub(super) struct Broadcast {
 #[derive(Clone, Debug)]
 struct Message {
     sent: Time,
+    /// In causal order robots acknowledge what they still hold back.
+    is_causal: bool,
     /// Who has not delivered it, in the order of their numbers.
     owed: Vec<RobotId>,
 }
@@ -38,7 +40,8 @@ impl Broadcast {
         Broadcast {
             robots: setting.bodies.len() as u32,
             bound,
-            health: Health::new(setting.bodies.len(), Needs::Computing, bound),
+            // As long as the longest bound, that of causal order.
+            health: Health::new(setting.bodies.len(), Needs::Computing, bound + bound),
             outstanding: Outstanding::default(),
             excused: Excused::default(),
         }
@@ -56,6 +59,9 @@ impl Broadcast {
             BroadcastEvent::Transfer(TransferEvent::Fail { message, to }) => {
                 self.failed(at, report.message(robot, *message), to, found);
             }
+            BroadcastEvent::Transfer(TransferEvent::Acknowledged { message, .. }) => {
+                self.acknowledged(at, report.message(robot, *message), found);
+            }
             _ => {}
         }
     }
@@ -71,6 +77,7 @@ impl Broadcast {
         let others = (0..self.robots).map(RobotId);
         let message = Message {
             sent: at,
+            is_causal: order == Some(Order::Causal),
             owed: others.filter(|&robot| robot != key.from).collect(),
         };
         self.outstanding.insert(key, at + bound, message);
@@ -88,6 +95,23 @@ impl Broadcast {
     }
 
     /// The sender has given robots up.
+    /// No fault excuses a sender that believes what is not so.
+    fn acknowledged(&mut self, at: Time, key: MessageKey, found: &mut Vec<Violation>) {
+        let message = self.outstanding.get_mut(&key);
+        let Some(message) = message.filter(|message| !message.is_causal) else {
+            return;
+        };
+        let owed = core::mem::take(&mut message.owed);
+        self.outstanding.remove(&key);
+        let MessageKey { from, number, .. } = key;
+        let text = format!(
+            "robot {from} says that all have acknowledged its message {number}, which was not handed to {}",
+            robot_list(&owed)
+        );
+        let robots: Vec<RobotId> = [from].into_iter().chain(owed).collect();
+        found.push(Violation::new(DELIVERY, at, robots, text));
+    }
+
     fn failed(
         &mut self,
         at: Time,
@@ -104,8 +128,8 @@ impl Broadcast {
             .partition(|robot| given_up.contains(robot));
         message.owed = owed;
         let lost = Message {
-            sent: message.sent,
             owed: lost,
+            ..*message
         };
         let settled = message.owed.is_empty();
         if settled {

@@ -6,19 +6,23 @@
 //!   guaranteed not to receive the message" for those that come in only after they received it;
 //! - inclusion: whoever has been inside throughout [t0, t0 + d2] has delivered it by then.
 //!
+//! Besides, a robot takes a message that was sent, and takes it once, inside or outside (integrity).
+//!
 //! "Outside" and "inside" leave out a margin along the boundary within which a robot that goes by its
 //! estimate may rightly decide either way.
 
 use super::health::{Health, Needs};
 use super::outstanding::Outstanding;
 use super::report::{MessageKey, Report};
+use super::taken::Taken;
 use super::track::{Sample, Tolerance, Track};
 use super::{Checker, Excuse, Excused, Kinds, Setting, Violation, robot_list};
-use starl_core::event::{Event, GeocastEvent, TransferEvent};
+use starl_core::event::{Event, Fault, GeocastEvent, TransferEvent};
 use starl_core::{Area, Duration, Point, Record, RobotId, Time};
 
 const EXCLUSION: &str = "geocast.exclusion";
 const INCLUSION: &str = "geocast.inclusion";
+const INTEGRITY: &str = "geocast.integrity";
 
 /// Watches every message sent through a Geocast.
 #[derive(Clone, Debug)]
@@ -34,6 +38,9 @@ pub(super) struct Geocast {
     outstanding: Outstanding<Message>,
     /// Messages of which copies may yet come.
     late: Outstanding<Message>,
+    taken: Taken,
+    /// Until then nobody is blamed for what a corruption may have made up.
+    void_until: Time,
     excused: Excused,
 }
 
@@ -60,6 +67,8 @@ impl Geocast {
             tracks: vec![Track::default(); robots],
             outstanding: Outstanding::default(),
             late: Outstanding::default(),
+            taken: Taken::default(),
+            void_until: Time::ZERO,
             excused: Excused::default(),
         }
     }
@@ -82,6 +91,7 @@ impl Geocast {
                 area,
             } => {
                 let key = report.message(robot, *message);
+                self.taken.sent(&key, None);
                 let message = Message {
                     sent: at,
                     area: (**area).clone(),
@@ -91,10 +101,27 @@ impl Geocast {
                 self.outstanding.insert(key, at + self.bound, message);
             }
             GeocastEvent::Transfer(TransferEvent::Deliver { from, message }) => {
-                self.delivered(at, robot, report.message(*from, *message), found);
+                let key = report.message(*from, *message);
+                self.takes(at, robot, &key, found);
+                self.delivered(at, robot, key, found);
             }
-            _ => {}
+            GeocastEvent::Outside { from, message } => {
+                self.takes(at, robot, &report.message(*from, *message), found);
+            }
+            GeocastEvent::Transfer(_) => {}
         }
+    }
+
+    fn takes(&mut self, at: Time, robot: RobotId, key: &MessageKey, found: &mut Vec<Violation>) {
+        let Some(what) = self.taken.take(robot, key, None) else {
+            return;
+        };
+        if at < self.void_until {
+            return self.excused.note(INTEGRITY, Excuse::Corruption);
+        }
+        let MessageKey { from, number, .. } = *key;
+        let text = format!("robot {robot} took message {number} of robot {from}, {what}");
+        found.push(Violation::new(INTEGRITY, at, [robot, from], text));
     }
 
     fn delivered(&mut self, at: Time, robot: RobotId, key: MessageKey, found: &mut Vec<Violation>) {
@@ -194,7 +221,7 @@ impl Geocast {
 
 impl Checker for Geocast {
     fn properties(&self) -> &'static [&'static str] {
-        &[EXCLUSION, INCLUSION]
+        &[EXCLUSION, INCLUSION, INTEGRITY]
     }
 
     fn heeds(&self) -> Kinds {
@@ -205,8 +232,11 @@ impl Checker for Geocast {
         }
     }
 
-    fn needs(&self, _: &str) -> Kinds {
-        Kinds::MOVED
+    fn needs(&self, property: &str) -> Kinds {
+        match property {
+            INTEGRITY => Kinds::NONE,
+            _ => Kinds::MOVED,
+        }
     }
 
     fn is_owed(&self, property: &str) -> bool {
@@ -230,7 +260,15 @@ impl Checker for Geocast {
                     self.reported(&report, violations);
                 }
             }
-            (Event::Fault(_) | Event::Failed(_), _) => self.health.observe(record),
+            (Event::Fault(fault), robot) => {
+                self.health.observe(record);
+                match (robot, fault) {
+                    (Some(robot), Fault::Crash) => self.taken.forget(robot),
+                    (Some(_), Fault::CorruptState) => self.void_until = record.at + self.bound,
+                    _ => {}
+                }
+            }
+            (Event::Failed(_), _) => self.health.observe(record),
             _ => {}
         }
     }

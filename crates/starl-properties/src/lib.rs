@@ -26,7 +26,9 @@ mod registration;
 mod report;
 mod setting;
 mod shared_memory;
+mod taken;
 mod track;
+mod unicast;
 mod watch;
 
 pub use excuse::{Excuse, Excused};
@@ -134,6 +136,9 @@ pub fn checkers(setting: &Setting) -> Vec<Box<dyn Checker>> {
     }
     if wanted.geocast {
         checkers.push(Box::new(geocast::Geocast::new(setting)));
+    }
+    if wanted.unicast {
+        checkers.push(Box::new(unicast::Unicast::new(setting)));
     }
     if wanted.shared_memory {
         checkers.push(Box::new(shared_memory::SharedMemory::new(setting)));

@@ -71,6 +71,10 @@ pub struct Properties {
     pub geocast: bool,
     /// The thesis's d2; default 35 s.
     pub geocast_bound: Duration,
+    /// Whether what is sent to one robot reaches it in time, and once.
+    pub unicast: bool,
+    /// The time within which it reaches it.
+    pub unicast_bound: Duration,
     /// Shared memory's integrity, order and convergence; default true.
     pub shared_memory: bool,
     /// Shared memories converge within this time; default 35 s.
@@ -108,6 +112,8 @@ impl Properties {
             broadcast_bound,
             geocast: _,
             geocast_bound,
+            unicast: _,
+            unicast_bound,
             shared_memory: _,
             shared_memory_bound,
             election: _,
@@ -125,6 +131,7 @@ impl Properties {
             progress_bound,
             broadcast_bound,
             geocast_bound,
+            unicast_bound,
             shared_memory_bound,
             election_bound,
             mutex_bound,
@@ -147,6 +154,8 @@ impl Default for Properties {
             broadcast_bound: Duration::from_seconds(35),
             geocast: true,
             geocast_bound: Duration::from_seconds(35),
+            unicast: true,
+            unicast_bound: Duration::from_seconds(35),
             shared_memory: true,
             shared_memory_bound: Duration::from_seconds(35),
             election: true,

@@ -3,14 +3,16 @@
 //! To add a program to those that we ship, add a line to [`Registry::default`].
 
 mod diffusion;
+mod keeper;
 mod radio;
 
 use crate::language::SUFFIX;
 use crate::parameters::{Complaint, Parameters};
 use diffusion::Diffusion;
+use keeper::Keeper;
 use radio::Radio;
-use starl_core::Program;
 use starl_core::motion::Planner;
+use starl_core::{Duration, Program};
 use starl_primitives::{reach_avoid, reliable};
 use starl_race::Race;
 use starl_sim::read::suggest;
@@ -46,12 +48,20 @@ impl Default for Registry {
     fn default() -> Registry {
         let race = "run through the way-points; who is first sends all on";
         let diffusion = "drive straight, turn away from what the proximity rays see";
+        let keeper = "read, write and update registers at random";
         let radio = "drive in circles and broadcast four bytes at every activation";
         Registry(Vec::new())
             .with("race", race, |parameters| {
                 Race::new(race_options(parameters))
             })
             .with("diffusion", diffusion, |_| Diffusion)
+            .with("keeper", keeper, |parameters| {
+                let pause = Duration::from_millis(500);
+                Keeper::new(
+                    parameters.count("operations", 20),
+                    parameters.duration("pause", pause),
+                )
+            })
             .with("radio", radio, |_| Radio::default())
     }
 }

@@ -125,6 +125,31 @@ fn a_message_that_will_not_come_is_passed_over_and_never_handed_out() {
 }
 
 #[test]
+fn a_message_of_an_earlier_life_that_was_held_back_counts_when_it_is_handed_out() {
+    let mut world = world(3, 6, Wire::perfect(), 0);
+    for robot in 0..3 {
+        world.command(robot, tell(0));
+    }
+    world.run_for(Duration::from_seconds(5));
+    // Robot 2 holds back what robot 1 says, as it does not hear what robot 0 has said before.
+    world.wire.cut.insert((0, 2));
+    world.command(0, tell(1));
+    world.run_for(Duration::from_millis(50));
+    world.command(1, tell(2));
+    world.run_for(Duration::from_millis(100));
+    world.crash(1);
+    world.start(1);
+    world.command(1, tell(3));
+    world.run_for(Duration::from_millis(300));
+    assert_eq!(told_to_2(&world), [0, 0]);
+    world.wire.cut.clear();
+    world.run_for(Duration::from_seconds(3));
+    assert_eq!(told_to_2(&world), [0, 0, 1, 2, 3]);
+    assert!(world.events("pass_over").is_empty(), "nothing was missed");
+    assert_eq!(teller(&world, 2).clone().take_gaps(), []);
+}
+
+#[test]
 fn the_program_is_told_of_what_it_misses() {
     let mut world = hearsay(4);
     world.crash(0);

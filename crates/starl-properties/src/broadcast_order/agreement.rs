@@ -11,7 +11,7 @@ use crate::health::{Health, Needs};
 use crate::parts::Parts;
 use crate::report::MessageKey;
 use crate::{Excuse, Excused, Violation, robot_list};
-use starl_core::event::Event;
+use starl_core::event::{Event, Fault};
 use starl_core::{Duration, Port, Record, RobotId, Time};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -32,6 +32,9 @@ pub(super) struct Agreement {
     handed: BTreeMap<MessageKey, (Time, BTreeSet<RobotId>)>,
     /// By when it is judged, in that order.
     due: VecDeque<(Time, MessageKey)>,
+    /// Robots that have crashed at some time, and those of them that are down.
+    crashed: BTreeSet<RobotId>,
+    down: BTreeSet<RobotId>,
 }
 
 impl Agreement {
@@ -45,6 +48,8 @@ impl Agreement {
             joined: BTreeMap::new(),
             handed: BTreeMap::new(),
             due: VecDeque::new(),
+            crashed: BTreeSet::new(),
+            down: BTreeSet::new(),
         }
     }
 
@@ -53,6 +58,18 @@ impl Agreement {
         self.health.observe(record);
         if let Event::Fault(_) | Event::Failed(_) = &record.event {
             self.last_fault = Some(record.at);
+        }
+        if let (Event::Fault(fault), Some(robot)) = (&record.event, record.robot) {
+            match fault {
+                Fault::Crash => {
+                    self.crashed.insert(robot);
+                    self.down.insert(robot);
+                }
+                Fault::Restart => {
+                    self.down.remove(&robot);
+                }
+                _ => {}
+            }
         }
     }
 
@@ -70,7 +87,11 @@ impl Agreement {
     /// The sender has given it up: that is wrong only where nothing has happened that explains it, and then
     /// the bound tells.
     pub fn failed(&mut self, key: MessageKey, excused: &mut Excused) {
-        if self.last_fault.is_some() && self.handed.remove(&key).is_some() {
+        let Some((sent, _)) = self.handed.get(&key) else {
+            return;
+        };
+        if self.last_fault.is_some_and(|at| *sent < at + RECOVERY) {
+            self.handed.remove(&key);
             excused.note(AGREEMENT, Excuse::Recovery);
         }
     }
@@ -153,10 +174,21 @@ impl Agreement {
             let joined = self.joined.get(&(key.port, *robot));
             self.health.well_from(*robot) <= sent && joined.is_some_and(|&at| at <= sent)
         };
+        if self.may_lack_voters() {
+            excused.note(AGREEMENT, Excuse::NoMajority);
+            return Vec::new();
+        }
         // A sender that has stopped since may never have told anyone.
         if near.len() <= self.robots as usize / 2 || !has_been(&key.from) {
             return Vec::new();
         }
         near.into_iter().filter(has_been).collect()
+    }
+
+    /// Whether a robot is down without which those that voted before may be too few to decide: others have started again,
+    /// and vote no more until somebody leads.
+    fn may_lack_voters(&self) -> bool {
+        let quorum = self.robots as usize / 2 + 1;
+        !self.down.is_empty() && self.crashed.len() > self.robots as usize - quorum
     }
 }

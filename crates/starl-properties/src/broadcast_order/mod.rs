@@ -9,6 +9,7 @@ mod causal;
 mod sequence;
 
 use super::report::{MessageKey, Report};
+use super::taken::Taken;
 use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
 use agreement::Agreement;
 use causal::Causality;
@@ -32,6 +33,8 @@ type Process = (RobotId, u32);
 pub(super) struct BroadcastOrder {
     bound: Duration,
     instances: BTreeMap<Port, Instance>,
+    /// What was broadcast without order, and handed out.
+    unordered: Taken,
     agreement: Agreement,
     /// After a corruption nothing is judged until then.
     void_until: Time,
@@ -104,6 +107,7 @@ impl BroadcastOrder {
         BroadcastOrder {
             bound,
             instances: BTreeMap::new(),
+            unordered: Taken::default(),
             agreement: Agreement::new(setting.bodies.len(), bound),
             void_until: Time::ZERO,
             excused: Excused::default(),
@@ -121,18 +125,29 @@ impl BroadcastOrder {
                 let new = || Instance::new(*order);
                 self.instances.entry(port).or_insert_with(new);
             }
+            BroadcastEvent::Broadcast { message, .. } => {
+                return self.unordered.sent(&report.message(robot, *message), None);
+            }
             // Before any message there may be members.
             BroadcastEvent::Join { .. } => return self.agreement.joined(port, robot, at),
             _ => {}
         }
-        let Some(instance) = self.instances.get_mut(&port) else {
-            return;
-        };
         let is_judged = at >= self.void_until;
         let mut finding = Finding {
             report,
             violations,
             excused: (!is_judged).then_some(&mut self.excused),
+        };
+        let Some(instance) = self.instances.get_mut(&port) else {
+            if let BroadcastEvent::Transfer(TransferEvent::Deliver { from, message }) = report.event
+            {
+                let key = report.message(*from, *message);
+                if let Some(what) = self.unordered.take(robot, &key, None) {
+                    let text = format!("was handed message {} of robot {from}, {what}", key.number);
+                    finding.add(INTEGRITY, *from, text);
+                }
+            }
+            return;
         };
         match report.event {
             BroadcastEvent::Broadcast { message, .. } => {
@@ -208,11 +223,13 @@ impl Checker for BroadcastOrder {
     }
 
     fn has_subject(&self, property: &str) -> bool {
-        self.instances.values().any(|instance| match property {
-            CAUSAL => instance.causality.is_some(),
-            TOTAL | AGREEMENT => instance.is_total,
-            _ => true,
-        })
+        let mut instances = self.instances.values();
+        property == INTEGRITY
+            || instances.any(|instance| match property {
+                CAUSAL => instance.causality.is_some(),
+                TOTAL | AGREEMENT => instance.is_total,
+                _ => true,
+            })
     }
 
     fn heeds(&self) -> Kinds {
@@ -249,6 +266,7 @@ impl Checker for BroadcastOrder {
                 self.agreement.observe(record);
                 match (record.robot, fault) {
                     (Some(robot), Fault::Crash) => {
+                        self.unordered.forget(robot);
                         for instance in self.instances.values_mut() {
                             instance.begin_anew(robot);
                         }

@@ -64,9 +64,14 @@ fn a_bound_that_has_not_run_out_is_not_judged() {
 #[test]
 fn messages_are_told_apart_by_sender_and_number() {
     let mut story = robot_2_hears_nothing();
-    story.delivers(1100, 2, "broadcast", (0, 2));
-    story.delivers(1100, 2, "broadcast", (1, 1));
-    story.delivers(1100, 2, "geocast", (0, 1));
+    story.broadcasts(1000, 0, 2);
+    story.broadcasts(1000, 1, 1);
+    for robot in [1, 2] {
+        story.delivers(1100, robot, "broadcast", (0, 2));
+    }
+    for robot in [0, 2] {
+        story.delivers(1100, robot, "broadcast", (1, 1));
+    }
     assert_only(&story.verdict(60_000), "broadcast.delivery", 6000, &[0, 2]);
 }
 
@@ -209,5 +214,42 @@ fn a_cut_that_is_old_when_another_partition_sets_in_is_still_known_while_it_coun
     let mut story = robot_2_hears_nothing();
     dropped(&mut story, 1000, (0, 2), DropReason::Partition);
     story.fault(5900, None, "partition");
+    assert_none(&story.verdict(60_000));
+}
+
+#[test]
+fn what_is_acknowledged_was_handed_to_all_whatever_has_happened() {
+    let acknowledged = |story: &mut Story| {
+        let fields = [("number", 1u32.into()), ("incarnation", 7u32.into())];
+        story.report(3000, 0, ("broadcast", "acknowledged"), fields);
+    };
+    let mut story = robot_2_hears_nothing();
+    story.fault(1500, Some(2), "crash");
+    acknowledged(&mut story);
+    assert_only(&story.verdict(60_000), "broadcast.delivery", 3000, &[0, 2]);
+    let mut story = robot_2_hears_nothing();
+    story.delivers(1400, 2, "broadcast", (0, 1));
+    story.fault(1500, Some(2), "crash");
+    acknowledged(&mut story);
+    assert_none(&story.verdict(60_000));
+}
+
+#[test]
+fn a_partition_is_remembered_for_as_long_as_causal_order_has_time() {
+    let mut story = Story::of_ground_robots(2);
+    story.setting.properties.broadcast_bound = seconds(5);
+    let fields = [
+        ("number", 1u32.into()),
+        ("incarnation", 7u32.into()),
+        ("retry_span", 4.0.into()),
+        ("order", "causal".into()),
+    ];
+    story.report(1000, 0, ("broadcast", "broadcast"), fields);
+    let mut lost = story.clone();
+    lost.fault(9000, None, "partition");
+    assert_only(&lost.verdict(60_000), "broadcast.delivery", 11_000, &[0, 1]);
+    dropped(&mut story, 1500, (0, 1), DropReason::Partition);
+    story.fault(2000, None, "heal");
+    story.fault(9000, None, "partition");
     assert_none(&story.verdict(60_000));
 }

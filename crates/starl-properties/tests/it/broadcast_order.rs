@@ -2,7 +2,7 @@
 
 use crate::support::{Story, assert_none, assert_only, seconds};
 use starl_core::RobotId;
-use starl_properties::Violation;
+use starl_properties::{Excuse, Violation};
 
 /// Three robots, whose broadcasts have 5 s.
 fn story() -> Story {
@@ -284,6 +284,47 @@ fn after_a_fault_there_is_more_time() {
     );
 }
 
+fn gives_up(story: &mut Story, millis: u64, robot: u32, number: u32) {
+    story.fails(millis, robot, number, &[]);
+}
+
+#[test]
+fn what_is_given_up_is_excused_only_where_a_fault_was_near() {
+    let mut story = ordered([[(0, 1), (1, 1)]; 3]);
+    story.fault(2000, Some(1), "stuck motor");
+    let mut near = story.clone();
+    sends(&mut near, 10_000, 0, 2, "total");
+    gives_up(&mut near, 14_000, 0, 2);
+    assert_none(&near.verdict(90_000));
+    sends(&mut story, 40_000, 0, 2, "total");
+    gives_up(&mut story, 44_000, 0, 2);
+    let property = "broadcast.agreement";
+    assert_only(&story.verdict(90_000), property, 45_000, &[0, 0, 1, 2]);
+}
+
+#[test]
+fn a_robot_that_is_down_excuses_only_where_others_have_crashed_too() {
+    let crashed = |others: &[u32]| {
+        let mut story = ordered([[(0, 1), (1, 1)]; 3]);
+        for &robot in others {
+            story.fault(2000, Some(robot), "crash");
+            story.fault(2100, Some(robot), "restart");
+        }
+        story.fault(2200, Some(2), "crash");
+        sends(&mut story, 40_000, 0, 2, "total");
+        story
+    };
+    let property = "broadcast.agreement";
+    assert_only(&crashed(&[]).verdict(90_000), property, 45_000, &[0, 0, 1]);
+    assert_none(&crashed(&[1]).verdict(90_000));
+    let excused = crashed(&[1]).excused(90_000, property);
+    let reasons: Vec<Excuse> = excused.into_iter().map(|(excuse, _)| excuse).collect();
+    assert!(reasons.contains(&Excuse::NoMajority), "{reasons:?}");
+    let mut all_up = crashed(&[1]);
+    all_up.fault(2300, Some(2), "restart");
+    assert_eq!(all_up.verdict(90_000).len(), 1, "nobody is down");
+}
+
 #[test]
 fn a_corruption_excuses_for_a_while() {
     let mut story = answer();
@@ -291,4 +332,23 @@ fn a_corruption_excuses_for_a_while() {
     handed(&mut story, 1300, 2, (1, 1));
     handed(&mut story, 1400, 2, (0, 1));
     assert_none(&story.verdict(9000));
+}
+
+#[test]
+fn without_order_messages_come_in_any_order_and_once() {
+    let mut story = story();
+    for number in 1..=3 {
+        story.broadcasts(1000, 0, number);
+    }
+    for (millis, number) in [(1100, 3), (1110, 1), (1120, 2)] {
+        for robot in 1..3 {
+            handed(&mut story, millis, robot, (0, number));
+        }
+    }
+    assert_none(&story.verdict(9000));
+    let mut twice = story.clone();
+    handed(&mut twice, 1200, 2, (0, 1));
+    assert_only(&twice.verdict(9000), "broadcast.integrity", 1200, &[2, 0]);
+    handed(&mut story, 1200, 2, (0, 4));
+    assert_only(&story.verdict(9000), "broadcast.integrity", 1200, &[2, 0]);
 }

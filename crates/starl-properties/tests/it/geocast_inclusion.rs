@@ -141,3 +141,24 @@ fn nobody_is_owed_a_message_to_an_area_that_is_not_valid() {
     story.stays(0, 20_000, 1, at(0.0, 0.0));
     assert_none(&story.verdict(20_000));
 }
+
+#[test]
+fn a_message_is_taken_once_inside_or_outside() {
+    let mut story = silence();
+    story.delivers(1100, 1, "geocast", (0, 1));
+    let outside = |story: &mut Story, millis: u64, robot: u32| {
+        let fields = [
+            ("from", RobotId(0).into()),
+            ("number", 1u32.into()),
+            ("incarnation", 7u32.into()),
+        ];
+        story.report(millis, robot, ("geocast", "outside"), fields);
+    };
+    outside(&mut story, 1100, 2);
+    assert_none(&story.verdict(20_000));
+    let mut twice = story.clone();
+    outside(&mut twice, 1200, 2);
+    assert_only(&twice.verdict(20_000), "geocast.integrity", 1200, &[2, 0]);
+    story.delivers(1200, 1, "geocast", (0, 1));
+    assert_only(&story.verdict(20_000), "geocast.integrity", 1200, &[1, 0]);
+}

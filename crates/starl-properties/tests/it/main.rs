@@ -23,3 +23,4 @@ mod shared_memory_convergence;
 mod shared_memory_integrity;
 mod shared_memory_order;
 mod support;
+mod unicast;

@@ -132,6 +132,8 @@ fn properties(table: Section<'_>) -> Properties {
         broadcast_bound: table.duration("broadcast_bound"),
         geocast: table.flag("geocast"),
         geocast_bound: table.duration("geocast_bound"),
+        unicast: table.flag("unicast"),
+        unicast_bound: table.duration("unicast_bound"),
         shared_memory: table.flag("shared_memory"),
         shared_memory_bound: table.duration("shared_memory_bound"),
         election: table.flag("election"),

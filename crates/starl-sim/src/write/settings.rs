@@ -141,6 +141,8 @@ pub(super) fn properties(properties: &Properties) -> String {
         broadcast_bound,
         geocast,
         geocast_bound,
+        unicast,
+        unicast_bound,
         shared_memory,
         shared_memory_bound,
         election,

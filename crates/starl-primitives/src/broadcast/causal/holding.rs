@@ -131,14 +131,19 @@ impl Causal {
         let process = held.process();
         let Held { arrival, .. } = held;
         let (from, message) = arrival.numbered();
-        if let Some(life) = self.vector.present(from)
-            && life.incarnation == process.incarnation
-        {
-            if arrival.number <= life.taken {
-                return robot.report(port, BroadcastEvent::Late { from, message });
-            }
-            life.taken = arrival.number;
-            life.is_joined = true;
+        let taken = match self.vector.standing(process) {
+            Standing::Present(life) => life.taken,
+            Standing::Over(taken) => taken,
+            Standing::Unknown(passed) => passed.unwrap_or(0),
+        };
+        if arrival.number <= taken {
+            return robot.report(port, BroadcastEvent::Late { from, message });
+        }
+        let present = self.vector.present(from);
+        match present.filter(|life| life.incarnation == process.incarnation) {
+            Some(life) => (life.taken, life.is_joined) = (arrival.number, true),
+            // It was held back when a later life was heard.
+            None => self.vector.end(process, arrival.number),
         }
         robot.report(
             port,

@@ -218,6 +218,18 @@ const PROPERTIES: &[Field] = &[
         "Within this time, the thesis's d2.",
     ),
     field(
+        "unicast",
+        Kind::Flag,
+        Default::Value("true"),
+        "What is sent to one robot reaches it, once.",
+    ),
+    field(
+        "unicast_bound",
+        SPAN,
+        Default::Value("35s"),
+        "Within this time.",
+    ),
+    field(
         "shared_memory",
         Kind::Flag,
         Default::Value("true"),

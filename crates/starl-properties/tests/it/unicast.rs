@@ -1,0 +1,107 @@
+//! What is sent to one robot reaches it within the bound, and once.
+
+use crate::support::{Story, assert_none, assert_only, seconds};
+use starl_core::RobotId;
+use starl_properties::Excuse;
+
+/// Robot 0 sends its message of this number to a robot at 1 s; it has 5 s.
+fn sent(number: u32, to: u32) -> Story {
+    let mut story = Story::of_ground_robots(3);
+    story.setting.properties.unicast_bound = seconds(5);
+    sends(&mut story, number, to);
+    story
+}
+
+fn sends(story: &mut Story, number: u32, to: u32) {
+    let fields = [
+        ("number", number.into()),
+        ("incarnation", 7u32.into()),
+        ("retry_span", 4.0.into()),
+        ("to", RobotId(to).into()),
+    ];
+    story.report(1000, 0, ("unicast", "send"), fields);
+}
+
+#[test]
+fn what_does_not_arrive_is_reported_when_its_time_is_up() {
+    let mut story = sent(1, 2);
+    // Numbers are counted for each receiver.
+    sends(&mut story, 1, 1);
+    story.delivers(1100, 1, "unicast", (0, 1));
+    assert_only(&story.verdict(60_000), "unicast.delivery", 6000, &[0, 2]);
+    let mut late = sent(1, 2);
+    late.delivers(6001, 2, "unicast", (0, 1));
+    assert_only(&late.verdict(60_000), "unicast.delivery", 6000, &[0, 2]);
+    let mut in_time = sent(1, 2);
+    in_time.delivers(6000, 2, "unicast", (0, 1));
+    assert_none(&in_time.verdict(60_000));
+}
+
+#[test]
+fn what_is_given_up_is_reported_at_once() {
+    let mut story = sent(1, 2);
+    let fields = [
+        ("number", 1u32.into()),
+        ("incarnation", 7u32.into()),
+        ("to", vec![RobotId(2)].into()),
+    ];
+    story.report(3000, 0, ("unicast", "fail"), fields);
+    assert_only(&story.verdict(60_000), "unicast.delivery", 3000, &[0, 2]);
+}
+
+#[test]
+fn a_receiver_that_was_down_excuses_and_another_robot_does_not() {
+    let mut story = sent(1, 2);
+    story.fault(2000, Some(2), "crash");
+    story.fault(2500, Some(2), "restart");
+    assert_none(&story.verdict(60_000));
+    assert_eq!(
+        story.excused(60_000, "unicast.delivery"),
+        [(Excuse::Down, 1)]
+    );
+    let mut story = sent(1, 2);
+    story.fault(2000, Some(1), "crash");
+    assert_only(&story.verdict(60_000), "unicast.delivery", 6000, &[0, 2]);
+}
+
+#[test]
+fn what_comes_twice_is_reported_unless_the_receiver_has_started_again() {
+    let mut story = sent(1, 2);
+    story.delivers(1100, 2, "unicast", (0, 1));
+    let mut again = story.clone();
+    again.delivers(1200, 2, "unicast", (0, 1));
+    assert_only(&again.verdict(60_000), "unicast.integrity", 1200, &[2, 0]);
+    story.fault(1150, Some(2), "crash");
+    story.fault(1160, Some(2), "restart");
+    story.delivers(1200, 2, "unicast", (0, 1));
+    assert_none(&story.verdict(60_000));
+}
+
+#[test]
+fn what_was_sent_to_another_robot_is_not_handed_out() {
+    let mut story = sent(1, 2);
+    story.delivers(1100, 2, "unicast", (0, 1));
+    story.delivers(1200, 1, "unicast", (0, 1));
+    assert_only(&story.verdict(60_000), "unicast.integrity", 1200, &[1, 0]);
+}
+
+#[test]
+fn what_is_acknowledged_has_arrived_whatever_has_happened() {
+    let acknowledged = |story: &mut Story| {
+        let fields = [
+            ("number", 1u32.into()),
+            ("incarnation", 7u32.into()),
+            ("to", RobotId(2).into()),
+        ];
+        story.report(3000, 0, ("unicast", "acknowledged"), fields);
+    };
+    let mut story = sent(1, 2);
+    story.fault(1500, Some(2), "crash");
+    acknowledged(&mut story);
+    assert_only(&story.verdict(60_000), "unicast.delivery", 3000, &[0, 2]);
+    let mut story = sent(1, 2);
+    story.delivers(1400, 2, "unicast", (0, 1));
+    story.fault(1500, Some(2), "crash");
+    acknowledged(&mut story);
+    assert_none(&story.verdict(60_000));
+}
