@@ -22,7 +22,7 @@ pub struct Bounds {
     pub crashes: u8,
     /// False or true suspicions by failure detectors, and ends of suspicions, at most; default 0.
     pub suspicions: u8,
-    /// Timers that fire, at most, of all robots together; default 1. With [`Clocks::Ticking`] timers
+    /// Timers that fire, at most, of all robots together, or [`Bounds::ANY_NUMBER`]; default 1. With [`Clocks::Ticking`] timers
     /// are bounded by the time instead.
     pub timers: u8,
     /// What clocks show.
@@ -55,6 +55,11 @@ pub enum Clocks {
         /// bound with a skew.
         delay: Option<u8>,
     },
+}
+
+impl Bounds {
+    /// So many timers are not counted: they fire any number of times.
+    pub const ANY_NUMBER: u8 = u8::MAX;
 }
 
 impl Default for Bounds {
@@ -108,7 +113,11 @@ impl Left {
             Kind::Duplicate if !bounds.any_copies => &mut left.duplicates,
             Kind::Crash => &mut left.crashes,
             Kind::Suspect | Kind::Trust => &mut left.suspicions,
-            Kind::Timer if bounds.clocks == Clocks::Still => &mut left.timers,
+            Kind::Timer
+                if bounds.clocks == Clocks::Still && bounds.timers != Bounds::ANY_NUMBER =>
+            {
+                &mut left.timers
+            }
             _ => return Some(self),
         };
         *budget = budget.checked_sub(1)?;

@@ -104,7 +104,8 @@ impl Walk {
                 if !place.is_some_and(|place| ready.contains(&(place as u32))) {
                     return Err(Impossible("the timer cannot fire".into()));
                 }
-                if self.bounds.clocks == Clocks::Still {
+                let is_counted = self.bounds.timers != Bounds::ANY_NUMBER;
+                if self.bounds.clocks == Clocks::Still && is_counted {
                     spend(&mut self.left.timers, "timers")?;
                 }
                 vec![self.turn(*robot, Happening::Timer(*key))?]

@@ -1,8 +1,11 @@
 //! Small programs to explore, and a search of them.
 
 pub mod elector;
+pub mod keeper;
 pub mod locker;
 pub mod registrar;
+pub mod sharer;
+pub mod speaker;
 pub mod tieless;
 
 use starl_core::{Duration, Event, Program, Record};
