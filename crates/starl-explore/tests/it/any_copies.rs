@@ -7,6 +7,7 @@ use crate::support::keeper::{Keeper, Operation};
 use crate::support::locker::Locker;
 use crate::support::registrar::Registrar;
 use crate::support::sharer::Sharer;
+use crate::support::waiter::Waiter;
 use crate::support::{all_is_well, happens, seconds, setup, watched};
 use starl_core::{Duration, Program};
 use starl_explore::{Bounds, Clocks, Setup};
@@ -28,9 +29,12 @@ fn memory(crashes: u8) -> Setup {
     any_copies(sharer, Clocks::Still, crashes)
 }
 
+/// Ticks after which all copies of the register answer.
+const REGISTER_IS_UP: u16 = 2;
+
 fn register(operations: [Option<Operation>; 3]) -> Setup {
     let keeper = Keeper::new(&operations, register::Options::default());
-    any_copies(keeper, Clocks::Still, 0)
+    any_copies(keeper, seconds(REGISTER_IS_UP, 0, Some(0)), 0)
 }
 
 fn registration(crashes: u8) -> Setup {
@@ -65,6 +69,10 @@ fn election(algorithm: election::Algorithm, ticks: u16, crashes: u8) -> Setup {
     any_copies(Elector::new(options), seconds(3, ticks, Some(0)), crashes)
 }
 
+fn barrier() -> Setup {
+    any_copies(Waiter::new(1), Clocks::Still, 0)
+}
+
 fn quorums() -> Setup {
     let options = mutex::Options {
         algorithm: mutex::Algorithm::Quorum,
@@ -79,8 +87,9 @@ fn what_is_judged_happens() {
     use election::Algorithm::{Ballots, Bully};
     let write_and_read = [Some(Operation::Write), Some(Operation::Read), None];
     assert!(happens(memory(1), 0, "write"));
-    assert!(happens(register(write_and_read), 0, "finish"));
+    assert!(happens(register(write_and_read), REGISTER_IS_UP, "done"));
     assert!(happens(quorums(), 0, "enter"));
+    assert!(happens(barrier(), 0, "pass"));
     assert!(happens(election(Bully, 2, 1), 3, "leader"));
     assert!(happens(election(Ballots, 2, 0), 3, "leader"));
 }
@@ -93,14 +102,22 @@ fn memory_with_three_writers_and_a_crash() {
 #[test]
 fn register_with_a_writer_and_a_reader() {
     let operations = [Some(Operation::Write), Some(Operation::Read), None];
-    assert_eq!(all_is_well(register(operations), 0), (27_238, 259_915, 19));
+    assert_eq!(
+        all_is_well(register(operations), REGISTER_IS_UP),
+        (27_238, 259_915, 19)
+    );
 }
 
 #[test]
 fn register_with_two_writers() {
     let operations = [Some(Operation::Write), Some(Operation::Write), None];
     let size = (352_174, 3_565_783, 23);
-    assert_eq!(all_is_well(register(operations), 0), size);
+    assert_eq!(all_is_well(register(operations), REGISTER_IS_UP), size);
+}
+
+#[test]
+fn barrier_that_three_robots_pass() {
+    assert_eq!(all_is_well(barrier(), 0), (60_998, 145_953, 21));
 }
 
 #[test]

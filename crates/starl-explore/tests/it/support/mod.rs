@@ -7,6 +7,7 @@ pub mod registrar;
 pub mod sharer;
 pub mod speaker;
 pub mod tieless;
+pub mod waiter;
 
 use starl_core::{Duration, Event, Program, Record};
 use starl_explore::{Bounds, Clocks, End, Model, Report, Search, Setup, Walk};
