@@ -15,6 +15,7 @@ mod channel;
 pub mod election;
 pub mod failure_detector;
 pub mod geocast;
+mod handshake;
 mod incarnation;
 pub mod local_broadcast;
 pub mod mutex;

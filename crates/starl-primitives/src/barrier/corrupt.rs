@@ -1,6 +1,7 @@
 //! Overwriting the state at random, as a transient fault would.
 
-use super::Barrier;
+use super::{Barrier, Words};
+use crate::handshake::Handshake;
 use starl_core::{Random, Time};
 
 impl Barrier {
@@ -14,13 +15,17 @@ impl Barrier {
         }
         self.peers.retain(|_, _| random.chance(0.7));
         for peer in self.peers.values_mut() {
-            if random.chance(0.5) {
-                peer.incarnation = random.bits();
+            peer.echo = random.bits();
+            peer.asks_anew = random.chance(0.5);
+            peer.lives = Handshake::asking(random.bits());
+            if random.chance(0.7) {
+                let words = Words {
+                    generation: word(random),
+                    waits: random.chance(0.5),
+                    knows: random.chance(0.5),
+                };
+                peer.lives.heard = Some((random.bits(), words));
             }
-            peer.generation = word(random);
-            peer.waits = random.chance(0.5);
-            peer.knows = random.chance(0.5);
-            peer.has_heard = random.chance(0.5);
             peer.is_told = random.chance(0.5);
         }
         self.owed.retain(|_| random.chance(0.5));

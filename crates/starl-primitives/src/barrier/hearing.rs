@@ -3,12 +3,15 @@
 //! Invariant: of robots that know their generation, none is more than one ahead of another that keeps its
 //! memory; and what counts of a robot's words was said after it had heard of this robot's present life.
 //!
-//! Lives have no order, so a late message may be of any life. That does no harm: what a robot says it has come
-//! to once it knows stays true for ever. Of one that does not know yet nothing counts but its questions, since
-//! it may have restarted and passed generations meanwhile.
+//! What a robot says it has come to once it knows stays true as long as anybody remembers it, so it counts until another
+//! life is heard of; from then on what that one says, once it has shown itself to be the later one (see
+//! [`Handshake`]). Of one that does not know yet nothing counts but its questions, since it may have restarted and passed
+//! generations meanwhile. So a robot that learns its generation learns from all that could tell more: whoever has
+//! answered its life counts no word of its earlier ones.
 
 use super::packet::Packet;
-use super::{Barrier, GREATEST, Peer};
+use super::{Barrier, GREATEST, Peer, Words};
+use crate::handshake::Handshake;
 use alloc::vec::Vec;
 use starl_core::event::BarrierEvent;
 use starl_core::{Message, Robot, RobotId};
@@ -33,38 +36,36 @@ impl Barrier {
     fn hear(&mut self, robot: &mut Robot<'_>, from: RobotId, said: &Packet) {
         let me = robot.id();
         let mine = self.incarnation.of(robot);
-        let is_same = |known: &&mut Peer| known.incarnation == said.incarnation;
-        let known = match self.peers.get_mut(&from).filter(is_same) {
-            Some(known) => known,
-            None => {
-                let new = Peer {
-                    incarnation: said.incarnation,
-                    generation: 0,
-                    waits: false,
-                    knows: false,
-                    has_heard: false,
-                    is_told: false,
-                };
-                self.peers.insert(from, new);
-                match self.peers.get_mut(&from) {
-                    Some(known) => known,
-                    None => return,
-                }
-            }
-        };
-        known.has_heard |= said.heard.get(&me) == Some(&mine);
-        let is_later = (said.generation, said.waits, said.knows)
-            > (known.generation, known.waits, known.knows);
-        // A number that is far too great does not stay, e.g. after a corruption.
-        if is_later || known.generation > self.generation + 1 {
-            known.generation = said.generation;
-            known.waits = said.waits;
-            known.knows = said.knows;
+        let peer = self.peers.entry(from).or_insert_with(|| Peer {
+            lives: Handshake::asking(mine),
+            echo: 0,
+            asks_anew: false,
+            is_told: false,
+        });
+        let asked = said.asks.get(&me).copied();
+        (peer.echo, peer.asks_anew) = (asked.unwrap_or(said.incarnation), asked.is_some());
+        if let Some(&token) = said.heard.get(&me) {
+            peer.lives.begin(said.incarnation, token, Words::default);
         }
-        if !said.missing.contains(&me) {
-            self.owed.remove(&from);
-        } else if said.again || !known.is_told {
+        if let Some(known) = peer.lives.of(said.incarnation) {
+            let new = Words {
+                generation: said.generation,
+                waits: said.waits,
+                knows: said.knows,
+            };
+            // Never back within a life, but a number that is far too great does not stay, e.g. after a corruption.
+            if new.place() > known.place() || known.generation > self.generation + 1 {
+                *known = new;
+            }
+        }
+        let is_new = peer.lives.of(said.incarnation).is_none() && peer.lives.asked().is_none();
+        if is_new {
+            peer.lives.token(robot);
+        }
+        if is_new || said.missing.contains(&me) && (said.again || !peer.is_told) {
             self.owed.insert(from);
+        } else if !said.missing.contains(&me) {
+            self.owed.remove(&from);
         }
         // Who speaks has not failed, unless the message was long under way.
         self.suspects.remove(&from);
@@ -75,8 +76,8 @@ impl Barrier {
         if self.knows {
             // Nobody is two ahead of this robot, which they would have waited for.
             let next = self.generation + 1;
-            let mut counted = self.peers.values().filter(|peer| peer.has_heard);
-            if counted.any(|peer| peer.knows && peer.generation > next) {
+            let mut heard = self.peers.values().filter_map(Peer::certain);
+            if heard.any(|said| said.generation > next) {
                 self.ask_all(robot);
             }
             return;
@@ -86,8 +87,8 @@ impl Barrier {
         }
         let mut greatest = self.generation;
         for peer in self.others(robot) {
-            match self.peers.get(&peer).filter(|known| known.has_heard) {
-                Some(known) => greatest = greatest.max(known.generation),
+            match self.said(peer) {
+                Some(said) => greatest = greatest.max(said.generation),
                 None => return,
             }
         }
@@ -125,10 +126,14 @@ impl Barrier {
 
     /// Whether a robot is known to have come to this robot's generation.
     pub(super) fn has_arrived(&self, peer: RobotId) -> bool {
-        self.peers.get(&peer).is_some_and(|known| {
-            let place = (known.generation, known.waits);
-            known.has_heard && known.knows && place >= (self.generation, true)
+        self.said(peer).is_some_and(|said| {
+            said.knows && (said.generation, said.waits) >= (self.generation, true)
         })
+    }
+
+    /// What the present life of a robot has said since it heard of this one's.
+    fn said(&self, peer: RobotId) -> Option<&Words> {
+        self.peers.get(&peer)?.said()
     }
 
     /// The other participants.
@@ -143,7 +148,7 @@ impl Barrier {
     fn is_missing(&self, peer: RobotId) -> bool {
         match self.knows {
             true => !self.has_arrived(peer),
-            false => !self.has_heard(peer),
+            false => self.said(peer).is_none(),
         }
     }
 
@@ -154,12 +159,6 @@ impl Barrier {
         others.filter(|peer| self.is_missing(*peer)).collect()
     }
 
-    /// Whether a robot is known to have heard of this robot's present life.
-    fn has_heard(&self, peer: RobotId) -> bool {
-        let known = self.peers.get(&peer);
-        known.is_some_and(|known| known.has_heard)
-    }
-
     pub(super) fn pass_if_all_have_come(&mut self, robot: &mut Robot<'_>) {
         if !self.waits || !self.knows {
             return;
@@ -167,8 +166,8 @@ impl Barrier {
         let next = self.generation + 1;
         // Who has passed has seen that all have come.
         let has_passed = |peer: RobotId| {
-            let known = self.peers.get(&peer);
-            known.is_some_and(|known| known.has_heard && known.knows && known.generation == next)
+            let said = self.said(peer);
+            said.is_some_and(|said| said.knows && said.generation == next)
         };
         let is_missing = |peer: RobotId| self.is_missing(peer);
         if self.others(robot).any(is_missing) && !self.others(robot).any(has_passed) {
@@ -183,5 +182,24 @@ impl Barrier {
         self.generation = next;
         self.due = None;
         robot.cancel_timer(self.timer());
+    }
+}
+
+impl Words {
+    /// How far the robot is.
+    fn place(&self) -> (u64, bool, bool) {
+        (self.generation, self.waits, self.knows)
+    }
+}
+
+impl Peer {
+    /// What its present life has said since it heard of this robot's; none while another life of it is asked for.
+    pub(super) fn said(&self) -> Option<&Words> {
+        self.lives.known().filter(|_| self.lives.asked().is_none())
+    }
+
+    /// The same, if it knows what comes next.
+    pub(super) fn certain(&self) -> Option<&Words> {
+        self.said().filter(|said| said.knows)
     }
 }

@@ -10,9 +10,11 @@
 //! It asks all others, naming its life, and takes the greatest number in their answers; answers to an
 //! earlier life do not count. Until all have answered it passes nothing, which costs nothing, as it needs
 //! all of them to pass; and its arrival does not count before, since nobody can tell for which generation.
+//! A life of which a robot has not heard before has to answer a number that the robot draws for it, so that copies
+//! of what its earlier lives said count no longer.
 //!
 //! What holds, whatever the network does and whichever robots crash and restart, as long as state is not
-//! corrupted and one participant at least keeps its memory:
+//! corrupted:
 //! - safety: nobody passes a generation before every participant has come to it, or to a later one;
 //! - order: the generations that a robot passes in one life rise.
 //!
@@ -40,6 +42,7 @@ mod saying;
 
 pub use options::Options;
 
+use crate::handshake::Handshake;
 use crate::incarnation::Incarnation;
 use alloc::collections::{BTreeMap, BTreeSet};
 use starl_core::event::BarrierEvent;
@@ -81,19 +84,26 @@ pub struct Barrier {
     due: Option<Time>,
 }
 
-/// What another robot has said of itself.
-#[derive(Clone, Copy, Debug)]
+/// Another robot.
+#[derive(Clone, Debug)]
 struct Peer {
-    /// Which life it is that has said so.
-    incarnation: u32,
+    /// What its present life has said of itself.
+    lives: Handshake<Words>,
+    /// What it wants to be answered.
+    echo: u32,
+    /// Whether that is a token that it drew for this robot's present life.
+    asks_anew: bool,
+    /// Whether it was told how far this robot is.
+    is_told: bool,
+}
+
+/// What a life has said of itself since it heard of this robot's present one.
+#[derive(Clone, Copy, Debug, Default)]
+struct Words {
     /// What it waits for, or will wait for next, or more if it does not know.
     generation: u64,
     waits: bool,
     knows: bool,
-    /// Whether that life has heard of this robot's present one.
-    has_heard: bool,
-    /// Whether it was told how far this robot is.
-    is_told: bool,
 }
 
 impl Barrier {

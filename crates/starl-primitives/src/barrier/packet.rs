@@ -15,8 +15,11 @@ pub(super) struct Packet {
     pub waits: bool,
     /// Whether that number is certain.
     pub knows: bool,
-    /// Lives of others that the sender has heard.
+    /// What the sender answers to others, to show that it was alive after they asked for it.
     pub heard: BTreeMap<RobotId, u32>,
+    /// What others are to answer, where it is not the sender's incarnation: numbers drawn for lives of theirs that are new
+    /// to the sender.
+    pub asks: BTreeMap<RobotId, u32>,
     /// From whom the sender needs to hear before it can pass.
     pub missing: Vec<RobotId>,
     /// Whether it has said the same before.

@@ -2,6 +2,7 @@
 
 use super::packet::Packet;
 use super::{Barrier, GREATEST, Peer};
+use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use starl_core::event::BarrierEvent;
 use starl_core::{Destination, Robot, RobotId};
@@ -17,8 +18,10 @@ impl Barrier {
         if !self.waits {
             let peers = &self.peers;
             self.owed.retain(|peer| {
-                let known = peers.get(peer);
-                known.is_some_and(|known| !known.knows || (known.generation, known.waits) < place)
+                let said = peers.get(peer).map(Peer::certain);
+                said.is_some_and(|said| {
+                    said.is_none_or(|said| (said.generation, said.waits) < place)
+                })
             });
         } else if !self
             .others(robot)
@@ -36,17 +39,26 @@ impl Barrier {
     /// Says how far this robot is, to one or to all.
     pub(super) fn say(&mut self, robot: &mut Robot<'_>, to: Option<RobotId>) {
         let addressed = |peer: RobotId| to.is_none_or(|only| only == peer);
-        let needs_answer =
-            |peer: &RobotId, known: &Peer| !self.knows || !known.knows || self.owed.contains(peer);
-        let heard = self.peers.iter();
-        let heard = heard.filter(|(peer, known)| addressed(**peer) && needs_answer(peer, known));
-        let heard = heard.map(|(&peer, known)| (peer, known.incarnation));
+        let needs_answer = |peer: RobotId, known: &Peer| {
+            !self.knows || known.asks_anew || known.certain().is_none() || self.owed.contains(&peer)
+        };
+        let incarnation = self.incarnation.of(robot);
+        let (mut heard, mut asks) = (BTreeMap::new(), BTreeMap::new());
+        for (&peer, known) in self.peers.iter().filter(|(peer, _)| addressed(**peer)) {
+            if needs_answer(peer, known) {
+                heard.insert(peer, known.echo);
+            }
+            if let Some(token) = known.lives.asked().filter(|token| *token != incarnation) {
+                asks.insert(peer, token);
+            }
+        }
         let packet = Packet {
-            incarnation: self.incarnation.of(robot),
+            incarnation,
             generation: self.generation,
             waits: self.waits,
             knows: self.knows,
-            heard: heard.collect(),
+            heard,
+            asks,
             missing: match self.waits {
                 true => self.missing(robot),
                 false => Vec::new(),

@@ -1,21 +1,15 @@
 //! What a receiver knows of one stream of one sender: which incarnation speaks, and what has been taken of it.
 //!
-//! How lives are told apart. Nothing that a datagram says of itself tells whether its sender still
-//! lives: copies may be of any age. So a receiver takes messages of an incarnation only after that incarnation
-//! has answered a token which the receiver drew itself, and draws another token for the next. Then the
-//! incarnation was alive after the token was drawn, that is, after the incarnation before it was heard.
-//! So a receiver goes from each incarnation to later ones only, and needs to remember no past ones. This is the
-//! three-way handshake by which transport protocols tell connections apart (Tomlinson 1975, "Selecting
-//! sequence numbers"; Attiya and Rappoport 1997, "The level of handshake required for managing a connection").
+//! Lives are told apart by a [`Handshake`].
 //!
 //! Invariant: of an incarnation each message is handed out at most once, and memory is bounded by the
 //! window whatever arrives: what is further ahead is not taken, so that its sender tries it again.
 
 use super::runs::Runs;
+use crate::handshake::Handshake;
 use alloc::collections::BTreeMap;
 use smallvec::SmallVec;
-use starl_core::random::hash_key;
-use starl_core::{Payload, Robot, Time};
+use starl_core::{Payload, Time};
 
 /// Messages to hand out, by number.
 pub(super) type Arrived = SmallVec<[(u32, Payload); 1]>;
@@ -24,9 +18,7 @@ pub(super) type Arrived = SmallVec<[(u32, Payload); 1]>;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Inbox {
     /// The incarnation that is heard, and what was taken of it.
-    pub heard: Option<(u32, Sequence)>,
-    /// What the next incarnation has to answer; none where it is not asked for.
-    token: Option<u32>,
+    pub lives: Handshake<Sequence>,
     /// When the sender was last answered.
     pub answered: Option<Time>,
     /// What is to be said to the sender.
@@ -45,37 +37,11 @@ pub(super) enum Owed {
 }
 
 impl Inbox {
-    /// The token that the next incarnation has to answer.
-    pub fn token(&mut self, robot: &mut Robot<'_>) -> u32 {
-        // The clock is mixed in so that a robot whose random stream starts over draws another one.
-        *self.token.get_or_insert_with(|| {
-            let bits = u64::from(robot.random().bits());
-            hash_key(robot.now().0, &[bits, 1]) as u32
-        })
-    }
-
-    /// From now on only answers to a new token count.
-    pub fn renew_token(&mut self) {
-        self.token = None;
-    }
-
     /// An incarnation answers a token: from now on it is heard, from the message `base` on. False if the
     /// token is not the present one.
     pub fn begin(&mut self, incarnation: u32, token: u32, base: u32) -> bool {
-        let is_fresh = self.token == Some(token);
-        if is_fresh {
-            self.token = None;
-            if self.heard.as_ref().map(|heard| heard.0) != Some(incarnation) {
-                self.heard = Some((incarnation, Sequence::from(base)));
-            }
-        }
-        is_fresh
-    }
-
-    /// What was taken of an incarnation, if it is heard.
-    pub fn sequence(&mut self, incarnation: u32) -> Option<&mut Sequence> {
-        let heard = self.heard.as_mut().filter(|heard| heard.0 == incarnation)?;
-        Some(&mut heard.1)
+        self.lives
+            .begin(incarnation, token, || Sequence::from(base))
     }
 }
 
@@ -165,12 +131,17 @@ mod tests {
     use super::*;
 
     /// Whether the first message of an incarnation is handed out.
-    fn takes_first(inbox: &mut Inbox, incarnation: u32) -> bool {
+    fn takes_first(sequence: Option<Sequence>, incarnation: u32) -> bool {
         // It answers the present token, if it is not heard already.
-        inbox.token = Some(3);
+        let mut lives = Handshake::asking(3);
+        lives.heard = sequence.map(|sequence| (7, sequence));
+        let mut inbox = Inbox {
+            lives,
+            ..Inbox::default()
+        };
         assert!(inbox.begin(incarnation, 3, 1));
         let mut arrived = Arrived::new();
-        let sequence = inbox.sequence(incarnation).expect("it is heard");
+        let sequence = inbox.lives.of(incarnation).expect("it is heard");
         sequence.hold(1, Payload::new(), 8, &mut arrived);
         !arrived.is_empty()
     }
@@ -178,24 +149,9 @@ mod tests {
     #[test]
     fn a_restart_of_either_side_undoes_that_messages_are_believed_to_be_taken() {
         // As a fault may have it.
-        let mut inbox = Inbox {
-            heard: Some((7, Sequence::from(1_000_000))),
-            ..Inbox::default()
-        };
-        assert!(!takes_first(&mut inbox, 7));
-        assert!(takes_first(&mut inbox, 8), "the sender has restarted");
-        let mut inbox = Inbox::default();
-        assert!(takes_first(&mut inbox, 7), "the receiver has restarted");
-    }
-
-    #[test]
-    fn a_life_that_answers_an_earlier_token_is_not_heard() {
-        let mut inbox = Inbox {
-            token: Some(3),
-            ..Inbox::default()
-        };
-        assert!(inbox.begin(7, 3, 1));
-        assert!(!inbox.begin(6, 3, 1), "the token was answered before");
-        assert!(inbox.sequence(6).is_none() && inbox.sequence(7).is_some());
+        let wrong = Sequence::from(1_000_000);
+        assert!(!takes_first(Some(wrong.clone()), 7));
+        assert!(takes_first(Some(wrong), 8), "the sender has restarted");
+        assert!(takes_first(None, 7), "the receiver has restarted");
     }
 }

@@ -46,7 +46,7 @@ impl Reliable {
         let inbox = self.inboxes.entry((from, stream)).or_default();
         let is_answer = token.is_some_and(|token| inbox.begin(incarnation, token, base));
         let mut arrived = Arrived::new();
-        inbox.owed = match inbox.sequence(incarnation) {
+        inbox.owed = match inbox.lives.of(incarnation) {
             None => Owed::Greeting,
             Some(sequence) => {
                 sequence.settle(base, &mut arrived);
@@ -88,9 +88,9 @@ impl Reliable {
     /// the ticket that this gives, if it comes.
     pub fn ask(&mut self, robot: &mut Robot<'_>, peer: RobotId) -> u32 {
         let inbox = self.inboxes.entry((peer, Stream::Multicast)).or_default();
-        inbox.renew_token();
+        inbox.lives.renew_token();
         inbox.owed = Owed::Greeting;
-        let token = inbox.token(robot);
+        let token = inbox.lives.token(robot);
         self.answer(robot, (peer, Stream::Multicast));
         token
     }
@@ -113,7 +113,7 @@ impl Reliable {
             return;
         };
         inbox.answered = Some(robot.now());
-        let packet = match (core::mem::take(&mut inbox.owed), &inbox.heard) {
+        let packet = match (core::mem::take(&mut inbox.owed), &inbox.lives.heard) {
             (Owed::Nothing, _) => return,
             (Owed::Taken, Some((incarnation, sequence))) => {
                 let (before, ahead) = sequence.report(MOST_RUNS);
@@ -125,7 +125,7 @@ impl Reliable {
                 }
             }
             (Owed::Taken | Owed::Greeting, _) => {
-                let token = inbox.token(robot);
+                let token = inbox.lives.token(robot);
                 Packet::Greet { stream, token }
             }
         };

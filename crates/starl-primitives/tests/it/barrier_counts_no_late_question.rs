@@ -65,3 +65,46 @@ fn a_late_question_of_an_earlier_life_is_no_arrival() {
     assert!((0..4).all(|robot| barrier(&world, robot).passed()));
     crossings(&world, &crashes);
 }
+
+#[test]
+fn a_late_copy_from_before_all_forgot_is_no_arrival() {
+    let make = Crosser::boxed(None, None);
+    let mut world = World::new(3, 1, Wire::perfect(), None, make);
+    let mut crashes = Vec::new();
+    cross(&mut world, &[0, 1, 2]);
+    cross(&mut world, &[2]);
+
+    // The present life of robot 0 hears from robot 2 that it has come to generation 2, and does not learn that it comes
+    // next, as robot 1 is down.
+    for robot in [0, 1] {
+        world.crash(robot);
+        crashes.push((world.records.len(), robot as u32));
+    }
+    world.start(0);
+    let before = world.records.len();
+    cross(&mut world, &[0]);
+    let late = world.payloads_from(before);
+    world.crash(2);
+    crashes.push((world.records.len(), 2));
+    world.start(1);
+    world.start(2);
+
+    cross(&mut world, &[0, 1, 2]);
+    assert!((0..3).all(|robot| barrier(&world, robot).generation() == 2));
+    cross(&mut world, &[0, 1]);
+    let port = Port::named("gate");
+    for payload in late {
+        let from = RobotId(2);
+        let copy = Message {
+            from,
+            port,
+            payload,
+        };
+        world.input(0, &Input::Message(copy));
+    }
+    world.run_for(SECOND * 10);
+    assert!((0..2).all(|robot| barrier(&world, robot).is_waiting()));
+    cross(&mut world, &[2]);
+    assert!((0..3).all(|robot| barrier(&world, robot).passed()));
+    crossings(&world, &crashes);
+}

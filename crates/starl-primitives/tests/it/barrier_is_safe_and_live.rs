@@ -277,5 +277,5 @@ fn after_a_corruption_it_is_safe_again() {
             assert!(more >= 8, "seed {seed}: {more}");
         }
     }
-    assert!(slowest <= Duration::from_millis(1500), "{slowest}");
+    assert!(slowest <= Duration::from_millis(4500), "{slowest}");
 }

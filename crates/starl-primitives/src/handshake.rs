@@ -1,0 +1,96 @@
+//! Which life of another robot is listened to.
+//!
+//! Nothing that a datagram says of itself tells whether its sender still lives: copies may be of any age. So a
+//! receiver listens to an incarnation only after that incarnation has answered a token which the receiver
+//! drew itself, and draws another token for the next. Then the incarnation was alive after the token was drawn, that is,
+//! after the incarnation before it was listened to. So a receiver goes from each incarnation to later ones only,
+//! and needs to remember no past ones. This is the three-way handshake by which transport protocols tell
+//! connections apart (Tomlinson 1975, "Selecting sequence numbers"; Attiya and Rappoport 1997, "The level of
+//! handshake required for managing a connection").
+
+use starl_core::Robot;
+use starl_core::random::hash_key;
+
+/// The life of one peer that is listened to, what is known of it, and how the next is recognised.
+#[derive(Clone, Debug)]
+pub(crate) struct Handshake<T> {
+    /// The incarnation that is listened to, and what is known of it.
+    pub heard: Option<(u32, T)>,
+    /// What the next incarnation has to answer; none where it is not asked for.
+    token: Option<u32>,
+}
+
+impl<T> Default for Handshake<T> {
+    fn default() -> Handshake<T> {
+        Handshake {
+            heard: None,
+            token: None,
+        }
+    }
+}
+
+impl<T> Handshake<T> {
+    /// Nobody is listened to yet; the first has to answer this token.
+    pub fn asking(token: u32) -> Handshake<T> {
+        Handshake {
+            heard: None,
+            token: Some(token),
+        }
+    }
+
+    /// The token that the next incarnation has to answer, drawn if there is none.
+    pub fn token(&mut self, robot: &mut Robot<'_>) -> u32 {
+        // The clock is mixed in so that a robot whose random stream starts over draws another one.
+        *self.token.get_or_insert_with(|| {
+            let bits = u64::from(robot.random().bits());
+            hash_key(robot.now().0, &[bits, 1]) as u32
+        })
+    }
+
+    /// The token that the next incarnation has to answer, if it is asked for.
+    pub fn asked(&self) -> Option<u32> {
+        self.token
+    }
+
+    /// From now on only answers to a new token count.
+    pub fn renew_token(&mut self) {
+        self.token = None;
+    }
+
+    /// An incarnation answers a token: from now on it is listened to, and `new` is known of it if it was not before.
+    /// False if the token is not the present one.
+    pub fn begin(&mut self, incarnation: u32, token: u32, new: impl FnOnce() -> T) -> bool {
+        let is_fresh = self.token == Some(token);
+        if is_fresh {
+            self.token = None;
+            if self.of(incarnation).is_none() {
+                self.heard = Some((incarnation, new()));
+            }
+        }
+        is_fresh
+    }
+
+    /// What is known of an incarnation, if it is listened to.
+    pub fn of(&mut self, incarnation: u32) -> Option<&mut T> {
+        let heard = self.heard.as_mut().filter(|heard| heard.0 == incarnation)?;
+        Some(&mut heard.1)
+    }
+
+    /// What is known of the incarnation that is listened to.
+    pub fn known(&self) -> Option<&T> {
+        self.heard.as_ref().map(|(_, known)| known)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_life_that_answers_an_earlier_token_is_not_heard() {
+        let mut lives = Handshake::asking(3);
+        assert!(lives.begin(7, 3, || ()));
+        assert!(!lives.begin(6, 3, || ()), "the token was answered before");
+        assert!(lives.of(6).is_none() && lives.of(7).is_some());
+    }
+}
