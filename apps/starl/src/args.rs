@@ -290,13 +290,16 @@ pub struct ExploreArguments {
     /// Datagrams that arrive once more, at most
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub duplicates: u8,
+    /// Let all that was once sent arrive any number of times, or never
+    #[arg(long, conflicts_with_all = ["duplicates", "loss"])]
+    pub any_copies: bool,
     /// Crashes, at most; who is down may start again at any time
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub crashes: u8,
     /// Suspicions by failure detectors, true or false, and ends of suspicions, at most
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub suspicions: u8,
-    /// Timers that fire, at most; without --tick they may at any time
+    /// Timers that fire, at most, 255 for any number; without --tick they may at any time
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub timers: u8,
     /// Have failure detectors send heartbeats, which makes for many states

@@ -1,5 +1,6 @@
 //! How much may go wrong in the behaviours that are explored, and what time is in them.
 
+use crate::code::Kind;
 use serde::{Deserialize, Serialize};
 use starl_core::Duration;
 
@@ -11,12 +12,17 @@ pub struct Bounds {
     pub losses: u8,
     /// Datagrams that arrive once more than they were sent, at most; default 0.
     pub duplicates: u8,
+    /// Whether all that was once sent may arrive any number of times, or never: at any time later, or as long as
+    /// [`Clocks::Ticking`] bounds the delay. Losses and duplicates are then not counted, and add nothing but for
+    /// robots that wait for ever for what was lost. Default false.
+    #[serde(default)]
+    pub any_copies: bool,
     /// Crashes, at most, of all robots together; each robot that is down may start again at any time, or
     /// never. Default 0.
     pub crashes: u8,
     /// False or true suspicions by failure detectors, and ends of suspicions, at most; default 0.
     pub suspicions: u8,
-    /// Timers that fire, at most, of all robots together; default 1. With [`Clocks::Ticking`] timers
+    /// Timers that fire, at most, of all robots together, or [`Bounds::ANY_NUMBER`]; default 1. With [`Clocks::Ticking`] timers
     /// are bounded by the time instead.
     pub timers: u8,
     /// What clocks show.
@@ -51,11 +57,17 @@ pub enum Clocks {
     },
 }
 
+impl Bounds {
+    /// So many timers are not counted: they fire any number of times.
+    pub const ANY_NUMBER: u8 = u8::MAX;
+}
+
 impl Default for Bounds {
     fn default() -> Bounds {
         Bounds {
             losses: 0,
             duplicates: 0,
+            any_copies: false,
             crashes: 0,
             suspicions: 0,
             timers: 1,
@@ -91,6 +103,25 @@ impl Left {
                 Clocks::Ticking { .. } => u8::MAX,
             },
         }
+    }
+
+    /// What is left after a step of this kind; none if it is not within the bounds.
+    pub fn after(self, kind: Kind, bounds: &Bounds) -> Option<Left> {
+        let mut left = self;
+        let budget = match kind {
+            Kind::Lose => &mut left.losses,
+            Kind::Duplicate if !bounds.any_copies => &mut left.duplicates,
+            Kind::Crash => &mut left.crashes,
+            Kind::Suspect | Kind::Trust => &mut left.suspicions,
+            Kind::Timer
+                if bounds.clocks == Clocks::Still && bounds.timers != Bounds::ANY_NUMBER =>
+            {
+                &mut left.timers
+            }
+            _ => return Some(self),
+        };
+        *budget = budget.checked_sub(1)?;
+        Some(left)
     }
 
     pub fn words(self) -> [u32; Left::WORDS] {

@@ -9,11 +9,13 @@
 //! [`Search`] finds the states, and the shortest way to a violation; [`Walk`] goes that way step by step,
 //! without any of the search's shortcuts.
 
+mod actors;
 mod bounds;
 mod code;
 mod doubt;
 mod expand;
 mod model;
+mod moves;
 mod robot;
 mod robots;
 mod scene;

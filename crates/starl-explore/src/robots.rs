@@ -7,11 +7,10 @@ use crate::code::{Code, Kind, MOST_DATAGRAMS};
 use crate::doubt::Doubt;
 use crate::robot::{Happening, Local, Surroundings};
 use crate::step::Datagram;
-use crate::table::Table;
+use crate::table::{Rows, Table};
 use crate::texts::Texts;
 use crate::watch;
 use starl_core::{Event, RobotId};
-use std::ops::Range;
 
 /// Events of one turn, with their robot.
 pub(crate) type Batch = Vec<(RobotId, Event)>;
@@ -30,7 +29,7 @@ pub(crate) struct Robots {
     batches: Vec<Batch>,
     batch_texts: Texts,
     /// Rows of state and code.
-    turns: Table,
+    turns: Rows,
     outcomes: Vec<Outcome>,
     /// Numbers of datagrams that were sent, turn by turn.
     sent: Vec<u32>,
@@ -39,20 +38,20 @@ pub(crate) struct Robots {
 }
 
 /// What comes of a turn.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Outcome {
     /// The robot's state after it.
     pub local: u32,
     /// What it has to tell checkers.
     pub batch: u32,
     /// Where the numbers of what it sent are.
-    sent: Range<usize>,
+    pub sent: (u32, u32),
 }
 
 impl Outcome {
     /// Whether nothing came of a turn of a robot in this state.
     pub fn is_idle(&self, local: u32) -> bool {
-        self.local == local && self.batch == NOTHING && self.sent.is_empty()
+        self.local == local && self.batch == NOTHING && self.sent.0 == self.sent.1
     }
 }
 
@@ -66,7 +65,7 @@ impl Robots {
             datagram_rows: Table::default(),
             batches: Vec::new(),
             batch_texts: Texts::default(),
-            turns: Table::default(),
+            turns: Rows::new(2, 0),
             outcomes: Vec::new(),
             sent: Vec::new(),
             motions: 0,
@@ -104,24 +103,36 @@ impl Robots {
         self.batches.iter().flatten().map(|(_, event)| event)
     }
 
+    /// The robot that is in this state.
+    pub fn robot(&self, local: u32) -> RobotId {
+        self.states[local as usize].robot()
+    }
+
     /// The numbers of what was sent in a turn.
-    pub fn sent(&self, outcome: &Outcome) -> &[u32] {
-        &self.sent[outcome.sent.clone()]
+    pub fn sent(&self, (begin, end): (u32, u32)) -> &[u32] {
+        &self.sent[begin as usize..end as usize]
+    }
+
+    /// Memory of the turns, without that of the robots themselves, bytes.
+    pub fn bytes(&self) -> usize {
+        self.turns.bytes()
+            + self.outcomes.capacity() * size_of::<Outcome>()
+            + self.sent.capacity() * size_of::<u32>()
     }
 
     /// What becomes of a robot in this state.
     pub fn turn(&mut self, local: u32, code: Code) -> Outcome {
-        let (number, is_new) = self.turns.insert(&[local, code.0]);
+        let (number, is_new) = self.turns.insert(&[local, code.0], &[]);
         if is_new {
             let happening = self.happening(local, code);
             let turn = self.states[local as usize].turn(&happening, &self.surroundings);
             let outcome = self.enter(turn);
-            self.outcomes.push(outcome.clone());
+            self.outcomes.push(outcome);
             if self.doubt.is_some() {
                 self.compare_twins(local, code);
             }
         }
-        self.outcomes[number as usize].clone()
+        self.outcomes[number as usize]
     }
 
     pub(crate) fn happening(&self, local: u32, code: Code) -> Happening {
@@ -150,7 +161,7 @@ impl Robots {
     pub(crate) fn enter(&mut self, turn: crate::robot::Turn) -> Outcome {
         self.motions += turn.motions;
         let robot = turn.local.robot();
-        let begin = self.sent.len();
+        let begin = self.sent.len() as u32;
         for datagram in turn.sent {
             let number = self.number_of(datagram);
             self.sent.push(number);
@@ -160,7 +171,7 @@ impl Robots {
         Outcome {
             local: self.number(turn.local),
             batch,
-            sent: begin..self.sent.len(),
+            sent: (begin, self.sent.len() as u32),
         }
     }
 

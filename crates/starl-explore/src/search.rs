@@ -1,17 +1,19 @@
 //! Breadth-first search through all states (Moore 1959), so that the first violation that it comes upon
 //! has as few steps before it as any.
 //!
-//! A state is a row of words: the number of what the checkers remember, what is left of the bounds, the
-//! number of each robot's state, and the datagrams that are on their way, in ascending order. All that can make a difference to what comes next is in the row, and rows are compared whole.
+//! A state is a row of words: the number of what the checkers remember and what is left of the bounds, and the number
+//! of each robot's state with the datagrams that are on their way to it. All that can make a difference to what
+//! comes next is in the row, and rows are compared whole.
 
 use crate::Setup;
+use crate::actors::Actors;
 use crate::bounds::{Bounds, Left};
 use crate::code::{Code, Flying, MOST_ROBOTS};
 use crate::doubt::Doubt;
-use crate::robots::{Outcome, Robots};
+use crate::robots::{NOTHING, Robots};
 use crate::scene::{Invariant, Scene};
 use crate::step::Step;
-use crate::table::Table;
+use crate::table::{Rows, Table};
 use crate::walk::Walk;
 use crate::watch::Watches;
 use starl_core::event::PrimitiveEvent;
@@ -27,9 +29,11 @@ pub struct Search {
     invariants: Vec<Box<dyn Invariant>>,
     /// Rows of robots' states that invariants have judged.
     judged: Table,
-    pub(crate) states: Table,
-    /// The state before each, and the step from there.
-    origins: Vec<(u32, Code)>,
+    /// What checkers remember, and what is left of the bounds.
+    heads: Rows,
+    pub(crate) actors: Actors,
+    /// Rows of a head and the actors; with each the state before it, and the step from there.
+    pub(crate) states: Rows,
     /// The first state that was not expanded.
     next: u32,
     /// The first state that is further from the start than those that are expanded now.
@@ -37,9 +41,9 @@ pub struct Search {
     depth: u32,
     transitions: u64,
     terminal: u64,
-    end: Option<End>,
+    pub(crate) end: Option<End>,
     /// The row at hand.
-    row: Vec<u32>,
+    pub(crate) row: Vec<u32>,
 }
 
 /// How a search has ended.
@@ -96,7 +100,7 @@ pub struct Report {
 pub struct TooManyRobots;
 
 /// Where the robots begin in a row.
-pub(crate) const HEAD: usize = 1 + Left::WORDS;
+pub(crate) const HEAD: usize = 1;
 
 impl Search {
     /// A search from the state in which all robots have started.
@@ -122,8 +126,9 @@ impl Search {
             watches: Watches::new(walk.checkers.clone()),
             invariants: walk.invariants.clone(),
             judged: Table::default(),
-            states: Table::default(),
-            origins: Vec::new(),
+            heads: Rows::new(1 + Left::WORDS, 0),
+            actors: Actors::new(walk.bounds),
+            states: Rows::new(HEAD + walk.locals.len(), 2),
             next: 0,
             level: 1,
             depth: 0,
@@ -132,23 +137,23 @@ impl Search {
             end: None,
             row: Vec::new(),
         };
-        let locals = walk.locals.iter();
-        let locals: Vec<u32> = locals
-            .map(|local| search.robots.number(local.clone()))
-            .collect();
-        let flight = walk.flying();
-        let mut flight: Vec<u32> = flight
-            .map(|(datagram, age)| {
-                let number = search.robots.number_of(datagram.clone());
-                Flying::aged(number, age).0
-            })
-            .collect();
-        flight.sort_unstable();
-        search.row.push(0);
-        search.row.extend(walk.left.words());
-        search.row.extend(locals);
-        search.row.extend(flight);
-        search.enter(0, None, &[]);
+        let mut mailboxes = vec![Vec::new(); walk.locals.len()];
+        for (datagram, age) in walk.flying() {
+            let number = search.robots.number_of(datagram.clone());
+            mailboxes[datagram.to.index()].push(Flying::aged(number, age).0);
+        }
+        let head = search.number_of_head(0, walk.left);
+        search.row.push(head);
+        for (local, mut mailbox) in walk.locals.iter().zip(mailboxes) {
+            mailbox.sort_unstable();
+            let local = search.robots.number(local.clone());
+            let actor = search.actors.number(local, &mailbox);
+            search.row.push(actor);
+        }
+        search.states.insert(&search.row, &[0, 0]);
+        if let Some(violation) = search.judge() {
+            search.blame(0, None, violation);
+        }
         if let Some(violation) = violations.into_iter().next() {
             search.blame(0, None, violation);
         }
@@ -167,7 +172,7 @@ impl Search {
             if self.end.is_some() {
                 break;
             }
-            let count = self.states.len() as u32;
+            let count = self.states.len();
             if self.next == count {
                 self.end = Some(End::Complete);
             } else if count >= self.bounds.most_states || self.robots.is_full() {
@@ -188,10 +193,10 @@ impl Search {
     /// How far it is.
     pub fn report(&self) -> Report {
         Report {
-            states: self.states.len() as u32,
+            states: self.states.len(),
             expanded: self.next,
             transitions: self.transitions,
-            depth: match self.level < self.states.len() as u32 {
+            depth: match self.level < self.states.len() {
                 true => self.depth + 1,
                 false => self.depth,
             },
@@ -200,7 +205,11 @@ impl Search {
             checker_states: self.watches.len(),
             motions: self.robots.motions,
             compared: self.robots.doubt.as_ref().map_or(0, |doubt| doubt.compared),
-            bytes: self.states.bytes() + self.origins.capacity() * size_of::<(u32, Code)>(),
+            bytes: self.states.bytes()
+                + self.heads.bytes()
+                + self.actors.bytes()
+                + self.robots.bytes()
+                + self.watches.bytes(),
         }
     }
 
@@ -214,7 +223,7 @@ impl Search {
 
     fn go_on(&mut self) {
         if self.next == self.level {
-            self.level = self.states.len() as u32;
+            self.level = self.states.len();
             self.depth += 1;
         }
         if self.bounds.depth.is_some_and(|depth| self.depth >= depth) {
@@ -230,96 +239,49 @@ impl Search {
         }
     }
 
-    /// Begins to build the row of the state that follows `from`.
-    pub(crate) fn begin(&mut self, from: &[u32], left: Left) {
-        self.row.clear();
-        self.row.push(from[0]);
-        self.row.extend(left.words());
-        self.row.extend_from_slice(&from[HEAD..]);
-    }
-
-    /// Leaves only these datagrams in the row that was begun.
-    pub(crate) fn keep(&mut self, datagrams: &[u32]) {
-        self.row
-            .truncate(HEAD + self.robots.surroundings.fleet.len());
-        self.row.extend_from_slice(datagrams);
-    }
-
-    /// Ends the row that was begun: these robots have had a turn. The datagram that was taken from the
-    /// network is given as it is in the row. Gives the state's number; none where something is violated.
-    pub(crate) fn finish(
-        &mut self,
-        (from, code): (u32, Code),
-        taken: Option<Flying>,
-        outcomes: &[(RobotId, Outcome)],
-    ) -> Option<u32> {
+    /// Enters the state that the row at hand leads to; gives its number, or none where something is violated.
+    pub(crate) fn enter(&mut self, from: u32, code: Code) -> Option<u32> {
         self.transitions += 1;
-        let first = HEAD + self.robots.surroundings.fleet.len();
-        if let Some(Flying(word)) = taken
-            && let Ok(place) = self.row[first..].binary_search(&word)
-        {
-            self.row.remove(first + place);
-        }
-        self.enter(from, Some(code), outcomes)
-    }
-
-    fn enter(
-        &mut self,
-        from: u32,
-        code: Option<Code>,
-        outcomes: &[(RobotId, Outcome)],
-    ) -> Option<u32> {
-        let first = HEAD + self.robots.surroundings.fleet.len();
-        for (robot, outcome) in outcomes {
-            self.row[HEAD + robot.index()] = outcome.local;
-            for &number in self.robots.sent(outcome) {
-                let Flying(word) = Flying::new(number);
-                let place = self.row[first..].partition_point(|&other| other < word);
-                self.row.insert(first + place, word);
-            }
-        }
-        let violation = self.show(outcomes);
-        if self.end.is_some() {
+        let (number, is_new) = self.states.insert(&self.row, &[from, code.0]);
+        if is_new && let Some(violation) = self.judge() {
+            self.blame(number, None, violation);
             return None;
-        }
-        if let Some(violation) = violation {
-            self.blame(from, code, violation);
-            return None;
-        }
-        let (number, is_new) = self.states.insert(&self.row);
-        if is_new {
-            self.origins.push((from, code.unwrap_or(Code(0))));
-            if let Some(violation) = self.judge() {
-                self.end = None;
-                self.blame(number, None, violation);
-                return None;
-            }
         }
         Some(number)
     }
 
-    /// Shows the checkers what happened in a step.
-    fn show(&mut self, outcomes: &[(RobotId, Outcome)]) -> Option<Violation> {
-        let mut found = None;
-        for (_, outcome) in outcomes {
-            if outcome.batch == crate::robots::NOTHING {
-                continue;
-            }
-            let fleet = self.robots.surroundings.fleet.len();
-            let locals = self.row[HEAD..HEAD + fleet].iter();
-            let ticks = locals.map(|&local| self.robots.state(local).clock).max();
-            let ticks = ticks.unwrap_or_default();
-            let at = self.robots.surroundings.time(ticks);
-            let events = self.robots.events(outcome.batch);
-            let shown = self
-                .watches
-                .show(self.row[0], (outcome.batch, events), (ticks, at));
-            self.row[0] = shown.watch;
-            found = found
-                .or_else(|| shown.violation.as_deref().cloned())
-                .or_else(|| crate::failure(events, at));
+    /// What the checkers remember, and what is left of the bounds.
+    pub(crate) fn head(&self, number: u32) -> (u32, Left) {
+        let row = self.heads.row(number);
+        (row[0], Left::read(&row[1..]))
+    }
+
+    pub(crate) fn number_of_head(&mut self, watch: u32, left: Left) -> u32 {
+        let [first, second] = left.words();
+        self.heads.insert(&[watch, first, second], &[]).0
+    }
+
+    /// Shows the checkers what happened in the step that leads to the row at hand. Gives what they remember after
+    /// it; none where something is violated.
+    pub(crate) fn show(&mut self, watch: u32, batch: u32, from: u32, code: Code) -> Option<u32> {
+        if batch == NOTHING {
+            return Some(watch);
         }
-        found
+        let locals = self.row[HEAD..]
+            .iter()
+            .map(|&actor| self.actors.local(actor));
+        let ticks = locals.map(|local| self.robots.state(local).clock).max();
+        let ticks = ticks.unwrap_or_default();
+        let at = self.robots.surroundings.time(ticks);
+        let events = self.robots.events(batch);
+        let shown = self.watches.show(watch, (batch, events), (ticks, at));
+        let watch = shown.watch;
+        let found = shown.violation.as_deref().cloned();
+        if let Some(violation) = found.or_else(|| crate::failure(events, at)) {
+            self.blame(from, Some(code), violation);
+            return None;
+        }
+        Some(watch)
     }
 
     /// Has the invariants judge the row at hand.
@@ -327,9 +289,9 @@ impl Search {
         if self.invariants.is_empty() {
             return None;
         }
-        let fleet = self.robots.surroundings.fleet.len();
-        let locals = &self.row[HEAD..HEAD + fleet];
-        if !self.judged.insert(locals).1 {
+        let actors = self.row[HEAD..].iter();
+        let locals: Vec<u32> = actors.map(|&actor| self.actors.local(actor)).collect();
+        if !self.judged.insert(&locals).1 {
             return None;
         }
         let scene = Scene {
@@ -358,16 +320,15 @@ impl Search {
     fn blame(&mut self, state: u32, code: Option<Code>, violation: Violation) {
         let mut codes: Vec<(u32, Code)> = code.map(|code| (state, code)).into_iter().collect();
         let mut at = state;
-        while at != 0
-            && let Some(&(before, code)) = self.origins.get(at as usize)
-        {
-            codes.push((before, code));
-            at = before;
+        while at != 0 {
+            let kept = self.states.kept(at);
+            codes.push((kept[0], Code(kept[1])));
+            at = kept[0];
         }
         let steps = codes.into_iter().rev().map(|(before, code)| {
             let robot = code.of_robot().unwrap_or(RobotId(0));
-            let row = self.states.row(before);
-            let local = row.get(HEAD + robot.index()).copied().unwrap_or_default();
+            let actor = self.states.row(before).get(HEAD + robot.index());
+            let local = actor.map_or(0, |&actor| self.actors.local(actor));
             code.step(local, &self.robots)
         });
         self.end = Some(End::Violated(Counterexample {

@@ -1,98 +1,201 @@
 //! Tables that number rows of words in the order in which they come: equal rows have one number.
 //!
-//! Rows lie end to end in one piece of memory, and are found by open addressing with linear probing
-//! (Knuth, The Art of Computer Programming 3, section 6.4). Equality is of the whole row, so that two
-//! rows are never taken for one. Unlike the standard library's table it is the same on every run.
+//! Rows lie end to end, and are found by open addressing with linear probing (Knuth, The Art of Computer
+//! Programming 3, section 6.4). Equality is of the whole row, so that two rows are never taken for one. Unlike the
+//! standard library's tables these are the same on every run.
 
 use starl_core::Digest;
 
-/// Marks a place that is free.
-const FREE: u32 = u32::MAX;
-
-/// Numbers rows of words from 0 on.
-#[derive(Clone, Debug)]
+/// Numbers rows of words, of any length each, from 0 on.
+#[derive(Clone, Debug, Default)]
 pub struct Table {
     words: Vec<u32>,
     /// Where each row ends.
     ends: Vec<usize>,
-    /// Numbers of rows, by hash; a power of two of them.
-    places: Vec<u32>,
-}
-
-impl Default for Table {
-    fn default() -> Table {
-        Table {
-            words: Vec::new(),
-            ends: Vec::new(),
-            places: vec![FREE; 16],
-        }
-    }
+    index: Index,
 }
 
 impl Table {
-    /// How many rows there are.
-    pub fn len(&self) -> usize {
-        self.ends.len()
-    }
-
     /// The row with this number; empty if there is none.
     pub fn row(&self, number: u32) -> &[u32] {
-        let index = number as usize;
-        let begin = match index.checked_sub(1) {
-            Some(before) => self.ends.get(before).copied().unwrap_or_default(),
-            None => 0,
-        };
-        let end = self.ends.get(index).copied().unwrap_or(begin);
-        self.words.get(begin..end).unwrap_or_default()
+        row_of(&self.words, &self.ends, number)
     }
 
     /// The number of a row, and whether it is new.
     pub fn insert(&mut self, row: &[u32]) -> (u32, bool) {
-        let place = self.place(row);
-        let found = self.places[place];
-        if found != FREE {
-            return (found, false);
-        }
-        let number = self.ends.len() as u32;
-        self.places[place] = number;
-        self.words.extend_from_slice(row);
-        self.ends.push(self.words.len());
-        if self.ends.len() * 4 > self.places.len() * 3 {
-            self.grow();
-        }
+        let Table { words, ends, index } = self;
+        let place = match index.find(row, |number| row_of(words, ends, number)) {
+            Ok(found) => return (found, false),
+            Err(place) => place,
+        };
+        let number = ends.len() as u32;
+        words.extend_from_slice(row);
+        ends.push(words.len());
+        index.enter(place, number, |number| row_of(words, ends, number));
         (number, true)
     }
 
     /// Memory in use, bytes.
     pub fn bytes(&self) -> usize {
-        let words = self.words.capacity() + self.places.capacity();
-        words * size_of::<u32>() + self.ends.capacity() * size_of::<usize>()
+        let words = self.words.capacity() * size_of::<u32>();
+        words + self.ends.capacity() * size_of::<usize>() + self.index.bytes()
+    }
+}
+
+fn row_of<'a>(words: &'a [u32], ends: &[usize], number: u32) -> &'a [u32] {
+    let index = number as usize;
+    let begin = match index.checked_sub(1) {
+        Some(before) => ends.get(before).copied().unwrap_or_default(),
+        None => 0,
+    };
+    let end = ends.get(index).copied().unwrap_or(begin);
+    words.get(begin..end).unwrap_or_default()
+}
+
+/// Numbers rows of one length from 0 on, and keeps some words more with each. There is no slack but in the index:
+/// rows lie in chunks that are never moved.
+#[derive(Clone, Debug)]
+pub struct Rows {
+    /// How many words a row has.
+    key: usize,
+    /// How many words are kept of each, the row first.
+    width: usize,
+    chunks: Vec<Vec<u32>>,
+    len: u32,
+    index: Index,
+}
+
+/// Rows in a chunk.
+const CHUNK: u32 = 1 << 12;
+
+impl Rows {
+    /// A table of rows of `key` words, with each of which `more` words are kept.
+    pub fn new(key: usize, more: usize) -> Rows {
+        Rows {
+            key,
+            width: key + more,
+            chunks: Vec::new(),
+            len: 0,
+            index: Index::default(),
+        }
     }
 
-    /// Where the row is, or would be.
-    fn place(&self, row: &[u32]) -> usize {
+    /// How many rows there are.
+    pub fn len(&self) -> u32 {
+        self.len
+    }
+
+    /// The row with this number; there must be one.
+    pub fn row(&self, number: u32) -> &[u32] {
+        &all_of(&self.chunks, self.width, number)[..self.key]
+    }
+
+    /// What is kept with this row; there must be one.
+    pub fn kept(&self, number: u32) -> &[u32] {
+        &all_of(&self.chunks, self.width, number)[self.key..]
+    }
+
+    /// The number of a row, and whether it is new; only if it is, `more` is kept with it.
+    pub fn insert(&mut self, row: &[u32], more: &[u32]) -> (u32, bool) {
+        debug_assert_eq!((row.len(), row.len() + more.len()), (self.key, self.width));
+        let Rows {
+            key,
+            width,
+            chunks,
+            len,
+            index,
+        } = self;
+        let place = match index.find(row, |number| &all_of(chunks, *width, number)[..*key]) {
+            Ok(found) => return (found, false),
+            Err(place) => place,
+        };
+        let number = *len;
+        *len += 1;
+        if number.is_multiple_of(CHUNK) {
+            chunks.push(Vec::with_capacity(CHUNK as usize * *width));
+        }
+        let chunk = &mut chunks[(number / CHUNK) as usize];
+        chunk.extend_from_slice(row);
+        chunk.extend_from_slice(more);
+        index.enter(place, number, |number| {
+            &all_of(chunks, *width, number)[..*key]
+        });
+        (number, true)
+    }
+
+    /// Memory in use, bytes.
+    pub fn bytes(&self) -> usize {
+        let rows = self.chunks.len() * CHUNK as usize * self.width;
+        rows * size_of::<u32>() + self.index.bytes()
+    }
+}
+
+fn all_of(chunks: &[Vec<u32>], width: usize, number: u32) -> &[u32] {
+    let begin = (number % CHUNK) as usize * width;
+    &chunks[(number / CHUNK) as usize][begin..begin + width]
+}
+
+/// Marks a place that is free.
+const FREE: u32 = u32::MAX;
+
+/// Finds the numbers of rows by their hashes.
+#[derive(Clone, Debug)]
+struct Index {
+    /// A power of two of them.
+    places: Vec<u32>,
+    used: usize,
+}
+
+impl Default for Index {
+    fn default() -> Index {
+        Index {
+            places: vec![FREE; 16],
+            used: 0,
+        }
+    }
+}
+
+impl Index {
+    /// The number of a row, or the place where it is to be entered.
+    fn find<'a>(&self, row: &[u32], row_of: impl Fn(u32) -> &'a [u32]) -> Result<u32, usize> {
         let mask = self.places.len() - 1;
         let mut place = hash(row) as usize & mask;
         loop {
             let number = self.places[place];
-            if number == FREE || self.row(number) == row {
-                return place;
+            if number == FREE {
+                return Err(place);
+            }
+            if row_of(number) == row {
+                return Ok(number);
             }
             place = (place + 1) & mask;
         }
     }
 
-    fn grow(&mut self) {
-        let size = self.places.len() * 2;
-        let mut places = vec![FREE; size];
-        for number in 0..self.ends.len() as u32 {
-            let mut place = hash(self.row(number)) as usize & (size - 1);
+    /// Enters a number where it was not found.
+    fn enter<'a>(&mut self, place: usize, number: u32, row_of: impl Fn(u32) -> &'a [u32]) {
+        self.places[place] = number;
+        self.used += 1;
+        if self.used * 4 > self.places.len() * 3 {
+            self.grow(row_of);
+        }
+    }
+
+    fn grow<'a>(&mut self, row_of: impl Fn(u32) -> &'a [u32]) {
+        let mask = self.places.len() * 2 - 1;
+        let mut places = vec![FREE; mask + 1];
+        for number in 0..self.used as u32 {
+            let mut place = hash(row_of(number)) as usize & mask;
             while places[place] != FREE {
-                place = (place + 1) & (size - 1);
+                place = (place + 1) & mask;
             }
             places[place] = number;
         }
         self.places = places;
+    }
+
+    fn bytes(&self) -> usize {
+        self.places.capacity() * size_of::<u32>()
     }
 }
 
@@ -129,6 +232,21 @@ mod tests {
             assert_eq!(table.row(number as u32), row.as_slice());
             assert_eq!(table.insert(row), (number as u32, false));
         }
-        assert_eq!(table.len(), known.len());
+    }
+
+    #[test]
+    fn rows_of_one_length_keep_what_was_given_with_them_first() {
+        let mut rows = Rows::new(2, 1);
+        for turn in 0..2 {
+            for number in 0..3 * CHUNK {
+                let row = [number % 3, number / 3];
+                assert_eq!(rows.insert(&row, &[number + turn]), (number, turn == 0));
+            }
+        }
+        assert_eq!(rows.len(), 3 * CHUNK);
+        for number in [0, 1, CHUNK - 1, CHUNK, 3 * CHUNK - 1] {
+            assert_eq!(rows.row(number), [number % 3, number / 3]);
+            assert_eq!(rows.kept(number), [number]);
+        }
     }
 }

@@ -6,7 +6,7 @@
 use crate::Setup;
 use crate::bounds::{Bounds, Clocks, Left};
 use crate::code::OLDEST;
-use crate::expand::ready;
+use crate::moves::ready;
 use crate::robot::{Happening, Local, Surroundings, Turn};
 use crate::scene::{Invariant, Scene};
 use crate::step::{Datagram, Step};
@@ -104,14 +104,17 @@ impl Walk {
                 if !place.is_some_and(|place| ready.contains(&(place as u32))) {
                     return Err(Impossible("the timer cannot fire".into()));
                 }
-                if self.bounds.clocks == Clocks::Still {
+                let is_counted = self.bounds.timers != Bounds::ANY_NUMBER;
+                if self.bounds.clocks == Clocks::Still && is_counted {
                     spend(&mut self.left.timers, "timers")?;
                 }
                 vec![self.turn(*robot, Happening::Timer(*key))?]
             }
             Step::Deliver(datagram) => vec![self.deliver(datagram, true, &mut records)?],
             Step::Duplicate(datagram) => {
-                spend(&mut self.left.duplicates, "duplicates")?;
+                if !self.bounds.any_copies {
+                    spend(&mut self.left.duplicates, "duplicates")?;
+                }
                 vec![self.deliver(datagram, false, &mut records)?]
             }
             Step::Lose(datagram) => {
@@ -318,6 +321,9 @@ impl Walk {
                     port: datagram.port,
                     payload: Payload::from_slice(&datagram.payload),
                 }));
+                if self.bounds.any_copies {
+                    self.flight.retain(|flying| flying.datagram != datagram);
+                }
                 self.flight.push(Flying {
                     datagram,
                     sequence,

@@ -4,7 +4,7 @@
 //! than all that comes after. Explorations of what comes after begin when it is over.
 
 use crate::bounds::Clocks;
-use crate::expand::ready;
+use crate::moves::ready;
 use crate::step::Step;
 use crate::walk::{Impossible, Moment, Walk};
 

@@ -8,7 +8,7 @@
 //! Checkers are not shown datagrams. They need them only to excuse what came too late, and nothing is
 //! too late here: an exploration has no bounds of time.
 
-use crate::table::Table;
+use crate::table::Rows;
 use crate::texts::Texts;
 use starl_core::{Duration, Event, Record, RobotId, Time};
 use starl_properties::{Checker, Violation};
@@ -61,7 +61,7 @@ pub(crate) struct Watches {
     states: Vec<Checkers>,
     texts: Texts,
     /// Rows of state, batch and time.
-    known: Table,
+    known: Rows,
     outcomes: Vec<Outcome>,
 }
 
@@ -80,7 +80,7 @@ impl Watches {
         let mut watches = Watches {
             states: Vec::new(),
             texts: Texts::default(),
-            known: Table::default(),
+            known: Rows::new(3, 0),
             outcomes: Vec::new(),
         };
         watches.number(checkers);
@@ -90,6 +90,11 @@ impl Watches {
     /// How many states were seen.
     pub fn len(&self) -> usize {
         self.states.len()
+    }
+
+    /// Memory of what events make of them, without that of the checkers themselves, bytes.
+    pub fn bytes(&self) -> usize {
+        self.known.bytes() + self.outcomes.capacity() * size_of::<Outcome>()
     }
 
     fn number(&mut self, checkers: Checkers) -> u32 {
@@ -108,7 +113,7 @@ impl Watches {
         (batch, events): (u32, &[(RobotId, Event)]),
         (tick, at): (u64, Time),
     ) -> &Outcome {
-        let (number, is_new) = self.known.insert(&[watch, batch, tick as u32]);
+        let (number, is_new) = self.known.insert(&[watch, batch, tick as u32], &[]);
         if is_new {
             let (after, violations) = observe(&self.states[watch as usize], events, at);
             let watch = self.number(after);

@@ -5,7 +5,7 @@ use super::record::Recording;
 use crate::console::{counted, grouped, rounded};
 use serde::Serialize;
 use starl_core::Duration;
-use starl_explore::{Clocks, End, Report};
+use starl_explore::{Bounds, Clocks, End, Report};
 use std::fmt::Write;
 
 /// What there is to tell.
@@ -42,6 +42,7 @@ pub struct Account {
 struct BoundsInWords {
     losses: u8,
     duplicates: u8,
+    any_copies: bool,
     crashes: u8,
     suspicions: u8,
     /// None where time bounds them.
@@ -242,6 +243,7 @@ impl BoundsInWords {
         BoundsInWords {
             losses: bounds.losses,
             duplicates: bounds.duplicates,
+            any_copies: bounds.any_copies,
             crashes: bounds.crashes,
             suspicions: bounds.suspicions,
             timers: tick.is_none().then_some(bounds.timers),
@@ -270,8 +272,12 @@ impl BoundsInWords {
             count => format!("{count} {many}"),
         })
         .collect();
+        if self.any_copies {
+            parts.push("any losses and copies".into());
+        }
         match (self.timers, self.tick_seconds, self.time_seconds) {
             (Some(timers), ..) => parts.push(match timers {
+                Bounds::ANY_NUMBER => "any timers".into(),
                 1 => "1 timer that fires".into(),
                 timers => format!("{timers} timers that fire"),
             }),

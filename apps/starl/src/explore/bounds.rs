@@ -24,6 +24,7 @@ pub fn read(arguments: &ExploreArguments) -> Result<Bounds, Failure> {
     Ok(Bounds {
         losses: arguments.loss,
         duplicates: arguments.duplicates,
+        any_copies: arguments.any_copies,
         crashes: arguments.crashes,
         suspicions: arguments.suspicions,
         timers: arguments.timers,

@@ -46,17 +46,17 @@ fn leaders_are_elected_in_what_is_explored() {
 
 #[test]
 fn bully() {
-    assert_eq!(explore(Algorithm::Bully, 2, 0, 0), (21_066, 52_479, 17));
+    assert_eq!(explore(Algorithm::Bully, 2, 0, 0), (12_465, 26_653, 17));
 }
 
 #[test]
 fn ballots() {
-    assert_eq!(explore(Algorithm::Ballots, 2, 0, 0), (14_817, 45_424, 19));
+    assert_eq!(explore(Algorithm::Ballots, 2, 0, 0), (12_155, 31_254, 17));
 }
 
 #[test]
 fn leases() {
-    assert_eq!(explore(Algorithm::Leases, 1, 0, 0), (33_845, 169_606, 21));
+    assert_eq!(explore(Algorithm::Leases, 1, 0, 0), (18_167, 69_730, 22));
 }
 
 #[test]
@@ -64,7 +64,7 @@ fn leases() {
 fn leases_that_end() {
     assert_eq!(
         explore(Algorithm::Leases, 2, 0, 0),
-        (1_899_397, 12_175_998, 31)
+        (941_298, 4_248_331, 30)
     );
 }
 
@@ -72,11 +72,11 @@ fn leases_that_end() {
 fn leases_with_a_crash() {
     assert_eq!(
         explore(Algorithm::Leases, 1, 0, 1),
-        (595_367, 3_090_062, 25)
+        (381_799, 1_526_507, 26)
     );
 }
 
 #[test]
 fn bully_with_a_crash() {
-    assert_eq!(explore(Algorithm::Bully, 1, 0, 1), (143_958, 423_672, 20));
+    assert_eq!(explore(Algorithm::Bully, 1, 0, 1), (81_419, 198_390, 21));
 }

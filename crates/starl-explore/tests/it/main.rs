@@ -1,6 +1,8 @@
 //! The tests of `starl-explore`, in one binary so that they link once.
 
+mod any_copies;
 mod arbitrated_mutexes_are_safe;
+mod broadcasts_keep_their_order;
 mod conforms;
 mod elections_are_safe;
 mod permission_mutex_is_safe;

@@ -27,6 +27,7 @@ fn explore_wishes(robots: usize, wishes: &[&[&'static str]], bounds: Bounds) -> 
 const QUIET: Bounds = Bounds {
     losses: 0,
     duplicates: 0,
+    any_copies: false,
     crashes: 0,
     suspicions: 0,
     timers: 0,

@@ -1,9 +1,13 @@
 //! Small programs to explore, and a search of them.
 
 pub mod elector;
+pub mod keeper;
 pub mod locker;
 pub mod registrar;
+pub mod sharer;
+pub mod speaker;
 pub mod tieless;
+pub mod waiter;
 
 use starl_core::{Duration, Event, Program, Record};
 use starl_explore::{Bounds, Clocks, End, Model, Report, Search, Setup, Walk};

@@ -1,0 +1,170 @@
+//! Actors by number: an actor is a robot's state with its mailbox, the datagrams that are on their way to it
+//! (Agha 1986, Actors).
+//!
+//! All that can happen to one robot depends on its actor alone, and changes it, and what it sends is put into
+//! the mailboxes of others. So what can happen is found out once for each actor, and a state of the fleet is
+//! as many numbers as there are robots (collapse compression: Holzmann 1997, State compression in SPIN).
+
+use crate::bounds::{Bounds, Clocks};
+use crate::code::{Code, Flying, Kind};
+use crate::moves;
+use crate::robots::{Outcome, Robots};
+use crate::table::{Rows, Table};
+
+/// All actors that were seen.
+#[derive(Clone)]
+pub(crate) struct Actors {
+    pub bounds: Bounds,
+    /// Rows of state and mailbox.
+    rows: Rows,
+    /// Datagrams in ascending order, as [`Flying`].
+    mailboxes: Table,
+    /// By actor; none of those that were not asked for.
+    prospects: Vec<Option<Prospects>>,
+    moves: Vec<Move>,
+    /// Rows of actor and datagram.
+    posted: Rows,
+    /// The actors after these were sent.
+    after_post: Vec<u32>,
+}
+
+/// What can happen to an actor.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Prospects {
+    /// Where its moves are.
+    begin: u32,
+    end: u32,
+    /// What it is when its clock has ticked, if that can.
+    pub ticked: Option<u32>,
+}
+
+/// Something that can happen to an actor by itself.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Move {
+    pub code: Code,
+    /// The actor after it.
+    pub next: u32,
+    /// What it has to tell checkers.
+    pub batch: u32,
+    /// Where the numbers of what it sent are.
+    pub sent: (u32, u32),
+}
+
+impl Actors {
+    pub fn new(bounds: Bounds) -> Actors {
+        Actors {
+            bounds,
+            rows: Rows::new(2, 0),
+            mailboxes: Table::default(),
+            prospects: Vec::new(),
+            moves: Vec::new(),
+            posted: Rows::new(2, 0),
+            after_post: Vec::new(),
+        }
+    }
+
+    /// The number of a robot's state with this mailbox.
+    pub fn number(&mut self, local: u32, mailbox: &[u32]) -> u32 {
+        let (mailbox, _) = self.mailboxes.insert(mailbox);
+        let (number, is_new) = self.rows.insert(&[local, mailbox], &[]);
+        if is_new {
+            self.prospects.push(None);
+        }
+        number
+    }
+
+    /// The state of an actor's robot.
+    pub fn local(&self, actor: u32) -> u32 {
+        self.rows.row(actor)[0]
+    }
+
+    /// What is on its way to an actor.
+    pub fn mailbox(&self, actor: u32) -> &[u32] {
+        self.mailboxes.row(self.rows.row(actor)[1])
+    }
+
+    /// An actor to which a datagram was sent.
+    pub fn post(&mut self, actor: u32, datagram: u32) -> u32 {
+        let (number, is_new) = self.posted.insert(&[actor, datagram], &[]);
+        if !is_new {
+            return self.after_post[number as usize];
+        }
+        let mut mailbox = self.mailbox(actor).to_vec();
+        if self.bounds.any_copies {
+            // A copy that was sent later may arrive whenever one that was sent earlier may.
+            mailbox.retain(|&word| Flying(word).number() != datagram);
+        }
+        let Flying(word) = Flying::new(datagram);
+        mailbox.insert(mailbox.partition_point(|&other| other < word), word);
+        let after = self.number(self.local(actor), &mailbox);
+        self.after_post.push(after);
+        after
+    }
+
+    /// What can happen to an actor.
+    pub fn prospects(&mut self, actor: u32, robots: &mut Robots) -> Prospects {
+        if let Some(prospects) = self.prospects[actor as usize] {
+            return prospects;
+        }
+        let begin = self.moves.len() as u32;
+        moves::find(self, actor, robots);
+        let local = self.local(actor);
+        let ticked = moves::may_tick(robots, local).then(|| {
+            let outcome = robots.turn(local, Code::robot(Kind::Tick, robots.robot(local), 0));
+            let mailbox = self.older(actor);
+            self.number(outcome.local, &mailbox)
+        });
+        let prospects = Prospects {
+            begin,
+            end: self.moves.len() as u32,
+            ticked,
+        };
+        self.prospects[actor as usize] = Some(prospects);
+        prospects
+    }
+
+    /// The moves of an actor.
+    pub fn moves(&self, prospects: Prospects) -> &[Move] {
+        &self.moves[prospects.begin as usize..prospects.end as usize]
+    }
+
+    /// Adds a move of an actor, which has this mailbox after it.
+    pub fn add(&mut self, code: Code, outcome: &Outcome, mailbox: &[u32]) {
+        let next = self.number(outcome.local, mailbox);
+        self.moves.push(Move {
+            code,
+            next,
+            batch: outcome.batch,
+            sent: outcome.sent,
+        });
+    }
+
+    /// What of an actor's mailbox is there a tick later.
+    fn older(&self, actor: u32) -> Vec<u32> {
+        let mailbox = self.mailbox(actor);
+        let Clocks::Ticking {
+            skew: 0,
+            delay: Some(delay),
+            ..
+        } = self.bounds.clocks
+        else {
+            return mailbox.to_vec();
+        };
+        let older = mailbox.iter();
+        let mut older: Vec<u32> = older
+            .filter_map(|&word| Some(Flying(word).age(delay)?.0))
+            .collect();
+        older.sort_unstable();
+        older
+    }
+
+    /// Memory in use, bytes.
+    pub fn bytes(&self) -> usize {
+        self.rows.bytes()
+            + self.mailboxes.bytes()
+            + self.posted.bytes()
+            + self.after_post.capacity() * size_of::<u32>()
+            + self.prospects.capacity() * size_of::<Option<Prospects>>()
+            + self.moves.capacity() * size_of::<Move>()
+    }
+}

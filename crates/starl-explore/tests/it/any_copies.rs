@@ -1,0 +1,151 @@
+//! Three robots in a network that keeps all that was ever said: any of it may arrive at any time, any number of
+//! times, or never, also after its sender or its receiver has crashed and started again. That covers every loss and
+//! every duplicate. The checkers are those of every run.
+
+use crate::support::elector::Elector;
+use crate::support::keeper::{Keeper, Operation};
+use crate::support::locker::Locker;
+use crate::support::registrar::Registrar;
+use crate::support::sharer::Sharer;
+use crate::support::waiter::Waiter;
+use crate::support::{all_is_well, happens, seconds, setup, watched};
+use starl_core::{Duration, Program};
+use starl_explore::{Bounds, Clocks, Setup};
+use starl_primitives::{election, mutex, register, registration, shared_memory};
+
+fn any_copies(program: impl Program + Clone + 'static, clocks: Clocks, crashes: u8) -> Setup {
+    let bounds = Bounds {
+        any_copies: true,
+        timers: 0,
+        crashes,
+        clocks,
+        ..Bounds::default()
+    };
+    watched(setup(3, program, bounds))
+}
+
+fn memory(crashes: u8) -> Setup {
+    let sharer = Sharer::new(&[true; 3], shared_memory::Options::default());
+    any_copies(sharer, Clocks::Still, crashes)
+}
+
+/// Ticks after which all copies of the register answer.
+const REGISTER_IS_UP: u16 = 2;
+
+fn register(operations: [Option<Operation>; 3]) -> Setup {
+    let keeper = Keeper::new(&operations, register::Options::default());
+    any_copies(keeper, seconds(REGISTER_IS_UP, 0, Some(0)), 0)
+}
+
+fn registration(crashes: u8) -> Setup {
+    let second = Duration::from_seconds(1);
+    let options = registration::Options {
+        settle: second,
+        gather: second,
+        first_timeout: second * 2,
+        longest_timeout: second * 2,
+        repetitions: 1,
+        shortest_interval: second * 4,
+        longest_interval: second * 8,
+        patience: second * 100,
+        ..registration::Options::default()
+    };
+    any_copies(Registrar::new(options), seconds(0, 1, Some(0)), crashes)
+}
+
+fn election(algorithm: election::Algorithm, ticks: u16, crashes: u8) -> Setup {
+    let second = Duration::from_seconds(1);
+    let options = election::Options {
+        algorithm,
+        lease: second * 2,
+        drift: 0.0,
+        period: second * 2,
+        first_timeout: second * 2,
+        answer_timeout: second,
+        patience: second * 4,
+        give_up: second * 100,
+        ..election::Options::default()
+    };
+    any_copies(Elector::new(options), seconds(3, ticks, Some(0)), crashes)
+}
+
+fn barrier() -> Setup {
+    any_copies(Waiter::new(1), Clocks::Still, 0)
+}
+
+fn quorums() -> Setup {
+    let options = mutex::Options {
+        algorithm: mutex::Algorithm::Quorum,
+        ..mutex::Options::default()
+    };
+    let locker = Locker::new(&[&["a"], &["a"], &[]], options);
+    any_copies(locker, Clocks::Still, 0)
+}
+
+#[test]
+fn what_is_judged_happens() {
+    use election::Algorithm::{Ballots, Bully};
+    let write_and_read = [Some(Operation::Write), Some(Operation::Read), None];
+    assert!(happens(memory(1), 0, "write"));
+    assert!(happens(register(write_and_read), REGISTER_IS_UP, "done"));
+    assert!(happens(quorums(), 0, "enter"));
+    assert!(happens(barrier(), 0, "pass"));
+    assert!(happens(election(Bully, 2, 1), 3, "leader"));
+    assert!(happens(election(Ballots, 2, 0), 3, "leader"));
+}
+
+#[test]
+fn memory_with_three_writers_and_a_crash() {
+    assert_eq!(all_is_well(memory(1), 0), (34_259, 108_285, 16));
+}
+
+#[test]
+fn register_with_a_writer_and_a_reader() {
+    let operations = [Some(Operation::Write), Some(Operation::Read), None];
+    assert_eq!(
+        all_is_well(register(operations), REGISTER_IS_UP),
+        (27_238, 259_915, 19)
+    );
+}
+
+#[test]
+fn register_with_two_writers() {
+    let operations = [Some(Operation::Write), Some(Operation::Write), None];
+    let size = (352_174, 3_565_783, 23);
+    assert_eq!(all_is_well(register(operations), REGISTER_IS_UP), size);
+}
+
+#[test]
+fn barrier_that_three_robots_pass() {
+    assert_eq!(all_is_well(barrier(), 0), (60_998, 145_953, 21));
+}
+
+#[test]
+fn quorums_that_two_robots_ask() {
+    assert_eq!(all_is_well(quorums(), 0), (2_550, 12_722, 19));
+}
+
+#[test]
+fn registration_with_a_crash() {
+    let size = (220_551, 1_229_828, 29);
+    assert_eq!(all_is_well(registration(1), 0), size);
+}
+
+#[test]
+fn bully_with_a_crash() {
+    let election = election(election::Algorithm::Bully, 2, 1);
+    assert_eq!(all_is_well(election, 3), (175_179, 561_921, 21));
+}
+
+#[test]
+fn ballots_with_a_crash_while_a_tick_passes() {
+    let election = election(election::Algorithm::Ballots, 1, 1);
+    assert_eq!(all_is_well(election, 3), (526_762, 9_122_894, 33));
+}
+
+#[test]
+#[ignore = "takes minutes without optimisation"]
+fn ballots_with_a_crash() {
+    let election = election(election::Algorithm::Ballots, 2, 1);
+    assert_eq!(all_is_well(election, 3), (5_418_202, 85_070_673, 38));
+}

@@ -1,0 +1,39 @@
+//! Broadcasts of three robots with one crash and restart and one duplicate: what is handed to programs is handed
+//! over once, and in the order that was promised. That a datagram gets lost is that it never arrives.
+
+use crate::support::speaker::Speaker;
+use crate::support::{all_is_well, happens, setup, watched};
+use starl_explore::{Bounds, Setup};
+use starl_primitives::broadcast::Order;
+use starl_primitives::reliable::Options;
+
+fn broadcasts(order: Order, messages: &[u8]) -> Setup {
+    let bounds = Bounds {
+        duplicates: 1,
+        crashes: 1,
+        timers: 0,
+        ..Bounds::default()
+    };
+    watched(setup(
+        3,
+        Speaker::new(messages, order, Options::default()),
+        bounds,
+    ))
+}
+
+const ONE: &[u8] = &[1, 0, 0];
+
+#[test]
+fn messages_are_handed_over_in_what_is_explored() {
+    for order in [Order::Unordered, Order::Fifo, Order::Causal] {
+        assert!(happens(broadcasts(order, ONE), 0, "deliver"), "{order:?}");
+    }
+}
+
+#[test]
+fn one_message_with_a_crash_and_a_duplicate() {
+    for order in [Order::Unordered, Order::Fifo, Order::Causal] {
+        let size = all_is_well(broadcasts(order, ONE), 0);
+        assert_eq!(size, (8_531, 18_558, 14), "{order:?}");
+    }
+}
