@@ -1,9 +1,13 @@
 //! The numbers of leaderships.
 //!
 //! Invariant: an epoch names its leader, and no robot uses one twice. It is the moment at which a robot
-//! stood, in milliseconds of its own clock, or more where it knows of later epochs, and that robot's number.
-//! So two leaders cannot share an epoch even if every vote is forgotten, as long as no robot's clock goes
-//! back while it is down; and an epoch that a corruption made up is no other robot's either.
+//! stood, in milliseconds of its own clock, and that robot's number. Where it knows of later epochs, since another's clock is
+//! ahead, it is the first later moment that differs from its clock by a whole number of [`CYCLE`]s. So two leaders
+//! cannot share an epoch even if every vote is forgotten, as long as no robot's clock goes back while it is down; and
+//! an epoch that a corruption made up is no other robot's either. Only a robot that forgets an epoch of its own which
+//! was ahead of its clock, and hears again of the one before it, could use it twice, and only if it stands whole cycles
+//! later. Epochs are ahead of clocks by no more than a cycle for each leader, so that they go on growing with the clocks
+//! where all is forgotten.
 
 use super::options::random_bits;
 use serde::{Deserialize, Serialize};
@@ -15,6 +19,9 @@ const ROBOT_BITS: u32 = 20;
 /// Epochs this much further ahead than a robot's own clock, milliseconds, come from a corruption.
 const FURTHEST: u64 = 1 << 42;
 
+/// Milliseconds, about a second.
+const CYCLE: u64 = 1 << 10;
+
 /// An epoch; later ones are greater. 0 is before all epochs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(super) struct Epoch(pub u64);
@@ -22,7 +29,8 @@ pub(super) struct Epoch(pub u64);
 impl Epoch {
     /// The first epoch of a robot after `known`, at a moment of its clock.
     pub fn next(known: Epoch, now: Time, leader: RobotId) -> Epoch {
-        let moment = (known.moment() + 1).max(milliseconds(now));
+        let (now, least) = (milliseconds(now), known.moment() + 1);
+        let moment = now + least.saturating_sub(now).next_multiple_of(CYCLE);
         Epoch(moment << ROBOT_BITS | u64::from(leader.0) & ((1 << ROBOT_BITS) - 1))
     }
 
@@ -53,4 +61,21 @@ impl Epoch {
 
 fn milliseconds(time: Time) -> u64 {
     time.0 / 1_000_000
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_robot_that_hears_again_of_epochs_that_it_forgot_uses_none_twice() {
+        let at = |seconds: u64| Time(seconds * 1_000_000_000);
+        let ahead = Epoch::next(Epoch(0), at(100), RobotId(1));
+        let before = Epoch::next(ahead, at(3), RobotId(0));
+        // It forgets all, leads anew, and then gets a late copy of what was said.
+        let anew = Epoch::next(Epoch(0), at(8), RobotId(0));
+        let after = Epoch::next(ahead.max(anew), at(9), RobotId(0));
+        assert!(ahead < before && ahead < after && before != after);
+        assert!(Epoch::next(after, at(9), RobotId(0)) > after);
+    }
 }
