@@ -649,6 +649,7 @@ export type Fault =
   | { restart: number[] }
   /** Robots in different groups do not hear each other; robots in no group form one more. */
   | { partition: number[][] }
+  | { one_way: number[][] }
   | "heal"
   | { stuck_motor: number[] }
   | { frozen_sensor: number[] }
