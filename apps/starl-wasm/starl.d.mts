@@ -649,6 +649,7 @@ export type Fault =
   | { restart: number[] }
   /** Robots in different groups do not hear each other; robots in no group form one more. */
   | { partition: number[][] }
+  /** The same, but that robots of a group hear those before it and those in no group. */
   | { one_way: number[][] }
   | "heal"
   | { stuck_motor: number[] }
