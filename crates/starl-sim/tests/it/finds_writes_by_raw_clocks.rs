@@ -14,9 +14,10 @@ fn clocks_that_are_apart_lose_a_later_write() {
     assert_eq!(smallest.fleet.len(), 2, "{}", quarry.text);
     assert_eq!(smallest.faults.schedule, [], "{}", quarry.text);
     let clock = smallest.fleet.groups[0].clock;
-    assert!(!clock.offset.is_zero(), "{}", quarry.text);
-    assert_eq!(clock.drift_ppm, 0.0, "{}", quarry.text);
-    assert!(smallest.duration.seconds() < 12.0, "{}", quarry.text);
+    // Either that it is ahead or that it is fast; both are not needed.
+    let (is_ahead, is_fast) = (!clock.offset.is_zero(), clock.drift_ppm != 0.0);
+    assert!(is_ahead != is_fast, "{}", quarry.text);
+    assert!(smallest.duration < quarry.found.duration);
     assert!(quarry.found.duration.seconds() == 30.0);
 }
 

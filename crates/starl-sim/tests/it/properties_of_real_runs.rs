@@ -116,6 +116,9 @@ fn all_properties_hold_when_nothing_is_in_the_way() {
             "broadcast.agreement",
             "geocast.exclusion",
             "geocast.inclusion",
+            "geocast.integrity",
+            "unicast.delivery",
+            "unicast.integrity",
             "shared_memory.integrity",
             "shared_memory.order",
             "shared_memory.convergence",
@@ -185,6 +188,7 @@ fn only_what_the_scenario_asks_for_is_checked() {
     scenario.network.link.loss = 1.0;
     scenario.properties.broadcast = false;
     scenario.properties.geocast = false;
+    scenario.properties.unicast = false;
     scenario.properties.shared_memory = false;
     scenario.properties.election = false;
     scenario.properties.register = false;
