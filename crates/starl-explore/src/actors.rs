@@ -28,13 +28,13 @@ pub(crate) struct Actors {
     after_post: Vec<u32>,
 }
 
-/// What can happen to an actor.
+/// The steps that are possible for an actor.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Prospects {
     /// Where its moves are.
     begin: u32,
     end: u32,
-    /// What it is when its clock has ticked, if that can.
+    /// The actor after a tick of its clock; none if the clock cannot tick now.
     pub ticked: Option<u32>,
 }
 
@@ -44,7 +44,7 @@ pub(crate) struct Move {
     pub code: Code,
     /// The actor after it.
     pub next: u32,
-    /// What it has to tell checkers.
+    /// The events of this step that checkers are shown.
     pub batch: u32,
     /// Where the numbers of what it sent are.
     pub sent: (u32, u32),
@@ -78,7 +78,7 @@ impl Actors {
         self.rows.row(actor)[0]
     }
 
-    /// What is on its way to an actor.
+    /// The datagrams that are on their way to an actor.
     pub fn mailbox(&self, actor: u32) -> &[u32] {
         self.mailboxes.row(self.rows.row(actor)[1])
     }
@@ -101,7 +101,7 @@ impl Actors {
         after
     }
 
-    /// What can happen to an actor.
+    /// The steps that are possible for an actor, found at the first call.
     pub fn prospects(&mut self, actor: u32, robots: &mut Robots) -> Prospects {
         if let Some(prospects) = self.prospects[actor as usize] {
             return prospects;
@@ -139,7 +139,7 @@ impl Actors {
         });
     }
 
-    /// What of an actor's mailbox is there a tick later.
+    /// An actor's mailbox a tick later, without the datagrams that are too old by then.
     fn older(&self, actor: u32) -> Vec<u32> {
         let mailbox = self.mailbox(actor);
         let Clocks::Ticking {

@@ -105,7 +105,7 @@ impl Left {
         }
     }
 
-    /// What is left after a step of this kind; none if it is not within the bounds.
+    /// The bounds that remain after a step of this kind; none if the step would exceed them.
     pub fn after(self, kind: Kind, bounds: &Bounds) -> Option<Left> {
         let mut left = self;
         let budget = match kind {

@@ -1,4 +1,4 @@
-//! What can happen next in a state of the fleet.
+//! The steps that are possible in a state of the fleet.
 
 use crate::actors::Prospects;
 use crate::bounds::{Clocks, Left};

@@ -1,7 +1,8 @@
 //! Unicast: what is sent to a robot reaches it in time, and once.
 //!
-//! What a sender reports as acknowledged has arrived. A message is owed until the bound runs out or its sender reports that it has given it up, whichever is first.
-//! Excused is what a robot that was down sent or was sent, and what a partition kept back.
+//! What a sender reports as acknowledged has arrived. A message is judged when the bound runs out or when its sender
+//! reports that it gives up, whichever is first. A message is excused if its sender or its receiver was down, or if a
+//! partition kept it back.
 
 use super::health::{Health, Needs};
 use super::report::{MessageKey, Report};

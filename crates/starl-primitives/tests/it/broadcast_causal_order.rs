@@ -75,8 +75,8 @@ fn an_unordered_broadcast_breaks_it() {
     assert_eq!(broken.count(), 20);
 }
 
-/// Robot 0 tells robot 1, which tells robot 2 of it; robot 2 does not hear robot 0.
-fn hearsay(seed: u64) -> World {
+/// Robot 0 tells robot 1, which tells robot 2 of it; robot 2 does not hear robot 0, and what it is told is on its way.
+fn hearsay_begins(seed: u64) -> World {
     let mut world = world(3, seed, Wire::perfect(), 0);
     for robot in 0..3 {
         world.command(robot, tell(0));
@@ -86,6 +86,12 @@ fn hearsay(seed: u64) -> World {
     world.command(0, tell(1));
     world.run_for(Duration::from_millis(50));
     world.command(1, tell(2));
+    world
+}
+
+/// The same, and robot 2 was told.
+fn hearsay(seed: u64) -> World {
+    let mut world = hearsay_begins(seed);
     world.run_for(Duration::from_seconds(1));
     world
 }
@@ -126,16 +132,8 @@ fn a_message_that_will_not_come_is_passed_over_and_never_handed_out() {
 
 #[test]
 fn a_message_of_an_earlier_life_that_was_held_back_counts_when_it_is_handed_out() {
-    let mut world = world(3, 6, Wire::perfect(), 0);
-    for robot in 0..3 {
-        world.command(robot, tell(0));
-    }
-    world.run_for(Duration::from_seconds(5));
     // Robot 2 holds back what robot 1 says, as it does not hear what robot 0 has said before.
-    world.wire.cut.insert((0, 2));
-    world.command(0, tell(1));
-    world.run_for(Duration::from_millis(50));
-    world.command(1, tell(2));
+    let mut world = hearsay_begins(6);
     world.run_for(Duration::from_millis(100));
     world.crash(1);
     world.start(1);
