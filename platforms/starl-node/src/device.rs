@@ -1,0 +1,77 @@
+//! The contract of a robot's hardware: what it is told, and what it measures.
+//!
+//! An adapter for a kind of robot implements [`Device`]. The runtime calls it from one thread, several times a second,
+//! and stops the robot by itself when it loses the program, the localisation or (where so configured) the link.
+
+use starl_core::sensor::Contact;
+use starl_core::{Command, Estimate, Point};
+use std::fmt;
+
+/// A robot's motors and its own sensors.
+pub trait Device: Send {
+    /// Follows `command` until the next call. Called about every 50 ms with the latest command, so that a device with a
+    /// watchdog keeps moving while the program runs, and stops when it does not. `estimate` is where the robot is, for
+    /// devices that take goals in another frame than the command's.
+    ///
+    /// # Errors
+    /// Where the device cannot be reached. The runtime tells the user and calls again.
+    fn drive(&mut self, command: &Command, estimate: &Estimate) -> Result<(), DeviceError>;
+
+    /// Ends all motion as fast as is safe: wheels stop, a quadcopter in the air lands. May be called at any time, and
+    /// more than once.
+    ///
+    /// # Errors
+    /// Where the device cannot be reached.
+    fn stop(&mut self) -> Result<(), DeviceError>;
+
+    /// What the device has measured since the last call; none if nothing has arrived. Does not block.
+    ///
+    /// # Errors
+    /// Where the device cannot be reached, or what it sends makes no sense.
+    fn read(&mut self) -> Result<Option<Reading>, DeviceError>;
+}
+
+/// What a device measures itself. Whatever it does not measure is `None`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// Motion since the last reading, in the robot's frame at the last reading: metres forward, left and up.
+    pub moved: Option<Point>,
+    /// Turn since the last reading, radians, left positive.
+    pub turned: Option<f64>,
+    /// Velocity in the robot's frame: metres per second forward, left and up.
+    pub velocity: Option<Point>,
+    /// Height of the base above the floor, metres.
+    pub height: Option<f64>,
+    /// Heading, radians from the device's own zero, left positive. The zero may be anywhere but does not move.
+    pub heading: Option<f64>,
+    /// Where something touches the robot; the outer `None` if it has no bumper.
+    pub bumper: Option<Option<Contact>>,
+    /// Charge of the battery, 0 to 1.
+    pub battery: Option<f64>,
+}
+
+/// Why a device cannot be used at the moment.
+#[derive(Debug)]
+pub enum DeviceError {
+    /// The connection failed.
+    Io(std::io::Error),
+    /// The device reports a fault of its own, or sends what makes no sense.
+    Fault(String),
+}
+
+impl fmt::Display for DeviceError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            DeviceError::Io(error) => write!(f, "the connection failed: {error}"),
+            DeviceError::Fault(what) => f.write_str(what),
+        }
+    }
+}
+
+impl std::error::Error for DeviceError {}
+
+impl From<std::io::Error> for DeviceError {
+    fn from(error: std::io::Error) -> DeviceError {
+        DeviceError::Io(error)
+    }
+}
