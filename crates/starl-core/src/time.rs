@@ -33,6 +33,12 @@ impl Time {
     }
 }
 
+impl From<Duration> for core::time::Duration {
+    fn from(span: Duration) -> core::time::Duration {
+        core::time::Duration::from_nanos(span.0)
+    }
+}
+
 impl Duration {
     /// No time at all.
     pub const ZERO: Duration = Duration(0);

@@ -122,6 +122,12 @@ impl Node {
         }
     }
 
+    /// The same node, whose datagrams are numbered from `sequence` on: a process that starts again goes on with
+    /// other numbers than the one before.
+    pub fn with_sequence(self, sequence: u32) -> Node {
+        Node { sequence, ..self }
+    }
+
     /// The robot's number.
     #[inline]
     pub fn id(&self) -> RobotId {

@@ -3,6 +3,21 @@
 //! One process runs one robot: the [`starl_host::Node`] that every host runs, with the machine's clock, a network
 //! link, a source of positions, and the robot's own [`Device`].
 
+pub mod clock;
 pub mod device;
+pub mod link;
+pub mod localise;
+pub mod motors;
+mod outlet;
+mod planner;
+pub mod robot;
+pub mod safety;
+pub mod simulated;
+pub mod storage;
+mod writer;
 
+pub use clock::WallClock;
 pub use device::{Device, DeviceError, Reading};
+pub use robot::Robot;
+pub use safety::Safety;
+pub use storage::Storage;

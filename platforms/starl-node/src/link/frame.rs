@@ -1,0 +1,75 @@
+//! What the members of a fleet say to each other, below the programs.
+
+use super::Refusals;
+use super::quality::Quality;
+use serde::{Deserialize, Serialize};
+use starl_core::{Payload, Point, Port, Pose, Time};
+
+/// The content of a packet, in postcard's encoding.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Frame {
+    /// A datagram of a robot's software.
+    Datagram {
+        /// The sender's number for it.
+        sequence: u32,
+        /// For which endpoint.
+        port: Port,
+        /// The content.
+        payload: Payload,
+    },
+    /// Where a robot is and how it is, several times a second.
+    Beacon(Beacon),
+    /// An operator asks how a robot is.
+    Ask,
+    /// The answer.
+    Status(Box<Status>),
+    /// An operator stops a robot: its motors at once, then its process.
+    Halt,
+    /// The answer: the motors were told to stop.
+    Halted,
+    /// An operator tells the program something.
+    Order(starl_core::Order),
+}
+
+/// What a robot tells all others periodically.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Beacon {
+    /// Counts beacons, so that lost ones can be counted.
+    pub number: u32,
+    /// When it was sent, by the sender's clock.
+    pub sent: Time,
+    /// Where the robot believes to be; none if it does not know.
+    pub pose: Option<Pose>,
+    /// Its velocity, world frame, metres per second.
+    pub velocity: Point,
+    /// The receiver's latest beacon, when it was sent and when it arrived, by the clocks of either end: both ends
+    /// measure delays and the difference of their clocks by it.
+    pub echo: Option<(Time, Time)>,
+}
+
+/// How a robot is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Status {
+    /// Its time, by the clock of the process.
+    pub now: Time,
+    /// How long the process has run.
+    pub up: starl_core::Duration,
+    /// Whether its program has reached its goal.
+    pub finished: bool,
+    /// Why its program cannot go on, if so.
+    pub failed: Option<String>,
+    /// Where it believes to be; none if it does not know.
+    pub pose: Option<Pose>,
+    /// How old its position is.
+    pub position_age: starl_core::Duration,
+    /// Why its motors are stopped, if the runtime has stopped them.
+    pub stopped: Option<String>,
+    /// Charge of its battery, 0 to 1, if it measures that.
+    pub battery: Option<f64>,
+    /// What its program is doing: its state, if the program has one.
+    pub state: Option<String>,
+    /// How well it hears each other robot.
+    pub links: Vec<(u32, Quality)>,
+    /// What it refused.
+    pub refused: Refusals,
+}

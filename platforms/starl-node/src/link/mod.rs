@@ -1,0 +1,45 @@
+//! How robots reach each other: a transport for packets, protection of what is in them, and how good it all is.
+
+pub mod channel;
+pub mod frame;
+pub mod quality;
+pub mod udp;
+mod window;
+
+pub use channel::{Channel, Key, Member, OPERATORS, Refusals};
+
+use std::io;
+use std::net::SocketAddr;
+use std::time::Instant;
+
+/// Carries packets between members of a fleet, as well as it can.
+pub trait Transport: Send {
+    /// Sends a packet to a member. It may get lost.
+    ///
+    /// # Errors
+    /// If the network refuses it, or the member's place is not known.
+    fn send(&mut self, to: Member, packet: &[u8]) -> io::Result<()>;
+
+    /// A member was heard at this place, and its packet was authentic.
+    fn learn(&mut self, member: Member, origin: Origin);
+}
+
+/// Where a packet came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// A socket.
+    Socket(SocketAddr),
+    /// A transport that finds members by their numbers.
+    Named,
+}
+
+/// A packet that has arrived.
+#[derive(Debug)]
+pub struct Arrival {
+    /// When.
+    pub at: Instant,
+    /// From where.
+    pub origin: Origin,
+    /// What it holds.
+    pub packet: Vec<u8>,
+}

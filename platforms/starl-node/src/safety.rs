@@ -1,0 +1,64 @@
+//! When a robot's motors are stopped whatever its program wants.
+
+use starl_core::{Duration, Time};
+use std::fmt;
+
+/// How long a robot may go on without what it needs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Safety {
+    /// Without a fresh position.
+    pub localisation: Duration,
+    /// Without hearing any other robot; for ever if none.
+    pub link: Option<Duration>,
+}
+
+impl Default for Safety {
+    fn default() -> Safety {
+        Safety {
+            localisation: Duration::from_millis(1000),
+            link: None,
+        }
+    }
+}
+
+/// Why the motors are stopped.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Hazard {
+    /// The robot does not know where it is.
+    NoPosition,
+    /// It hears no other robot.
+    NoLink,
+    /// Its program cannot go on.
+    Failed(String),
+}
+
+impl fmt::Display for Hazard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Hazard::NoPosition => f.write_str("the robot does not know where it is"),
+            Hazard::NoLink => f.write_str("the robot hears no other robot"),
+            Hazard::Failed(why) => write!(f, "its program cannot go on: {why}"),
+        }
+    }
+}
+
+impl Safety {
+    /// What forbids motion now, given when the position was measured and when another robot was heard.
+    pub fn check(
+        &self,
+        now: Time,
+        position: Option<Time>,
+        heard: Time,
+        failure: Option<&str>,
+        has_others: bool,
+    ) -> Option<Hazard> {
+        if let Some(failure) = failure {
+            return Some(Hazard::Failed(failure.to_string()));
+        }
+        if position.is_none_or(|at| now.since(at) > self.localisation) {
+            return Some(Hazard::NoPosition);
+        }
+        let is_alone = self.link.is_some_and(|limit| now.since(heard) > limit);
+        (is_alone && has_others).then_some(Hazard::NoLink)
+    }
+}
