@@ -48,6 +48,14 @@ pub enum Command {
     Lsp(LspArguments),
     /// Show what a trace has recorded, in a browser
     View(ViewArguments),
+    /// Run one robot of a real fleet, until it is stopped
+    Robot(RobotArguments),
+    /// Run a real fleet, ask how it is, stop it, and join what its robots recorded
+    Fleet {
+        /// What to do.
+        #[command(subcommand)]
+        command: FleetCommand,
+    },
     /// Serve the page with the simulator in it, for a browser on this machine
     Web(PageArguments),
     /// Print the fields of scenario files as a JSON Schema, for editors of TOML files
@@ -133,8 +141,107 @@ pub struct ViewArguments {
     pub page: PageArguments,
 }
 
-/// What changes a target that is run many times, or drawn.
+/// Arguments of `starl robot`.
 #[derive(Args, Debug)]
+pub struct RobotArguments {
+    /// A program, a file ending in .starl [default: the scenario's]
+    pub program: Option<String>,
+    /// The robot's name in the scenario
+    #[arg(long, value_name = "NAME")]
+    pub id: String,
+    /// The fleet file
+    #[arg(long, value_name = "FILE")]
+    pub fleet: PathBuf,
+    /// Where the robot keeps its trace and its storage [default: the fleet's last run, beside the fleet file]
+    #[arg(long, value_name = "DIR")]
+    pub folder: Option<PathBuf>,
+    /// Print nothing but errors
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// What to do with a real fleet.
+#[derive(Subcommand, Debug)]
+pub enum FleetCommand {
+    /// Run all robots on this machine, each in its own process, and judge what they did
+    Up(FleetUpArguments),
+    /// Show who is alive, where it is, what it does, and how well it hears the others
+    Status(FleetStatusArguments),
+    /// Stop the motors of all robots at once, and then the robots
+    Stop(FleetStopArguments),
+    /// Join the robots' traces on one time axis
+    Merge(FleetMergeArguments),
+    /// Make the fleet's key, without which nobody can take part
+    Key(FleetKeyArguments),
+}
+
+/// Arguments of `starl fleet up`.
+#[derive(Args, Debug)]
+pub struct FleetUpArguments {
+    /// The fleet file
+    pub fleet: PathBuf,
+    /// A program for all robots, a file ending in .starl [default: the scenario's]
+    #[arg(long, value_name = "FILE")]
+    pub program: Option<String>,
+    /// Print what to start on which machine, and start nothing
+    #[arg(long)]
+    pub print: bool,
+    /// Stop after this time [default: the scenario's duration]
+    #[arg(long, value_name = "TIME")]
+    pub duration: Option<String>,
+    /// Go on with the storage and the time of the last run
+    #[arg(long)]
+    pub resume: bool,
+    /// Keep the robots running when all have finished
+    #[arg(long)]
+    pub keep: bool,
+    /// Print less while the fleet runs
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `starl fleet status`.
+#[derive(Args, Debug)]
+pub struct FleetStatusArguments {
+    /// The fleet file
+    pub fleet: PathBuf,
+    /// Print a list in JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `starl fleet stop`.
+#[derive(Args, Debug)]
+pub struct FleetStopArguments {
+    /// The fleet file
+    pub fleet: PathBuf,
+}
+
+/// Arguments of `starl fleet merge`.
+#[derive(Args, Debug)]
+pub struct FleetMergeArguments {
+    /// The fleet file
+    pub fleet: PathBuf,
+    /// Where the robots' traces are [default: the fleet's last run]
+    #[arg(long, value_name = "DIR")]
+    pub folder: Option<PathBuf>,
+    /// Write the joined trace to this file [default: merged.mcap in the folder]
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}
+
+/// Arguments of `starl fleet key`.
+#[derive(Args, Debug)]
+pub struct FleetKeyArguments {
+    /// The fleet file
+    pub fleet: PathBuf,
+    /// Make a new key, and keep the present one valid until the key is changed again
+    #[arg(long)]
+    pub change: bool,
+}
+
+/// What changes a target that is run many times, or drawn.
+#[derive(Args, Debug, Default)]
 pub struct ChangeArguments {
     /// What to run a program in, as for `starl run`
     #[arg(long, value_name = "SCENARIO")]

@@ -31,6 +31,11 @@ mod diagram;
 mod explain;
 mod explore;
 mod failure;
+#[cfg(feature = "fleet")]
+mod fleet;
+#[cfg(not(feature = "fleet"))]
+#[path = "no_fleet.rs"]
+mod fleet;
 mod fmt;
 mod json;
 mod list;
@@ -123,6 +128,8 @@ impl CommandLine {
             Command::Explain(arguments) => explain::run(arguments),
             Command::Lsp(_) => lsp::run(),
             Command::View(arguments) => web::serve_trace(arguments),
+            Command::Robot(arguments) => fleet::robot(arguments, registry),
+            Command::Fleet { command } => fleet::fleet(command, registry),
             Command::Web(arguments) => web::serve_page(arguments),
             Command::Schema => json::print(&schema()).map(|()| true),
             Command::List(arguments) => list::list(arguments, registry),

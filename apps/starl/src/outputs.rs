@@ -105,7 +105,7 @@ impl Outputs {
     /// Takes in where the run is after a step, once all that happened in it was observed.
     pub fn advance(&mut self, simulation: &Simulation) -> Result<(), Failure> {
         match &mut self.trace {
-            Some(trace) => trace.advance(simulation),
+            Some(trace) => trace.advance(simulation.journal(), simulation.now()),
             None => Ok(()),
         }
     }

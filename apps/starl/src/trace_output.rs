@@ -9,9 +9,8 @@ use crate::failure::Failure;
 use crate::output::create_now;
 use starl_catalog::recording;
 use starl_core::{Record, Time};
-use starl_host::journal::{self, Packer};
+use starl_host::journal::{self, Batch, Packer};
 use starl_properties::Setting;
-use starl_sim::Simulation;
 use starl_sim::read::Resolved;
 use starl_trace::{Outcome, ViewOptions, WriteError, Writer};
 use std::fs::File;
@@ -113,13 +112,13 @@ impl TraceOutput {
         self.check(written)
     }
 
-    /// Takes in where the run is after a step.
-    pub fn advance(&mut self, simulation: &Simulation) -> Result<(), Failure> {
-        if let Some((at, inputs)) = self.packer.pack(simulation.journal()) {
+    /// Takes in that all up to `now` was written, and what was done to robots' software since the last time.
+    pub fn advance(&mut self, journal: &Batch, now: Time) -> Result<(), Failure> {
+        if let Some((at, inputs)) = self.packer.pack(journal) {
             let written = self.writer.inputs(at, &inputs);
             self.check(written)?;
         }
-        self.now = simulation.now();
+        self.now = now;
         if self.ending.at.elapsed() >= PERIOD {
             let saved = self.ending.save(self.writer.unfinished());
             self.check(saved.map_err(|error| output_error(&error)))?;

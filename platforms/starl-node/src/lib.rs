@@ -8,6 +8,7 @@ pub mod device;
 pub mod link;
 pub mod localise;
 pub mod motors;
+pub mod operator;
 mod outlet;
 mod planner;
 pub mod robot;
@@ -18,6 +19,7 @@ mod writer;
 
 pub use clock::WallClock;
 pub use device::{Device, DeviceError, Reading};
+pub use operator::Operator;
 pub use robot::Robot;
 pub use safety::Safety;
 pub use storage::Storage;

@@ -180,7 +180,10 @@ impl State {
         self.pose.yaw = wrap_angle(self.pose.yaw + turned);
         // The Jacobian is the identity but for how the heading turns the way.
         let jacobian = [[1.0, 0.0, -way.y], [0.0, 1.0, way.x], [0.0, 0.0, 1.0]];
-        let spread = product(&product(&jacobian, &self.covariance), &transposed(&jacobian));
+        let spread = product(
+            &product(&jacobian, &self.covariance),
+            &transposed(&jacobian),
+        );
         self.covariance = spread;
         let length = way.planar_length();
         let along = (accuracy.way * length).powi(2);
@@ -283,7 +286,8 @@ fn inverse(a: &Matrix) -> Option<Matrix> {
     };
     let determinant: f64 = (0..3).map(|j| a[0][j] * cofactor(0, j)).sum();
     let is_regular = determinant.is_finite() && determinant.abs() > f64::MIN_POSITIVE;
-    is_regular.then(|| std::array::from_fn(|i| std::array::from_fn(|j| cofactor(j, i) / determinant)))
+    is_regular
+        .then(|| std::array::from_fn(|i| std::array::from_fn(|j| cofactor(j, i) / determinant)))
 }
 
 #[cfg(test)]
@@ -318,7 +322,8 @@ mod tests {
             filter.measure(at(50 * tick), &odometry(0.01 * 1.05, 0.01 * 1.02));
             let truth = Point::polar(1.0, angle);
             if fix_every.is_some_and(|every| tick % every == 0) {
-                let noisy = truth + Point::new(random.normal(0.0, noise), random.normal(0.0, noise), 0.0);
+                let noisy =
+                    truth + Point::new(random.normal(0.0, noise), random.normal(0.0, noise), 0.0);
                 let yaw = angle + std::f64::consts::FRAC_PI_2;
                 filter.fix(at(50 * tick), Pose::level(noisy, yaw));
             }

@@ -189,7 +189,9 @@ impl<R: Recorder> Robot<R> {
         for peer in fleet.iter().filter(|peer| **peer != setup.id) {
             channel.want(peer.0);
         }
-        let saved = storage.as_ref().map(|storage| Arc::new(storage.saved().clone()));
+        let saved = storage
+            .as_ref()
+            .map(|storage| Arc::new(storage.saved().clone()));
         let agent = Agent::new(setup.program.clone(), setup.random.clone()).with_saved(saved);
         let node = Node::new(setup.id, Clock::default(), agent, now)
             // Numbers go on from those of earlier lives.
@@ -317,7 +319,8 @@ impl<R: Recorder> Robot<R> {
             return;
         };
         // A stale position is not told again: its age shows in the estimate that the software has.
-        if self.now.since(measured) > self.setup.safety.localisation && self.node.condition().started
+        if self.now.since(measured) > self.setup.safety.localisation
+            && self.node.condition().started
         {
             return;
         }

@@ -197,7 +197,10 @@ fn is_torn_end(rest: &[u8]) -> bool {
 }
 
 fn sync_folder(path: &Path) -> io::Result<()> {
-    match path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+    match path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty())
+    {
         Some(folder) => File::open(folder)?.sync_all(),
         None => File::open(".")?.sync_all(),
     }
@@ -217,7 +220,8 @@ mod tests {
     }
 
     fn folder(name: &str) -> PathBuf {
-        let folder = std::env::temp_dir().join(format!("starl-storage-{name}-{}", std::process::id()));
+        let folder =
+            std::env::temp_dir().join(format!("starl-storage-{name}-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         folder
     }
@@ -228,7 +232,10 @@ mod tests {
         let _ = std::fs::remove_file(&path);
         for round in 0..5 {
             let mut storage = Storage::open(&path).unwrap();
-            assert_eq!(storage.saved().get::<u64>(Port(7), "a"), (round > 0).then(|| round - 1));
+            assert_eq!(
+                storage.saved().get::<u64>(Port(7), "a"),
+                (round > 0).then(|| round - 1)
+            );
             storage.write(vec![save("a", round), save("b", 3)]).unwrap();
         }
     }
@@ -255,7 +262,9 @@ mod tests {
         let mut storage = Storage::open(&path).unwrap();
         let mut ends = vec![storage.size];
         for round in 0..6 {
-            storage.write(vec![save("a", round), save("b", 1000 * round)]).unwrap();
+            storage
+                .write(vec![save("a", round), save("b", 1000 * round)])
+                .unwrap();
             ends.push(storage.size);
         }
         drop(storage);
@@ -266,7 +275,11 @@ mod tests {
             let whole = ends.iter().rposition(|&end| end as usize <= cut).unwrap();
             assert!(storage.saved().is_whole(), "cut at {cut}");
             let expected = whole.checked_sub(1).map(|round| round as u64);
-            assert_eq!(storage.saved().get::<u64>(Port(7), "a"), expected, "cut at {cut}");
+            assert_eq!(
+                storage.saved().get::<u64>(Port(7), "a"),
+                expected,
+                "cut at {cut}"
+            );
         }
     }
 
@@ -298,6 +311,11 @@ mod tests {
     fn another_file_is_refused() {
         let path = folder("other").join("r1.store");
         std::fs::write(&path, "a text that is no storage").unwrap();
-        assert!(Storage::open(&path).unwrap_err().to_string().contains("not a robot's storage"));
+        assert!(
+            Storage::open(&path)
+                .unwrap_err()
+                .to_string()
+                .contains("not a robot's storage")
+        );
     }
 }

@@ -198,7 +198,9 @@ impl Channel {
         packet[0] = SEALED;
         packet[1..5].copy_from_slice(&session.remote.to_le_bytes());
         packet[5..13].copy_from_slice(&number.to_le_bytes());
-        let written = session.cipher.write_message(number, content, &mut packet[13..]);
+        let written = session
+            .cipher
+            .write_message(number, content, &mut packet[13..]);
         packet.truncate(13 + written.ok()?);
         Some(packet)
     }
@@ -335,7 +337,12 @@ impl Channel {
 }
 
 impl Session {
-    fn new(now: Time, with: Member, remote: u32, state: HandshakeState) -> Result<Session, Refusal> {
+    fn new(
+        now: Time,
+        with: Member,
+        remote: u32,
+        state: HandshakeState,
+    ) -> Result<Session, Refusal> {
         let cipher = state.into_stateless_transport_mode();
         Ok(Session {
             with,
@@ -436,7 +443,10 @@ mod tests {
         let (mut a, mut b) = (member(0, KEY), member(1, KEY));
         assert_eq!(connect(&mut a, &mut b, Time::ZERO), []);
         let hello = a.seal(1, b"hello").unwrap();
-        assert!(matches!(b.open(Time::ZERO, &hello), Opened::Content { from: 0, .. }));
+        assert!(matches!(
+            b.open(Time::ZERO, &hello),
+            Opened::Content { from: 0, .. }
+        ));
         (a, b)
     }
 
@@ -446,7 +456,10 @@ mod tests {
         for round in 0..2000u32 {
             let packet = b.seal(0, &round.to_le_bytes()).unwrap();
             let content = round.to_le_bytes().to_vec();
-            assert_eq!(a.open(Time::ZERO, &packet), Opened::Content { from: 1, content });
+            assert_eq!(
+                a.open(Time::ZERO, &packet),
+                Opened::Content { from: 1, content }
+            );
         }
         assert_eq!(a.refusals().total() + b.refusals().total(), 0);
     }
@@ -468,8 +481,14 @@ mod tests {
     fn a_packet_is_taken_once() {
         let (mut a, mut b) = pair();
         let packet = a.seal(1, b"move").unwrap();
-        assert!(matches!(b.open(Time::ZERO, &packet), Opened::Content { .. }));
-        assert_eq!(b.open(Time::ZERO, &packet), Opened::Refused(Refusal::Replayed));
+        assert!(matches!(
+            b.open(Time::ZERO, &packet),
+            Opened::Content { .. }
+        ));
+        assert_eq!(
+            b.open(Time::ZERO, &packet),
+            Opened::Refused(Refusal::Replayed)
+        );
         assert_eq!(b.refusals().replayed, 1);
     }
 
@@ -481,13 +500,22 @@ mod tests {
             for bit in 0..8 {
                 let mut changed = packet.clone();
                 changed[place] ^= 1 << bit;
-                assert!(matches!(b.open(Time::ZERO, &changed), Opened::Refused(_)), "{place}");
+                assert!(
+                    matches!(b.open(Time::ZERO, &changed), Opened::Refused(_)),
+                    "{place}"
+                );
             }
         }
         for length in 0..packet.len() {
-            assert!(matches!(b.open(Time::ZERO, &packet[..length]), Opened::Refused(_)));
+            assert!(matches!(
+                b.open(Time::ZERO, &packet[..length]),
+                Opened::Refused(_)
+            ));
         }
-        assert!(matches!(b.open(Time::ZERO, &packet), Opened::Content { .. }));
+        assert!(matches!(
+            b.open(Time::ZERO, &packet),
+            Opened::Content { .. }
+        ));
     }
 
     #[test]
@@ -496,13 +524,22 @@ mod tests {
         let old = a.seal(1, b"move").unwrap();
         drop(b);
         let mut b = member(1, KEY);
-        assert_eq!(b.open(Time::ZERO, &old), Opened::Refused(Refusal::UnknownSession));
+        assert_eq!(
+            b.open(Time::ZERO, &old),
+            Opened::Refused(Refusal::UnknownSession)
+        );
         // The robot that has restarted begins a session, and both hear each other again.
         assert_eq!(connect(&mut b, &mut a, Time::ZERO), []);
         let packet = b.seal(0, b"here").unwrap();
-        assert!(matches!(a.open(Time::ZERO, &packet), Opened::Content { .. }));
+        assert!(matches!(
+            a.open(Time::ZERO, &packet),
+            Opened::Content { .. }
+        ));
         let packet = a.seal(1, b"there").unwrap();
-        assert!(matches!(b.open(Time::ZERO, &packet), Opened::Content { .. }));
+        assert!(matches!(
+            b.open(Time::ZERO, &packet),
+            Opened::Content { .. }
+        ));
         assert!(matches!(b.open(Time::ZERO, &old), Opened::Refused(_)));
     }
 
@@ -518,11 +555,17 @@ mod tests {
         let hello = a.seal(1, b"hello").unwrap();
         b.open(Time::ZERO, &hello);
         for _ in 0..100 {
-            assert!(matches!(b.open(Time::ZERO, &initiation), Opened::Handshake { .. }));
+            assert!(matches!(
+                b.open(Time::ZERO, &initiation),
+                Opened::Handshake { .. }
+            ));
         }
         assert!(b.sessions.len() <= 2);
         let packet = b.seal(0, b"still here").unwrap();
-        assert!(matches!(a.open(Time::ZERO, &packet), Opened::Content { .. }));
+        assert!(matches!(
+            a.open(Time::ZERO, &packet),
+            Opened::Content { .. }
+        ));
     }
 
     #[test]
@@ -545,7 +588,9 @@ mod tests {
         let (mut a, mut b) = pair();
         let mut state = 1u64;
         for _ in 0..50_000 {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
             let length = (state >> 40) as usize % 200;
             let garbage: Vec<u8> = (0..length)
                 .map(|i| (state >> (i % 50)) as u8 ^ i as u8)
@@ -553,6 +598,9 @@ mod tests {
             assert!(matches!(b.open(Time::ZERO, &garbage), Opened::Refused(_)));
         }
         let packet = a.seal(1, b"move").unwrap();
-        assert!(matches!(b.open(Time::ZERO, &packet), Opened::Content { .. }));
+        assert!(matches!(
+            b.open(Time::ZERO, &packet),
+            Opened::Content { .. }
+        ));
     }
 }

@@ -46,7 +46,8 @@ impl Quality {
     /// Four times as of the Network Time Protocol (RFC 5905): this end sent, the other received, the other sent, this
     /// end received.
     fn measure(&mut self, sent: Time, arrived: Time, answered: Time, now: Time) {
-        let [sent, arrived, answered, now] = [sent, arrived, answered, now].map(|t| t.0 as f64 * 1e-9);
+        let [sent, arrived, answered, now] =
+            [sent, arrived, answered, now].map(|t| t.0 as f64 * 1e-9);
         let round_trip = ((now - sent) - (answered - arrived)).max(0.0);
         self.round_trip = Some(round_trip);
         // A quick exchange says most; an old one counts for less and less, as clocks drift.
@@ -83,7 +84,10 @@ mod tests {
             };
             quality.take(at(sent + 2 + 50 + 3 + late), &beacon);
         }
-        assert!((quality.offset.unwrap() - 5.0).abs() < 0.0026, "{quality:?}");
+        assert!(
+            (quality.offset.unwrap() - 5.0).abs() < 0.0026,
+            "{quality:?}"
+        );
         assert!((quality.best - 0.005).abs() < 0.0001, "{quality:?}");
         assert_eq!(quality.loss, 0.0);
     }

@@ -67,12 +67,18 @@ impl Udp {
 
 fn is_passing(error: &io::Error) -> bool {
     use io::ErrorKind::{ConnectionRefused, ConnectionReset, Interrupted};
-    matches!(error.kind(), ConnectionRefused | ConnectionReset | Interrupted)
+    matches!(
+        error.kind(),
+        ConnectionRefused | ConnectionReset | Interrupted
+    )
 }
 
 impl Transport for Udp {
     fn send(&mut self, to: Member, packet: &[u8]) -> io::Result<()> {
-        let place = self.places.get(&to).ok_or(io::ErrorKind::AddrNotAvailable)?;
+        let place = self
+            .places
+            .get(&to)
+            .ok_or(io::ErrorKind::AddrNotAvailable)?;
         match self.socket.send_to(packet, place) {
             Err(error) if is_passing(&error) => Ok(()),
             sent => sent.map(|_| ()),

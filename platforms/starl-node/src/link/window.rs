@@ -51,7 +51,9 @@ mod tests {
         let mut seen = BTreeSet::new();
         let (mut number, mut state) = (0u64, 1u64);
         for _ in 0..200_000 {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
             let jump = (state >> 33) % 1500;
             let candidate = (number + jump).saturating_sub(700);
             number = number.max(candidate);
@@ -60,7 +62,10 @@ mod tests {
                 assert!(seen.insert(candidate), "{candidate} was taken twice");
                 window.take(candidate);
             } else {
-                assert!(seen.contains(&candidate) || !is_recent, "{candidate} is new");
+                assert!(
+                    seen.contains(&candidate) || !is_recent,
+                    "{candidate} is new"
+                );
             }
         }
     }

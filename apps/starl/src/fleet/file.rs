@@ -1,0 +1,269 @@
+//! The fleet file: what all robots of a real fleet share, and where each of them is.
+
+use crate::args::ChangeArguments;
+use crate::args::RunArguments;
+use crate::failure::Failure;
+use crate::target;
+use serde::Deserialize;
+use starl_catalog::Application;
+use starl_catalog::examples;
+use starl_catalog::programs::Registry;
+use starl_core::{Duration, RobotId};
+use starl_node::link::Key;
+use starl_sim::read::suggest;
+use std::collections::BTreeMap;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::path::{Path, PathBuf};
+
+/// The port of the first robot, where no robot has an address of its own.
+const FIRST_PORT: u16 = 7400;
+
+/// A fleet file as it is written.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    /// A scenario file, by its path from the fleet file's folder, or an example's name.
+    scenario: String,
+    /// The fleet's name; default the file's.
+    name: Option<String>,
+    /// Fields of the scenario that are other than in it, as for `--set`.
+    #[serde(default)]
+    set: Vec<String>,
+    #[serde(default)]
+    link: Link,
+    #[serde(default)]
+    safety: Safety,
+    #[serde(default)]
+    robots: BTreeMap<String, Robot>,
+}
+
+/// How robots reach each other.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Link {
+    /// A file with the fleet's key; default the fleet file's name with `.key`.
+    key: Option<PathBuf>,
+    /// Whether packets are protected; default true.
+    protected: Option<bool>,
+    /// The port of the first robot that has no address of its own, those of the others follow; default 7400.
+    first_port: Option<u16>,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Safety {
+    /// Motors stop after this without a position; default 1 s.
+    position_timeout: Option<String>,
+    /// Motors stop after this without hearing another robot; default never.
+    link_timeout: Option<String>,
+}
+
+/// One robot.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Robot {
+    /// Where others reach it; default on this machine.
+    address: Option<SocketAddr>,
+    /// What it drives; default a simulated body.
+    device: Option<Device>,
+}
+
+/// What a robot drives.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Device {
+    /// A body of the scenario's model, computed in the robot's own process.
+    #[default]
+    Simulated,
+}
+
+/// A fleet, read and checked.
+pub struct Fleet {
+    /// The file.
+    pub path: PathBuf,
+    /// Its name.
+    pub name: String,
+    /// The scenario and its programs.
+    pub application: Application,
+    /// The robots, by number.
+    pub robots: Vec<Member>,
+    /// When motors are stopped.
+    pub safety: starl_node::Safety,
+    /// The file with the key; none if packets are not protected.
+    pub key: Option<PathBuf>,
+}
+
+/// A robot of a fleet.
+#[derive(Clone, Debug)]
+pub struct Member {
+    /// Its number.
+    pub id: RobotId,
+    /// Its name in the scenario.
+    pub name: String,
+    /// Where others reach it.
+    pub address: SocketAddr,
+    /// What it drives.
+    pub device: Device,
+}
+
+impl Fleet {
+    /// Reads a fleet file, its scenario and its programs; `program` takes the place of the scenario's own.
+    pub fn read(path: &Path, program: Option<&str>, registry: &Registry) -> Result<Fleet, Failure> {
+        let text = target::text(path)?;
+        let written: Written =
+            toml::from_str(&text).map_err(|error| malformed(path, &text, &error))?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let scenario = match examples::find(&written.scenario) {
+            Some(_) => written.scenario.clone(),
+            None => folder.join(&written.scenario).display().to_string(),
+        };
+        let application =
+            target::read(&arguments(scenario, program, &written.set), registry)?.application;
+        let stem = path.file_stem().unwrap_or_default().display().to_string();
+        let is_protected = written.link.protected.unwrap_or(true);
+        if !is_protected && written.link.key.is_some() {
+            return Err(Failure::file(
+                path,
+                "link: a `key` is given, and `protected = false`; leave one out",
+            ));
+        }
+        let key = is_protected.then(|| match &written.link.key {
+            Some(key) => folder.join(key),
+            None => path.with_extension("key"),
+        });
+        Ok(Fleet {
+            robots: members(path, &written, &application)?,
+            safety: safety(path, &written.safety)?,
+            path: path.to_path_buf(),
+            name: written.name.unwrap_or(stem),
+            application,
+            key,
+        })
+    }
+
+    /// The robot with this name.
+    pub fn member(&self, name: &str) -> Result<&Member, Failure> {
+        let found = self.robots.iter().find(|robot| robot.name == name);
+        found.ok_or_else(|| {
+            let names: Vec<&str> = self
+                .robots
+                .iter()
+                .map(|robot| robot.name.as_str())
+                .collect();
+            Failure(format!(
+                "--id {name}: no robot of {} is called this; {}",
+                self.path.display(),
+                suggest::help(name, &names, "the robots are").unwrap_or_default()
+            ))
+        })
+    }
+
+    /// Where all robots are.
+    pub fn places(&self) -> BTreeMap<u32, SocketAddr> {
+        let places = self.robots.iter();
+        places.map(|robot| (robot.id.0, robot.address)).collect()
+    }
+
+    /// Whether all robots are on this machine, as far as their addresses say.
+    pub fn is_local(&self) -> bool {
+        self.robots
+            .iter()
+            .all(|robot| robot.address.ip().is_loopback())
+    }
+
+    /// The keys that packets are protected by; none if they are not.
+    pub fn keys(&self) -> Result<Vec<Key>, Failure> {
+        match &self.key {
+            Some(path) => super::key::read(path, &self.path),
+            None => Ok(Vec::new()),
+        }
+    }
+}
+
+fn arguments(scenario: String, program: Option<&str>, set: &[String]) -> RunArguments {
+    let changes = ChangeArguments {
+        set: set.to_vec(),
+        scenario: program.is_some().then(|| scenario.clone()),
+        ..ChangeArguments::default()
+    };
+    let target = program.map_or(scenario, str::to_string);
+    changes.of(&target, None, false)
+}
+
+/// All robots of the scenario, with what the fleet file says of them.
+fn members(
+    path: &Path,
+    written: &Written,
+    application: &Application,
+) -> Result<Vec<Member>, Failure> {
+    let fleet = &application.scenario().fleet;
+    let names: Vec<String> = (0..fleet.len() as u32)
+        .map(|id| fleet.name(RobotId(id)))
+        .collect();
+    if let Some(stranger) = written.robots.keys().find(|name| !names.contains(name)) {
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let help = suggest::help(stranger, &names, "the robots are").unwrap_or_default();
+        let what = format!("robots.{stranger}: the scenario has no robot of this name; {help}");
+        return Err(Failure::file(path, what));
+    }
+    let first = written.link.first_port.unwrap_or(FIRST_PORT);
+    let mut members: Vec<Member> = Vec::new();
+    for (index, name) in names.into_iter().enumerate() {
+        let robot = written.robots.get(&name).cloned().unwrap_or_default();
+        let port = u16::try_from(index)
+            .ok()
+            .and_then(|index| first.checked_add(index));
+        let address = match (robot.address, port) {
+            (Some(address), _) => address,
+            (None, Some(port)) => SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), port),
+            (None, None) => {
+                let what =
+                    format!("robots.{name}: there is no port left for it; give it an `address`");
+                return Err(Failure::file(path, what));
+            }
+        };
+        if let Some(other) = members.iter().find(|other| other.address == address) {
+            let what = format!(
+                "robots.{name}: has the address {address}, as {} has",
+                other.name
+            );
+            return Err(Failure::file(path, what));
+        }
+        members.push(Member {
+            id: RobotId(index as u32),
+            name,
+            address,
+            device: robot.device.unwrap_or_default(),
+        });
+    }
+    Ok(members)
+}
+
+fn safety(path: &Path, written: &Safety) -> Result<starl_node::Safety, Failure> {
+    let span = |field: &str, text: &Option<String>| -> Result<Option<Duration>, Failure> {
+        let Some(text) = text else { return Ok(None) };
+        let span = starl_sim::read::duration(text).filter(|span| !span.is_zero());
+        let what =
+            || format!("safety.{field} = \"{text}\": give a time, such as \"1s\" or \"500ms\"");
+        span.map(Some).ok_or_else(|| Failure::file(path, what()))
+    };
+    let usual = starl_node::Safety::default();
+    Ok(starl_node::Safety {
+        localisation: span("position_timeout", &written.position_timeout)?
+            .unwrap_or(usual.localisation),
+        link: span("link_timeout", &written.link_timeout)?,
+    })
+}
+
+/// Names the line of what is wrong.
+fn malformed(path: &Path, text: &str, error: &toml::de::Error) -> Failure {
+    let before = error
+        .span()
+        .map_or("", |span| &text[..span.start.min(text.len())]);
+    let line = 1 + before.matches('\n').count();
+    Failure(format!(
+        "{}:{line}: {}",
+        path.display(),
+        error.message().trim_end()
+    ))
+}

@@ -1,0 +1,130 @@
+//! `starl robot`: runs one robot of a fleet until it is stopped.
+
+use super::file::{Device, Fleet, Member};
+use super::folder::Folder;
+use super::recorder::FleetRecorder;
+use crate::args::RobotArguments;
+use crate::failure::Failure;
+use crate::output::reason;
+use crate::run::on_interrupt;
+use crate::trace_output::TraceOutput;
+use starl_catalog::programs::Registry;
+use starl_core::{Pose, Random, RobotId};
+use starl_host::Hardware;
+use starl_host::hardware::Drive;
+use starl_node::link::udp::Udp;
+use starl_node::link::{Channel, Transport};
+use starl_node::localise::Accuracy;
+use starl_node::robot::{Connections, Incoming, Robot, Setup, mailbox};
+use starl_node::simulated::SimulatedBody;
+use starl_node::{Storage, WallClock};
+use starl_sim::Scenario;
+use starl_sim::scenario::Group;
+
+/// Runs a robot.
+pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Failure> {
+    let fleet = Fleet::read(&arguments.fleet, arguments.program.as_deref(), registry)?;
+    let member = fleet.member(&arguments.id)?;
+    let keys = fleet.keys()?;
+    let folder = match &arguments.folder {
+        Some(folder) => Folder::open(folder)?,
+        None => Folder::of(&arguments.fleet, false)?,
+    };
+    let clock = WallClock::since(folder.epoch()?);
+    let scenario = fleet.application.scenario();
+    let (group, start) = place(scenario, member.id)?;
+    let storage = scenario.storage.kept.then(|| storage(&folder, member));
+    let storage = storage.transpose()?;
+    let (post, inbox) = mailbox();
+    let arrivals = post.clone();
+    let deliver = move |arrival| arrivals.send(Incoming::Packet(arrival)).is_ok();
+    let transport = Udp::open(member.address, fleet.places(), deliver).map_err(|error| {
+        let why = reason(&error);
+        Failure(format!(
+            "{}: the address {} cannot be used: {why}",
+            member.name, member.address
+        ))
+    })?;
+    let transport: Box<dyn Transport> = Box::new(transport);
+    let body = match member.device {
+        Device::Simulated => SimulatedBody::new(group.model.clone(), start),
+    };
+    let connections = Connections {
+        device: Box::new(body.device()),
+        positions: Some(Box::new(body.positions(scenario.positioning.period))),
+        storage,
+        transport,
+        channel: Channel::new(member.id.0, &fleet.name, keys),
+    };
+    let setup = setup(&fleet, member.id, group, start, clock)?;
+    let path = folder.next_trace(&member.name);
+    let setting = starl_sim::setting(scenario);
+    let trace = TraceOutput::create(&path, fleet.application.resolved(), &setting, true)?;
+    let recorder = FleetRecorder::new(member.id, &member.name, trace, arguments.quiet);
+    let halt = post.clone();
+    on_interrupt(move || {
+        let _ = halt.send(Incoming::Halt);
+    });
+    let robot = Robot::start(setup, connections, (post, inbox), recorder)
+        .map_err(|error| Failure(format!("{}: cannot start: {}", member.name, reason(&error))))?;
+    robot.run().finish();
+    Ok(true)
+}
+
+/// The group of a robot, and where it starts.
+fn place(scenario: &Scenario, id: RobotId) -> Result<(&Group, Pose), Failure> {
+    let group = scenario.fleet.group_of(id);
+    let (group, index) = group.ok_or_else(|| Failure(format!("there is no robot {id}")))?;
+    Ok((group, group.starts[index]))
+}
+
+fn storage(folder: &Folder, member: &Member) -> Result<Storage, Failure> {
+    let path = folder.storage(&member.name);
+    Storage::open(&path).map_err(|error| Failure::file(&path, reason(&error)))
+}
+
+fn setup(
+    fleet: &Fleet,
+    id: RobotId,
+    group: &Group,
+    start: Pose,
+    clock: WallClock,
+) -> Result<Setup, Failure> {
+    let scenario = fleet.application.scenario();
+    let program = fleet.application.program_of(id).map_err(Failure)?;
+    let groups = scenario.fleet.groups.iter();
+    let bodies = groups.flat_map(|group| vec![group.model.body(); group.starts.len()]);
+    let obstacles = scenario.world.obstacles.iter();
+    let known = obstacles.filter(|entry| !entry.hidden);
+    // A life of a robot draws what no other draws.
+    let seed = clock.now().0 ^ scenario.seed;
+    let usual = Accuracy::default();
+    Ok(Setup {
+        id,
+        bodies: bodies.collect(),
+        program,
+        random: Random::keyed(seed, &[u64::from(id.0)]),
+        hardware: Hardware {
+            body: group.model.body(),
+            control_period: group.control_period,
+            drive: Some(Drive {
+                model: group.model.clone(),
+                avoidance: scenario.motion.avoidance.clone(),
+                position_error: scenario.positioning.position_noise,
+                seed,
+            }),
+        },
+        has_bumper: group.sensors.bumper,
+        way_points: scenario.world.way_points.clone(),
+        obstacles: known.map(|entry| entry.obstacle.clone()).collect(),
+        positioning_period: scenario.positioning.period,
+        accuracy: Accuracy {
+            position: scenario.positioning.position_noise.max(usual.position),
+            heading: scenario.positioning.heading_noise.max(usual.heading),
+            ..usual
+        },
+        start: Some(start),
+        safety: fleet.safety,
+        clock,
+    })
+}

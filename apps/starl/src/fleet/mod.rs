@@ -1,0 +1,32 @@
+//! Real fleets: `starl robot` runs one robot, `starl fleet` all of them, or what has to do with all of them.
+
+mod connect;
+mod file;
+mod folder;
+mod key;
+mod member;
+mod merge;
+mod recorder;
+mod status;
+mod stop;
+mod up;
+
+use crate::args::{FleetCommand, RobotArguments};
+use crate::failure::Failure;
+use starl_catalog::programs::Registry;
+
+/// `starl robot`
+pub fn robot(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Failure> {
+    member::run(arguments, registry)
+}
+
+/// `starl fleet`
+pub fn fleet(command: &FleetCommand, registry: &Registry) -> Result<bool, Failure> {
+    match command {
+        FleetCommand::Up(arguments) => up::up(arguments, registry),
+        FleetCommand::Status(arguments) => status::show(arguments, registry),
+        FleetCommand::Stop(arguments) => stop::stop(arguments, registry),
+        FleetCommand::Merge(arguments) => merge::run(arguments, registry),
+        FleetCommand::Key(arguments) => key::make(arguments),
+    }
+}

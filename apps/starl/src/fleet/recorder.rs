@@ -1,0 +1,116 @@
+//! Takes down what a robot does: a trace like that of any run, and lines for the person who watches.
+
+use crate::console;
+use crate::trace_output::TraceOutput;
+use starl_core::event::{Event, Level};
+use starl_core::{Program, Record, RobotId, Time};
+use starl_host::Observed;
+use starl_host::journal::{Batch, Journal};
+use starl_lang::robot::RobotProgram;
+use starl_node::robot::Recorder;
+use starl_trace::Outcome;
+
+/// The recorder of one robot.
+pub struct FleetRecorder {
+    robot: RobotId,
+    name: String,
+    /// None once it could not be written: a full disk does not stop a robot.
+    trace: Option<TraceOutput>,
+    journal: Journal,
+    batch: Batch,
+    end: Time,
+    is_quiet: bool,
+}
+
+impl FleetRecorder {
+    /// A recorder that writes to this trace.
+    pub fn new(robot: RobotId, name: &str, trace: TraceOutput, is_quiet: bool) -> FleetRecorder {
+        FleetRecorder {
+            robot,
+            name: name.to_string(),
+            trace: Some(trace),
+            journal: Journal::new(robot, 1),
+            batch: Batch::default(),
+            end: Time::ZERO,
+            is_quiet,
+        }
+    }
+
+    /// Completes the trace.
+    pub fn finish(mut self) {
+        self.advance(self.end);
+        if let Some(trace) = self.trace.take() {
+            let outcome = Outcome {
+                outcome: "stopped".to_string(),
+                digest: 0,
+                end: self.end,
+            };
+            if let Err(failure) = trace.finish(&outcome) {
+                console::error(&failure.0);
+            }
+        }
+    }
+
+    fn say(&self, at: Time, text: &str) {
+        if !self.is_quiet {
+            console::complain(&format!("{:9.3} {}: {text}\n", at.seconds(), self.name));
+        }
+    }
+
+    fn keep(&mut self, done: impl FnOnce(&mut TraceOutput) -> Result<(), crate::failure::Failure>) {
+        if let Some(Err(failure)) = self.trace.as_mut().map(done) {
+            console::error(&format!("{}: the robot goes on without a trace", failure.0));
+            self.trace = None;
+        }
+    }
+}
+
+impl Recorder for FleetRecorder {
+    fn record(&mut self, at: Time, event: Event) {
+        self.end = self.end.max(at);
+        match &event {
+            Event::Log { level, text } => {
+                let level = match level {
+                    Level::Debug => "debug: ",
+                    Level::Info => "",
+                    Level::Warning => "warning: ",
+                    Level::Error => "error: ",
+                };
+                self.say(at, &format!("{level}{text}"));
+            }
+            Event::Finished => self.say(at, "finished"),
+            Event::Failed(why) => self.say(at, &format!("its program cannot go on: {why}")),
+            _ => {}
+        }
+        let robot = Some(self.robot);
+        let record = Record { at, robot, event };
+        self.keep(|trace| trace.write(&record));
+    }
+
+    fn observe(&mut self, at: Time, observed: Observed<'_>) {
+        self.journal.observe(self.robot, at, observed);
+    }
+
+    fn advance(&mut self, now: Time) {
+        self.end = self.end.max(now);
+        let mut batch = std::mem::take(&mut self.batch);
+        batch.clear();
+        self.journal.append_to(&mut batch);
+        self.keep(|trace| trace.advance(&batch, now));
+        self.batch = batch;
+    }
+
+    fn notice(&mut self, at: Time, text: &str) {
+        self.say(at, text);
+        let level = Level::Warning;
+        let text = text.to_string().into();
+        let event = Event::Log { level, text };
+        let robot = Some(self.robot);
+        self.keep(|trace| trace.write(&Record { at, robot, event }));
+    }
+
+    fn state(&self, program: &dyn Program) -> Option<String> {
+        let program = program.inspect()?.downcast_ref::<RobotProgram>()?;
+        program.stage().map(str::to_string)
+    }
+}

@@ -1,0 +1,252 @@
+//! `starl fleet up`: runs all robots of a fleet on this machine, each in a process of its own, and judges what they did.
+
+use super::connect::connect;
+use super::file::Fleet;
+use super::folder::Folder;
+use super::merge::merge;
+use super::{key, stop};
+use crate::args::{FleetUpArguments, VerifyArguments};
+use crate::failure::Failure;
+use crate::output::reason;
+use crate::run::{quoted, stop_on_interrupt};
+use crate::{console, verify};
+use starl_catalog::programs::Registry;
+use starl_node::Operator;
+use starl_sim::scenario::Goal;
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// Robots are asked how they are this often.
+const PERIOD: Duration = Duration::from_millis(500);
+
+/// A robot that has died is started again after this.
+const PAUSE: Duration = Duration::from_secs(1);
+
+/// A robot that was told to stop has so long to end.
+const PATIENCE: Duration = Duration::from_secs(3);
+
+/// Starts a fleet, waits for its end, and judges it; whether its goal was reached and no property violated.
+pub fn up(arguments: &FleetUpArguments, registry: &Registry) -> Result<bool, Failure> {
+    let fleet = Fleet::read(&arguments.fleet, arguments.program.as_deref(), registry)?;
+    if arguments.print {
+        return print(arguments, &fleet);
+    }
+    if !fleet.is_local() {
+        return Err(Failure::file(
+            &arguments.fleet,
+            "some robots are on other machines; --print says what to start where",
+        ));
+    }
+    if let Some(path) = &fleet.key {
+        key::make_if_missing(path)?;
+    }
+    let folder = Folder::of(&arguments.fleet, !arguments.resume)?;
+    folder.epoch()?;
+    let scenario = fleet.application.scenario();
+    let limit = match &arguments.duration {
+        Some(text) => starl_sim::read::duration(text)
+            .ok_or_else(|| Failure(format!("--duration {text}: give a time, such as 60s")))?,
+        None => scenario.duration,
+    };
+    let stop = stop_on_interrupt();
+    let mut robots = Robots::start(arguments, &fleet, &folder)?;
+    let mut operator = connect(&fleet)?;
+    console::complain(&format!(
+        "{}: {} in {}\n",
+        fleet.name,
+        console::counted(fleet.robots.len(), "robot"),
+        folder.0.display()
+    ));
+    let ends_when_finished = scenario.goal == Goal::AllFinished && !arguments.keep;
+    let is_reached = robots.watch(&mut operator, limit.into(), ends_when_finished, &stop)?;
+    stop::halt(&fleet, &mut operator);
+    robots.end();
+    let out = folder.0.join("merged.mcap");
+    let merged = merge(&fleet, &folder, &out)?;
+    console::print(&merged.text(&fleet, &out))?;
+    let judged = verify::verify(
+        &VerifyArguments {
+            trace: out,
+            json: false,
+        },
+        registry,
+    )?;
+    Ok(judged && (is_reached || !ends_when_finished))
+}
+
+/// What to start where.
+fn print(arguments: &FleetUpArguments, fleet: &Fleet) -> Result<bool, Failure> {
+    let mut text = String::new();
+    for robot in &fleet.robots {
+        let program = arguments
+            .program
+            .as_ref()
+            .map_or(String::new(), |program| format!(" {}", quoted(program)));
+        let file = quoted(&arguments.fleet.display().to_string());
+        let ip = robot.address.ip();
+        text += &format!(
+            "{ip}: starl robot{program} --id {} --fleet {file}\n",
+            quoted(&robot.name)
+        );
+    }
+    console::print(&text)?;
+    Ok(true)
+}
+
+/// The processes of a fleet.
+struct Robots<'a> {
+    arguments: &'a FleetUpArguments,
+    folder: &'a Path,
+    robots: Vec<Process>,
+}
+
+struct Process {
+    name: String,
+    child: Option<Child>,
+    /// When it died, if it is to be started again.
+    died: Option<Instant>,
+}
+
+impl<'a> Robots<'a> {
+    fn start(
+        arguments: &'a FleetUpArguments,
+        fleet: &Fleet,
+        folder: &'a Folder,
+    ) -> Result<Robots<'a>, Failure> {
+        let mut robots = Robots {
+            arguments,
+            folder: &folder.0,
+            robots: Vec::new(),
+        };
+        for robot in &fleet.robots {
+            let child = robots.spawn(&robot.name)?;
+            robots.robots.push(Process {
+                name: robot.name.clone(),
+                child: Some(child),
+                died: None,
+            });
+        }
+        Ok(robots)
+    }
+
+    fn spawn(&self, robot: &str) -> Result<Child, Failure> {
+        let cannot = |error: &std::io::Error| {
+            Failure(format!("{robot}: cannot be started: {}", reason(error)))
+        };
+        let command = std::env::current_exe().map_err(|error| cannot(&error))?;
+        let mut command = Command::new(command);
+        command.arg("robot").args(&self.arguments.program);
+        command
+            .arg("--id")
+            .arg(robot)
+            .arg("--fleet")
+            .arg(&self.arguments.fleet);
+        command
+            .arg("--folder")
+            .arg(self.folder)
+            .stdin(Stdio::null());
+        if self.arguments.quiet {
+            command.arg("--quiet");
+        }
+        // Ctrl-C is for this process, which stops the robots in good order.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        command.spawn().map_err(|error| cannot(&error))
+    }
+
+    /// Waits for the end; whether all robots have finished.
+    fn watch(
+        &mut self,
+        operator: &mut Operator,
+        limit: Duration,
+        ends_when_finished: bool,
+        stop: &AtomicBool,
+    ) -> Result<bool, Failure> {
+        let begun = Instant::now();
+        while !stop.load(Ordering::Relaxed) && begun.elapsed() < limit {
+            self.revive()?;
+            let asked = Instant::now();
+            let statuses = operator.statuses(PERIOD);
+            let finished = statuses
+                .values()
+                .filter(|status| status.finished || status.failed.is_some());
+            if ends_when_finished && finished.count() == self.robots.len() {
+                console::complain(&format!(
+                    "all robots have finished after {:.1} s\n",
+                    begun.elapsed().as_secs_f64()
+                ));
+                return Ok(statuses.values().all(|status| status.finished));
+            }
+            std::thread::sleep(PERIOD.saturating_sub(asked.elapsed()));
+        }
+        Ok(false)
+    }
+
+    /// Starts robots again that have died.
+    fn revive(&mut self) -> Result<(), Failure> {
+        for index in 0..self.robots.len() {
+            let robot = &mut self.robots[index];
+            let ended = robot
+                .child
+                .as_mut()
+                .and_then(|child| child.try_wait().ok().flatten());
+            if let Some(status) = ended {
+                if status.code() == Some(2) {
+                    // It has said why.
+                    self.end();
+                    return Err(Failure(format!(
+                        "{}: could not start",
+                        self.robots[index].name
+                    )));
+                }
+                console::complain(&format!(
+                    "{} has died ({}), and is started again\n",
+                    robot.name,
+                    how(status)
+                ));
+                robot.child = None;
+                robot.died = Some(Instant::now());
+            }
+            if robot.died.is_some_and(|died| died.elapsed() >= PAUSE) {
+                robot.died = None;
+                let name = robot.name.clone();
+                self.robots[index].child = Some(self.spawn(&name)?);
+            }
+        }
+        Ok(())
+    }
+
+    /// Ends all processes: robots that were told to stop have a while for it.
+    fn end(&mut self) {
+        let begun = Instant::now();
+        for robot in &mut self.robots {
+            let Some(child) = &mut robot.child else {
+                continue;
+            };
+            while begun.elapsed() < PATIENCE && child.try_wait().is_ok_and(|ended| ended.is_none())
+            {
+                std::thread::sleep(Duration::from_millis(10));
+            }
+            let _ = child.kill();
+            let _ = child.wait();
+        }
+    }
+}
+
+impl Drop for Robots<'_> {
+    fn drop(&mut self) {
+        self.end();
+    }
+}
+
+fn how(status: ExitStatus) -> String {
+    #[cfg(unix)]
+    if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
+        return format!("signal {signal}");
+    }
+    status
+        .code()
+        .map_or("unknown".to_string(), |code| format!("exit status {code}"))
+}
