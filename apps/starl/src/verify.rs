@@ -47,6 +47,18 @@ fn judge(path: &Path, registry: &Registry) -> Result<Judged, Failure> {
     let mut reader = open(path)?;
     let header = reader.header().clone();
     let setting = setting(path, &header, registry)?;
+    if let Some(robot) = setting.only {
+        let name = header
+            .robots
+            .get(robot.index())
+            .map_or("one robot", |robot| &robot.name);
+        return Err(Failure::file(
+            path,
+            format!(
+                "holds the records of {name} alone; `starl fleet merge` joins the traces of a fleet"
+            ),
+        ));
+    }
     let mut steps = Steps::new(&setting);
     let mut recorded = Vec::new();
     let (mut records, mut end, mut cut) = (0, Time::ZERO, None);

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use starl_core::event::Name;
 use starl_core::motion::Body;
-use starl_core::{Duration, Obstacle, Time};
+use starl_core::{Duration, Obstacle, RobotId, Time};
 
 /// What a checker knows before the first record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,6 +32,8 @@ pub struct Setting {
     pub clock_drift: f64,
     /// Whether robots have storage that outlasts a crash, unless a fault says that it is lost; default false.
     pub keeps_storage: bool,
+    /// The robot whose records alone there are; none where there are those of all.
+    pub only: Option<RobotId>,
 }
 
 impl Default for Setting {
@@ -49,6 +51,7 @@ impl Default for Setting {
             position_noise: 0.0,
             clock_drift: 0.0,
             keeps_storage: false,
+            only: None,
         }
     }
 }

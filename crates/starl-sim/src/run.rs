@@ -239,6 +239,7 @@ pub fn setting(scenario: &Scenario) -> Setting {
         pose_period: scenario.trace.pose_period,
         estimate_period: scenario.positioning.period,
         keeps_storage: scenario.storage.kept,
+        only: None,
         position_noise: scenario.positioning.position_noise,
         clock_drift: drifts.fold(0.0, f64::max) * 1e-6,
     }

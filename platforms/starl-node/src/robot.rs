@@ -247,7 +247,6 @@ impl<R: Recorder> Robot<R> {
             let wait = self.setup.clock.until(due).min(LONGEST_WAIT.into());
             match self.inbox.recv_timeout(wait) {
                 Ok(incoming) => {
-                    self.tick();
                     self.take(incoming);
                     // What is there already comes before the clock is asked again, but not for ever.
                     for _ in 0..64 {
@@ -360,6 +359,8 @@ impl<R: Recorder> Robot<R> {
     }
 
     fn take(&mut self, incoming: Incoming) {
+        // What came in since the last look at the clock did not come before it.
+        self.tick();
         match incoming {
             Incoming::Packet(arrival) => self.receive(arrival),
             Incoming::Device(report) => self.learn(report),

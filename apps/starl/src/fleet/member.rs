@@ -18,6 +18,7 @@ use starl_node::localise::Accuracy;
 use starl_node::robot::{Connections, Incoming, Robot, Setup, mailbox};
 use starl_node::simulated::SimulatedBody;
 use starl_node::{Storage, WallClock};
+use starl_properties::Setting;
 use starl_sim::Scenario;
 use starl_sim::scenario::Group;
 
@@ -58,7 +59,10 @@ pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Fail
     };
     let setup = setup(&fleet, member.id, group, start, clock)?;
     let path = folder.next_trace(&member.name);
-    let setting = starl_sim::setting(scenario);
+    let setting = Setting {
+        only: Some(member.id),
+        ..starl_sim::setting(scenario)
+    };
     let trace = TraceOutput::create(&path, fleet.application.resolved(), &setting, true)?;
     let recorder = FleetRecorder::new(member.id, &member.name, trace, arguments.quiet);
     let halt = post.clone();

@@ -1,9 +1,8 @@
 //! `starl fleet merge`: joins the traces of a fleet's robots on one time axis.
 //!
 //! How far the robots' clocks are apart is found in the traces themselves: a datagram is on record where it was sent and
-//! where it arrived. The shortest delays in both directions between two robots give the difference of their clocks, as
-//! exact as half their sum (as in RFC 5905); from the robot with the lowest number the others are reached by the most
-//! exact links.
+//! where it arrived. The shortest delays in both directions between two robots bound the difference of their clocks (as
+//! in RFC 5905). One difference stands for the whole run.
 
 use super::file::Fleet;
 use super::folder::Folder;
@@ -16,6 +15,7 @@ use starl_catalog::programs::Registry;
 use starl_core::event::{Event, Fault};
 use starl_core::{RobotId, Time};
 use starl_host::journal;
+use starl_properties::Setting;
 use starl_trace::{Header, Inputs, Item, Outcome, Reader, ViewOptions, Writer};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap, HashMap};
@@ -96,14 +96,14 @@ pub fn merge(fleet: &Fleet, folder: &Folder, out: &Path) -> Result<Merged, Failu
     let Some(first) = lives.values().flatten().next() else {
         return Err(Failure::file(&folder.0, "holds no traces of robots"));
     };
-    let header = open(first)?.header().clone();
+    let header = header(first)?;
     let delays = Delays::read(&lives, &header)?;
-    let offsets = delays.offsets(
-        lives
-            .keys()
-            .copied()
-            .filter(|robot| !missing.contains(robot)),
-    );
+    let recorded: Vec<RobotId> = lives
+        .keys()
+        .copied()
+        .filter(|robot| !missing.contains(robot))
+        .collect();
+    let offsets = delays.offsets(&recorded);
     let apart = lives
         .keys()
         .filter(|robot| !offsets.contains_key(robot) && !missing.contains(robot));
@@ -114,6 +114,21 @@ pub fn merge(fleet: &Fleet, folder: &Folder, out: &Path) -> Result<Merged, Failu
         offsets,
     };
     Ok(merged)
+}
+
+/// The header of one robot's trace, as that of a trace of all.
+fn header(path: &Path) -> Result<Header, Failure> {
+    let mut header = open(path)?.header().clone();
+    let setting: Setting = serde_json::from_str(&header.setting).map_err(|error| {
+        Failure::file(path, format!("the attachment starl/setting.json: {error}"))
+    })?;
+    let setting = Setting {
+        only: None,
+        ..setting
+    };
+    header.setting =
+        serde_json::to_string_pretty(&setting).map_err(|error| Failure::file(path, error))?;
+    Ok(header)
 }
 
 /// The shortest time from sending to arrival, by the clocks of either end, for each pair of robots.
@@ -159,32 +174,33 @@ impl Delays {
     }
 
     /// How far each robot's clock is ahead of the first one's, and how exact that is; none for robots that cannot be
-    /// compared. (Prim's algorithm: the most exact comparison first.)
-    fn offsets(&self, mut robots: impl Iterator<Item = RobotId>) -> BTreeMap<RobotId, (f64, f64)> {
-        let mut offsets = BTreeMap::new();
-        let Some(first) = robots.next() else {
-            return offsets;
-        };
-        offsets.insert(first, (0.0, 0.0));
-        let rest: Vec<RobotId> = robots.collect();
-        loop {
-            let open = rest.iter().filter(|robot| !offsets.contains_key(robot));
-            let pairs =
-                open.flat_map(|&to| offsets.iter().map(move |(&from, &known)| (from, to, known)));
-            let links = pairs.filter_map(|(from, to, (offset, error))| {
-                let (there, back) = (self.0.get(&(from, to))?, self.0.get(&(to, from))?);
-                Some((
-                    to,
-                    offset + (there - back) / 2.0,
-                    error + (there + back).abs() / 2.0,
-                ))
-            });
-            let best = links.min_by(|a, b| a.2.total_cmp(&b.2));
-            let Some((to, offset, error)) = best else {
-                return offsets;
-            };
-            offsets.insert(to, (offset, error));
+    /// compared. No datagram arrives before it was sent by the clocks that come of it: they are the middle between the
+    /// latest and the earliest ones for which that holds (shortest paths, by Floyd and Warshall).
+    fn offsets(&self, robots: &[RobotId]) -> BTreeMap<RobotId, (f64, f64)> {
+        let mut shortest = self.0.clone();
+        for &middle in robots {
+            for &from in robots {
+                for &to in robots {
+                    let legs = (shortest.get(&(from, middle)), shortest.get(&(middle, to)));
+                    if let (Some(first), Some(second)) = legs {
+                        let way = first + second;
+                        let known = shortest.entry((from, to)).or_insert(way);
+                        *known = known.min(way);
+                    }
+                }
+            }
         }
+        let Some(&first) = robots.first() else {
+            return BTreeMap::new();
+        };
+        let others = robots[1..].iter().filter_map(|&robot| {
+            let (there, back) = (
+                shortest.get(&(first, robot))?,
+                shortest.get(&(robot, first))?,
+            );
+            Some((robot, ((there - back) / 2.0, (there + back).abs() / 2.0)))
+        });
+        others.chain([(first, (0.0, 0.0))]).collect()
     }
 }
 
@@ -303,4 +319,43 @@ fn write(
     };
     writer.finish(&outcome).map_err(cannot)?;
     Ok(records)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use starl_core::Random;
+
+    #[test]
+    fn no_datagram_arrives_before_it_was_sent() {
+        for seed in 0..200 {
+            let mut random = Random::keyed(seed, &[]);
+            let robots: Vec<RobotId> = (0..6).map(RobotId).collect();
+            let ahead: Vec<f64> = robots.iter().map(|_| random.between(-5.0, 5.0)).collect();
+            let mut delays = Delays::default();
+            for &from in &robots {
+                for to in robots.iter().filter(|to| **to != from) {
+                    // Not all robots have exchanged messages.
+                    if from.0 + 1 == to.0 || to.0 + 1 == from.0 || random.chance(0.3) {
+                        let delay = random.between(0.0001, 0.02);
+                        let seen = delay + ahead[to.index()] - ahead[from.index()];
+                        delays.0.insert((from, *to), seen);
+                    }
+                }
+            }
+            let offsets = delays.offsets(&robots);
+            assert_eq!(offsets.len(), robots.len());
+            for ((from, to), seen) in &delays.0 {
+                let delay = seen - offsets[to].0 + offsets[from].0;
+                assert!(delay > -1e-9, "seed {seed}: {from} to {to}: {delay}");
+            }
+            for (robot, (offset, error)) in &offsets {
+                let truth = ahead[robot.index()] - ahead[0];
+                assert!(
+                    (offset - truth).abs() <= error + 1e-9,
+                    "seed {seed}: {robot}"
+                );
+            }
+        }
+    }
 }
