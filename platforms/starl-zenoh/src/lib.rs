@@ -1,0 +1,1 @@
+//! Zenoh as the network of a fleet (Eclipse Zenoh, <https://zenoh.io>).
