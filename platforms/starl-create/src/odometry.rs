@@ -43,7 +43,7 @@ impl Odometry {
             }
         };
         let (sin, cos) = sincos(self.turned + 0.5 * turn);
-        self.moved = self.moved + Point::planar(distance * cos, distance * sin);
+        self.moved += Point::planar(distance * cos, distance * sin);
         self.turned += turn;
     }
 

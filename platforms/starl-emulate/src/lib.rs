@@ -22,8 +22,10 @@
 //! Dropping a device stops its thread and closes its line. A world runs until the last handle to it and to its bodies
 //! is gone.
 
+pub mod ardrone;
 pub mod conformance;
 pub mod create;
+mod service;
 pub mod world;
 
 pub use world::{AddError, BodyHandle, Noise, Odometer, World};

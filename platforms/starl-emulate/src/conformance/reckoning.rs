@@ -25,7 +25,7 @@ impl Reckoning {
 
     pub fn take(&mut self, reading: &Reading) {
         if let Some(moved) = reading.moved {
-            self.pose.position = self.pose.position + self.in_world(moved);
+            self.pose.position += self.in_world(moved);
         }
         if let Some(turned) = reading.turned {
             self.pose.yaw = wrap_angle(self.pose.yaw + turned);
@@ -39,7 +39,7 @@ impl Reckoning {
             let velocity = self.in_world(velocity);
             if let Some((before, at)) = self.velocity.replace((velocity, now)) {
                 let seconds = (now - at).as_secs_f64();
-                self.pose.position = self.pose.position + (before + velocity) * (0.5 * seconds);
+                self.pose.position += (before + velocity) * (0.5 * seconds);
             }
         }
     }

@@ -8,6 +8,7 @@ mod interface;
 mod terminal;
 
 use crate::BodyHandle;
+use crate::service::Service;
 use interface::Interface;
 use starl_create::Generation;
 use starl_create::command::CommandDecoder;
@@ -15,9 +16,7 @@ use starl_create::sensor::Mode;
 use starl_motion::{Model, models};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 use terminal::Terminal;
 
@@ -43,8 +42,7 @@ pub struct EmulatedCreate {
     terminal: Arc<Terminal>,
     link: Option<PathBuf>,
     interface: Arc<Mutex<Interface>>,
-    stop: Arc<AtomicBool>,
-    thread: Option<JoinHandle<()>>,
+    service: Service,
 }
 
 /// How often the stream is sent.
@@ -65,18 +63,17 @@ impl EmulatedCreate {
             std::os::unix::fs::symlink(terminal.path(), link)?;
         }
         let interface = Arc::new(Mutex::new(Interface::new(body)));
-        let stop = Arc::new(AtomicBool::new(false));
-        let thread = {
+        let service = {
             let (terminal, interface) = (terminal.clone(), interface.clone());
-            let stop = stop.clone();
-            thread::spawn(move || serve(&terminal, &interface, &stop))
+            let mut decoder = CommandDecoder::default();
+            let mut due = Instant::now();
+            Service::start(move || turn(&terminal, &interface, &mut decoder, &mut due))
         };
         Ok(EmulatedCreate {
             terminal,
             link: link.map(Path::to_path_buf),
             interface,
-            stop,
-            thread: Some(thread),
+            service,
         })
     }
 
@@ -103,10 +100,7 @@ impl EmulatedCreate {
 
 impl Drop for EmulatedCreate {
     fn drop(&mut self) {
-        self.stop.store(true, Ordering::Relaxed);
-        if let Some(thread) = self.thread.take() {
-            let _ = thread.join();
-        }
+        self.service.end();
         lock(&self.interface).halt();
         if let Some(link) = &self.link {
             let _ = std::fs::remove_file(link);
@@ -114,29 +108,26 @@ impl Drop for EmulatedCreate {
     }
 }
 
-fn serve(terminal: &Terminal, interface: &Mutex<Interface>, stop: &AtomicBool) {
-    let mut decoder = CommandDecoder::default();
+fn turn(
+    terminal: &Terminal,
+    interface: &Mutex<Interface>,
+    decoder: &mut CommandDecoder,
+    due: &mut Instant,
+) -> io::Result<()> {
     let mut buffer = [0; 256];
     let mut answer = Vec::new();
-    let mut due = Instant::now() + STREAM_PERIOD;
-    while !stop.load(Ordering::Relaxed) {
-        let wait = due.saturating_duration_since(Instant::now());
-        let Ok(bytes) = terminal.receive(&mut buffer, wait) else {
-            return;
-        };
-        decoder.push(bytes);
-        let mut interface = lock(interface);
-        while let Some(command) = decoder.pop() {
-            interface.take(&command, &mut answer);
-        }
-        if Instant::now() >= due {
-            due = Instant::now() + STREAM_PERIOD;
-            interface.tick(&mut answer);
-        }
-        drop(interface);
-        terminal.send(&answer);
-        answer.clear();
+    let wait = due.saturating_duration_since(Instant::now());
+    decoder.push(terminal.receive(&mut buffer, wait)?);
+    let mut interface = lock(interface);
+    while let Some(command) = decoder.pop() {
+        interface.take(&command, &mut answer);
     }
+    if Instant::now() >= *due {
+        *due = Instant::now() + STREAM_PERIOD;
+        interface.tick(&mut answer);
+    }
+    terminal.send(&answer);
+    Ok(())
 }
 
 fn lock(interface: &Mutex<Interface>) -> MutexGuard<'_, Interface> {
