@@ -7,6 +7,7 @@ use starl_core::{Point, Pose};
 use starl_create::Generation;
 use starl_emulate::ardrone::EmulatedArdrone;
 use starl_emulate::create::{EmulatedCreate, model};
+use starl_emulate::natnet::{Cameras, EmulatedNatNet};
 use starl_emulate::{Noise, World};
 use starl_motion::models::by_name;
 use std::error::Error;
@@ -26,11 +27,21 @@ fn main() -> Result<(), Box<dyn Error>> {
     let body = world.add("drone", by_name("drone").ok_or("no model")?, hangar)?;
     let any = "127.0.0.1:0".parse()?;
     let drone = EmulatedArdrone::start(body, any, any)?;
+    let natnet = |version| {
+        let cameras = Cameras {
+            version,
+            ..Cameras::default()
+        };
+        EmulatedNatNet::start(world.clone(), any, cameras)
+    };
+    let (natnet_3, natnet_4) = (natnet((3, 1))?, natnet((4, 1))?);
     println!(
-        r#"{{"create": {:?}, "commands": {}, "navdata": {}}}"#,
+        r#"{{"create": {:?}, "commands": {}, "navdata": {}, "natnet_3": {}, "natnet_4": {}}}"#,
         create.path(),
         drone.commands().port(),
         drone.navdata()?.port(),
+        natnet_3.address().port(),
+        natnet_4.address().port(),
     );
     for line in stdin().lock().lines() {
         line?;
