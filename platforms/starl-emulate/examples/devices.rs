@@ -1,0 +1,59 @@
+//! Starts one emulated device of each kind in one world, for programs in other languages to drive.
+//!
+//! `devices FOLDER` prints a line of JSON that says where the devices are, and answers each line on its standard input
+//! with a line of true poses by name: `{"r1": [x, y, z, yaw], ...}`, metres and radians. It ends with its input.
+
+use starl_core::{Point, Pose};
+use starl_create::Generation;
+use starl_emulate::ardrone::EmulatedArdrone;
+use starl_emulate::create::{EmulatedCreate, model};
+use starl_emulate::natnet::{Cameras, EmulatedNatNet};
+use starl_emulate::{Noise, World};
+use starl_motion::models::by_name;
+use std::error::Error;
+use std::io::{BufRead, stdin};
+use std::path::PathBuf;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let folder: PathBuf = std::env::args_os()
+        .nth(1)
+        .ok_or("usage: devices FOLDER")?
+        .into();
+    let world = World::new(Vec::new(), Noise::NONE);
+    let start = Pose::level(Point::planar(1.0, -2.0), 0.5);
+    let body = world.add("create", model(Generation::Create2), start)?;
+    let create = EmulatedCreate::start(body, Some(&folder.join("create")))?;
+    let hangar = Pose::level(Point::planar(-3.0, 1.0), -0.4);
+    let body = world.add("drone", by_name("drone").ok_or("no model")?, hangar)?;
+    let any = "127.0.0.1:0".parse()?;
+    let drone = EmulatedArdrone::start(body, any, any)?;
+    let natnet = |version| {
+        let cameras = Cameras {
+            version,
+            ..Cameras::default()
+        };
+        EmulatedNatNet::start(world.clone(), any, cameras)
+    };
+    let (natnet_3, natnet_4) = (natnet((3, 1))?, natnet((4, 1))?);
+    println!(
+        r#"{{"create": {:?}, "commands": {}, "navdata": {}, "natnet_3": {}, "natnet_4": {}}}"#,
+        create.path(),
+        drone.commands().port(),
+        drone.navdata()?.port(),
+        natnet_3.address().port(),
+        natnet_4.address().port(),
+    );
+    for line in stdin().lock().lines() {
+        line?;
+        let poses: Vec<String> = world
+            .poses()
+            .into_iter()
+            .map(|(name, pose)| {
+                let Point { x, y, z } = pose.position;
+                format!("{name:?}: [{x}, {y}, {z}, {}]", pose.yaw)
+            })
+            .collect();
+        println!("{{{}}}", poses.join(", "));
+    }
+    Ok(())
+}

@@ -1,0 +1,195 @@
+//! Bodies that share a floor, stepped in real time.
+//!
+//! Invariant: bodies overlap neither obstacles nor each other, as in the simulator: a motion that would make them
+//! overlap does not take place. One thread steps all bodies every 10 ms. A thread that wakes late catches up, but by no
+//! more than [`CATCH_UP`], so a machine that was asleep does not play back hours of motion.
+
+mod body;
+mod contact;
+
+pub use body::{BodyHandle, Odometer};
+
+use body::Body;
+use starl_core::geometry::ObstacleIndex;
+use starl_core::{Duration, Obstacle, Pose, Random};
+use starl_motion::{Disturbance, Model};
+use std::fmt;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::thread;
+use std::time::Instant;
+
+/// The time of one step.
+pub const STEP: Duration = Duration::from_millis(10);
+
+/// The most time that the world makes up for when its thread was held up.
+pub const CATCH_UP: Duration = Duration::from_millis(250);
+
+/// How the motion of bodies errs from their commands: standard deviations relative to the speed, drawn for each step.
+/// Wheels slip so; [`BodyHandle::odometer`] does not see it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// Relative error of the speed, e.g. 0.05.
+    pub speed: f64,
+    /// Relative error of the rate of turn.
+    pub turn: f64,
+    /// Seeds the errors.
+    pub seed: u64,
+}
+
+impl Noise {
+    /// Bodies move exactly as commanded.
+    pub const NONE: Noise = Noise {
+        speed: 0.0,
+        turn: 0.0,
+        seed: 0,
+    };
+}
+
+/// Why a body cannot be added.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum AddError {
+    /// A body of this name is in the world already.
+    NameTaken(String),
+    /// The body would overlap an obstacle or another body.
+    Blocked(String),
+}
+
+impl fmt::Display for AddError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            AddError::NameTaken(name) => {
+                write!(f, "there is a body `{name}` already; use another name")
+            }
+            AddError::Blocked(name) => write!(
+                f,
+                "`{name}` would overlap an obstacle or another body; start it elsewhere"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for AddError {}
+
+/// A floor with obstacles and the bodies on and above it. Clones share the same floor.
+#[derive(Clone, Debug)]
+pub struct World {
+    shared: Arc<Mutex<Floor>>,
+}
+
+#[derive(Debug)]
+struct Floor {
+    map: ObstacleIndex,
+    noise: Noise,
+    bodies: Vec<Body>,
+    steps: u64,
+}
+
+impl World {
+    /// An empty floor with these obstacles, whose time starts now.
+    pub fn new(obstacles: Vec<Obstacle>, noise: Noise) -> World {
+        let shared = Arc::new(Mutex::new(Floor {
+            map: ObstacleIndex::new(&obstacles),
+            noise,
+            bodies: Vec::new(),
+            steps: 0,
+        }));
+        let floor = Arc::downgrade(&shared);
+        thread::spawn(move || keep_time(&floor));
+        World { shared }
+    }
+
+    /// Puts a body that stands still at `pose`.
+    ///
+    /// # Errors
+    /// Where the name is taken, or something is in the way.
+    pub fn add(
+        &self,
+        name: &str,
+        model: Arc<dyn Model>,
+        pose: Pose,
+    ) -> Result<BodyHandle, AddError> {
+        let mut floor = lock(&self.shared);
+        if floor.bodies.iter().any(|body| body.name == name) {
+            return Err(AddError::NameTaken(name.to_string()));
+        }
+        let body = Body::new(name, model, pose);
+        if contact::blocked(&floor.map, &floor.bodies, &body) {
+            return Err(AddError::Blocked(name.to_string()));
+        }
+        floor.bodies.push(body);
+        let index = floor.bodies.len() - 1;
+        Ok(BodyHandle::new(self.clone(), index))
+    }
+
+    /// The true poses of all bodies by name, in the order in which they were added, all of the same moment.
+    pub fn poses(&self) -> Vec<(String, Pose)> {
+        let floor = lock(&self.shared);
+        let poses = floor.bodies.iter();
+        poses
+            .map(|body| (body.name.clone(), body.state.pose))
+            .collect()
+    }
+
+    /// The world's time: how long its bodies have moved.
+    pub fn elapsed(&self) -> Duration {
+        Duration(lock(&self.shared).steps * STEP.0)
+    }
+
+    fn with<T>(&self, index: usize, look: impl FnOnce(&mut Body) -> T) -> T {
+        look(&mut lock(&self.shared).bodies[index])
+    }
+}
+
+impl Floor {
+    fn step(&mut self) {
+        let predicted: Vec<_> = (0u64..)
+            .zip(&self.bodies)
+            .map(|(index, body)| body.predict(&self.disturbance(index)))
+            .collect();
+        let impacts = contact::impacts(&self.map, &self.bodies, &predicted);
+        for ((body, predicted), impact) in self.bodies.iter_mut().zip(predicted).zip(impacts) {
+            body.advance(&predicted, impact);
+        }
+        self.steps += 1;
+    }
+
+    fn disturbance(&self, index: u64) -> Disturbance {
+        let Noise { speed, turn, seed } = self.noise;
+        if speed == 0.0 && turn == 0.0 {
+            return Disturbance::default();
+        }
+        let mut random = Random::keyed(seed, &[index, self.steps]);
+        Disturbance {
+            speed_error: random.normal(0.0, speed),
+            turn_error: random.normal(0.0, turn),
+            ..Disturbance::default()
+        }
+    }
+}
+
+/// Steps the floor until nobody holds it any more.
+fn keep_time(floor: &Weak<Mutex<Floor>>) {
+    let step = std::time::Duration::from_nanos(STEP.0);
+    let most_late = std::time::Duration::from_nanos(CATCH_UP.0);
+    let mut due = Instant::now() + step;
+    loop {
+        thread::sleep(due.saturating_duration_since(Instant::now()));
+        let Some(shared) = floor.upgrade() else {
+            return;
+        };
+        let now = Instant::now();
+        if now > due + most_late {
+            due = now - most_late;
+        }
+        let mut floor = lock(&shared);
+        while due <= now {
+            floor.step();
+            due += step;
+        }
+    }
+}
+
+/// A panic in one device leaves the floor as it was between two steps.
+fn lock(shared: &Mutex<Floor>) -> MutexGuard<'_, Floor> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,84 @@
+"""pycreate2 drives the emulated Create, which so proves to be one.
+
+    python3 create.py DEVICES
+
+DEVICES is the example of that name, built.
+"""
+
+import math
+import sys
+import time
+
+from emulator import Emulator
+from pycreate2 import Create2
+
+METRES_PER_COUNT = math.pi * 0.072 / 508.8
+
+
+def near(what, value, wanted, tolerance):
+    print(f"{what}: {value:.3f}, expected {wanted:.3f}")
+    assert abs(value - wanted) <= tolerance, f"{what} is {value}, not within {tolerance} of {wanted}"
+
+
+def counted(after, before):
+    """Counts of a wheel between two readings, whose counters wrap around."""
+    return ((after - before + 0x8000) & 0xFFFF) - 0x8000
+
+
+def drive(robot, right, left, seconds):
+    robot.drive_direct(right, left)
+    time.sleep(seconds)
+    robot.drive_direct(0, 0)
+    time.sleep(0.1)
+
+
+def main():
+    with Emulator(sys.argv[1]) as emulator:
+        robot = Create2(emulator.where["create"])
+        x, y, _, yaw = emulator.pose("create")
+
+        robot.start()
+        assert robot.get_sensors().open_interface_mode == 1, "128 leads to passive mode"
+        drive(robot, 300, 300, 0.3)
+        assert emulator.pose("create")[:2] == [x, y], "a robot in passive mode drives"
+
+        robot.safe()
+        first = robot.get_sensors()
+        assert first.open_interface_mode == 2, "131 leads to safe mode"
+        drive(robot, 200, 200, 2.0)
+        ahead = emulator.pose("create")
+        way = math.hypot(ahead[0] - x, ahead[1] - y)
+        near("metres driven", way, 0.4, 0.05)
+        near("direction, rad", math.atan2(ahead[1] - y, ahead[0] - x), yaw, 0.01)
+        second = robot.get_sensors()
+        near("packet 19, m", second.distance / 1000, way, 0.002)
+        near("packet 20, degrees", second.angle, 0, 1)
+        for wheel in ("encoder_counts_left", "encoder_counts_right"):
+            counts = counted(getattr(second, wheel), getattr(first, wheel))
+            near(f"{wheel}, m", counts * METRES_PER_COUNT, way, 0.002)
+
+        drive(robot, 150, -150, 1.0)
+        turned = emulator.pose("create")[3] - yaw
+        near("rad turned to the left", turned, 0.3 / 0.235, 0.15)
+        third = robot.get_sensors()
+        near("packet 20, degrees", third.angle, math.degrees(turned), 1.01)
+        near("packet 19, m", third.distance / 1000, 0, 0.002)
+        right = counted(third.encoder_counts_right, second.encoder_counts_right)
+        left = counted(third.encoder_counts_left, second.encoder_counts_left)
+        near("rad by the encoders", (right - left) * METRES_PER_COUNT / 0.235, turned, 0.01)
+
+        robot.drive_direct(-250, -100)
+        sensors = robot.get_sensors()
+        assert (sensors.velocity_right, sensors.velocity_left) == (-250, -100), "packets 41 and 42"
+        assert 0 < sensors.battery_charge <= sensors.battery_capacity, "packets 25 and 26"
+        assert not any(sensors.bumps_wheeldrops), "nothing touches the robot"
+
+        robot.stop()
+        stopped = emulator.pose("create")
+        time.sleep(0.3)
+        assert emulator.pose("create") == stopped, "173 stops the motors"
+        robot.close()
+    print("pycreate2 drives the emulated Create")
+
+
+main()

@@ -1,0 +1,265 @@
+//! The client: follows one body by its name.
+
+use crate::{COMMAND_PORT, Frame, Message, RigidBody, Version};
+use starl_core::{Point, Pose};
+use std::fmt;
+use std::io::{self, ErrorKind};
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
+use std::time::{Duration, Instant};
+
+/// Which axis of the server points up; a setting of Motive's stream.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum UpAxis {
+    /// As on our floor.
+    #[default]
+    Z,
+    /// Motive's default. Its z axis then becomes our -y.
+    Y,
+}
+
+/// Whom to follow, and where.
+#[derive(Clone, Debug)]
+pub struct NatNetOptions {
+    /// The server's command port.
+    pub server: SocketAddr,
+    /// The name of the rigid body in Motive.
+    pub body: String,
+    /// Which axis points up.
+    pub up: UpAxis,
+}
+
+impl NatNetOptions {
+    /// The body of this name, from the server at its usual port.
+    pub fn new(server: IpAddr, body: &str) -> NatNetOptions {
+        NatNetOptions {
+            server: (server, COMMAND_PORT).into(),
+            body: body.to_string(),
+            up: UpAxis::default(),
+        }
+    }
+}
+
+/// Why there are no positions.
+#[derive(Debug)]
+pub enum NatNetError {
+    /// The connection failed.
+    Io(io::Error),
+    /// The server has said nothing for a second.
+    Silent(SocketAddr),
+    /// The server does not know the body.
+    Unknown {
+        /// The body's name.
+        body: String,
+        /// Those that it knows.
+        known: Vec<String>,
+    },
+    /// The server speaks a version of the protocol that has other frames.
+    Version(Version),
+}
+
+impl fmt::Display for NatNetError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NatNetError::Io(error) => write!(f, "the connection failed: {error}"),
+            NatNetError::Silent(server) => write!(
+                f,
+                "the OptiTrack server at {server} is silent; does Motive stream unicast to this machine?"
+            ),
+            NatNetError::Unknown { body, known } => write!(
+                f,
+                "Motive has no rigid body `{body}`; it has {}",
+                known.join(", ")
+            ),
+            NatNetError::Version((major, minor)) => write!(
+                f,
+                "Motive streams NatNet {major}.{minor}; set its bit stream version to 3.0 to 4.1"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for NatNetError {}
+
+impl From<io::Error> for NatNetError {
+    fn from(error: io::Error) -> NatNetError {
+        NatNetError::Io(error)
+    }
+}
+
+/// How often the server is asked to go on, and how long it may be silent.
+const KEEP_ALIVE: Duration = Duration::from_millis(500);
+const SILENCE: Duration = Duration::from_millis(1000);
+/// Versions whose frames are understood.
+const VERSIONS: std::ops::RangeInclusive<Version> = (3, 0)..=(4, 1);
+
+/// A body followed by motion capture.
+#[derive(Debug)]
+pub struct NatNet {
+    socket: UdpSocket,
+    options: NatNetOptions,
+    version: Option<Version>,
+    ticks_per_second: u64,
+    bodies: Vec<(u32, String)>,
+    /// The body's number, once the server has said it.
+    number: Option<u32>,
+    last_frame: Option<u32>,
+    sighting: Option<(Instant, Pose)>,
+    asked: Option<Instant>,
+    heard: Instant,
+}
+
+impl NatNet {
+    /// Opens a socket and asks the server for its stream. A server that does not answer shows in [`NatNet::poll`].
+    ///
+    /// # Errors
+    /// Where no socket can be opened, or the network has no way to the server.
+    pub fn connect(options: NatNetOptions) -> Result<NatNet, NatNetError> {
+        let any: IpAddr = match options.server {
+            SocketAddr::V4(_) => Ipv4Addr::UNSPECIFIED.into(),
+            SocketAddr::V6(_) => Ipv6Addr::UNSPECIFIED.into(),
+        };
+        let socket = UdpSocket::bind((any, 0))?;
+        socket.connect(options.server)?;
+        socket.set_nonblocking(true)?;
+        Ok(NatNet {
+            socket,
+            options,
+            version: None,
+            ticks_per_second: 0,
+            bodies: Vec::new(),
+            number: None,
+            last_frame: None,
+            sighting: None,
+            asked: None,
+            heard: Instant::now(),
+        })
+    }
+
+    /// The latest pose that has arrived since the last call, and when the cameras saw it; `None` if there is no new
+    /// one, as when the body is hidden. Does not block; to be called several times a second, as this keeps the server
+    /// sending.
+    ///
+    /// # Errors
+    /// Where the server cannot be reached, is silent, or does not know the body. Call again: it may come back.
+    pub fn poll(&mut self) -> Result<Option<(Instant, Pose)>, NatNetError> {
+        if self.asked.is_none_or(|asked| asked.elapsed() > KEEP_ALIVE) {
+            self.ask()?;
+        }
+        let mut buffer = [0; 65_536];
+        loop {
+            match self.socket.recv(&mut buffer) {
+                Ok(length) => self.take(&buffer[..length])?,
+                Err(error) => match error.kind() {
+                    ErrorKind::WouldBlock => break,
+                    ErrorKind::Interrupted => {}
+                    _ => return Err(error.into()),
+                },
+            }
+        }
+        if self.heard.elapsed() > SILENCE {
+            self.heard = Instant::now();
+            // A server that comes back may number its frames and bodies anew.
+            self.version = None;
+            self.number = None;
+            self.last_frame = None;
+            return Err(NatNetError::Silent(self.options.server));
+        }
+        Ok(self.sighting.take())
+    }
+
+    fn ask(&mut self) -> Result<(), NatNetError> {
+        self.asked = Some(Instant::now());
+        let message = match (self.version, self.number) {
+            (None, _) => Message::Connect,
+            (Some(_), None) => Message::RequestDescriptions,
+            (Some(_), Some(_)) => Message::KeepAlive,
+        };
+        self.socket
+            .send(&message.encode(self.version.unwrap_or((3, 0))))?;
+        Ok(())
+    }
+
+    fn take(&mut self, datagram: &[u8]) -> Result<(), NatNetError> {
+        let now = Instant::now();
+        match Message::decode(datagram, self.version.unwrap_or((3, 0))) {
+            Some(Message::ServerInfo(info)) => {
+                if !VERSIONS.contains(&info.version) {
+                    return Err(NatNetError::Version(info.version));
+                }
+                self.heard = now;
+                self.ticks_per_second = info.ticks_per_second;
+                self.version = Some(info.version);
+                self.ask()?;
+            }
+            Some(Message::Descriptions(bodies)) => {
+                self.heard = now;
+                let named = |(number, name): &(u32, String)| {
+                    (*name == self.options.body).then_some(*number)
+                };
+                self.number = bodies.iter().find_map(named);
+                self.bodies = bodies;
+                if self.number.is_none() {
+                    return Err(NatNetError::Unknown {
+                        body: self.options.body.clone(),
+                        known: self.bodies.iter().map(|(_, name)| name.clone()).collect(),
+                    });
+                }
+            }
+            Some(Message::Frame(frame)) if self.version.is_some() => {
+                self.heard = now;
+                self.look(&frame, now);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn look(&mut self, frame: &Frame, now: Instant) {
+        let newer = |last: u32| (frame.number.wrapping_sub(last) as i32) > 0;
+        if !self.last_frame.is_none_or(newer) {
+            return;
+        }
+        self.last_frame = Some(frame.number);
+        let wanted = |body: &&RigidBody| body.tracked && Some(body.number) == self.number;
+        let Some(body) = frame.bodies.iter().find(wanted) else {
+            return;
+        };
+        let age = self.age(frame);
+        if let Some(pose) = pose(body, self.options.up) {
+            self.sighting = Some((now.checked_sub(age).unwrap_or(now), pose));
+        }
+    }
+
+    /// How long before it was sent the frame was taken; a second at most, as no camera system takes longer.
+    fn age(&self, frame: &Frame) -> Duration {
+        if self.ticks_per_second == 0 {
+            return Duration::ZERO;
+        }
+        let ticks = frame.sent.saturating_sub(frame.exposed);
+        Duration::from_secs_f64((ticks as f64 / self.ticks_per_second as f64).min(1.0))
+    }
+}
+
+/// The pose of a body in our axes; `None` if a number is none.
+fn pose(body: &RigidBody, up: UpAxis) -> Option<Pose> {
+    let turned = |[x, y, z]: [f64; 3]| match up {
+        UpAxis::Z => [x, y, z],
+        UpAxis::Y => [x, -z, y],
+    };
+    let [x, y, z] = turned(body.position.map(f64::from));
+    let [i, j, k, w] = body.rotation.map(f64::from);
+    let [i, j, k] = turned([i, j, k]);
+    let length = (i * i + j * j + k * k + w * w).sqrt();
+    let position = Point::new(x, y, z);
+    if !position.is_finite() || !length.is_finite() || length < 0.5 {
+        return None;
+    }
+    let [i, j, k, w] = [i, j, k, w].map(|part| part / length);
+    // Yaw, pitch and roll of R = Rz(yaw) Ry(pitch) Rx(roll).
+    Some(Pose {
+        position,
+        yaw: (2.0 * (w * k + i * j)).atan2(1.0 - 2.0 * (j * j + k * k)),
+        pitch: (2.0 * (w * j - k * i)).clamp(-1.0, 1.0).asin(),
+        roll: (2.0 * (w * i + j * k)).atan2(1.0 - 2.0 * (i * i + j * j)),
+    })
+}
