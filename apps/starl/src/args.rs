@@ -1,6 +1,7 @@
 //! The command line.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::net::SocketAddr;
 use std::path::PathBuf;
 
 const MOST_THREADS: u32 = 1_024;
@@ -55,6 +56,12 @@ pub enum Command {
         /// What to do.
         #[command(subcommand)]
         command: FleetCommand,
+    },
+    /// Stand in for robots' hardware: the simulator's models behind the wire protocols of real devices
+    Emulate {
+        /// What to emulate.
+        #[command(subcommand)]
+        what: EmulateArguments,
     },
     /// Serve the page with the simulator in it, for a browser on this machine
     Web(PageArguments),
@@ -160,6 +167,38 @@ pub struct RobotArguments {
     pub quiet: bool,
 }
 
+/// What to emulate.
+#[derive(Subcommand, Debug)]
+pub enum EmulateArguments {
+    /// All devices that a fleet file names, in the world of its scenario
+    Fleet(EmulateFleet),
+    /// An iRobot Create on a serial line
+    Create {
+        /// Where to put the line [default: the system says]
+        #[arg(long, value_name = "PATH")]
+        link: Option<PathBuf>,
+        /// 1 for the Create of 2007, 2 for the Create 2
+        #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u8).range(1..=2))]
+        generation: u8,
+    },
+    /// An AR.Drone 2
+    Drone {
+        /// Where it takes commands
+        #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:5556")]
+        commands: SocketAddr,
+        /// Where it gives navdata
+        #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:5554")]
+        navdata: SocketAddr,
+    },
+}
+
+/// Arguments of `starl emulate fleet`.
+#[derive(Args, Debug)]
+pub struct EmulateFleet {
+    /// The fleet file
+    pub fleet: PathBuf,
+}
+
 /// What to do with a real fleet.
 #[derive(Subcommand, Debug)]
 pub enum FleetCommand {
@@ -183,6 +222,9 @@ pub struct FleetUpArguments {
     /// A program for all robots, a file ending in .starl [default: the scenario's]
     #[arg(long, value_name = "FILE")]
     pub program: Option<String>,
+    /// Emulate the devices that the fleet file names
+    #[arg(long)]
+    pub emulate: bool,
     /// Print what to start on which machine, and start nothing
     #[arg(long)]
     pub print: bool,

@@ -129,6 +129,7 @@ impl CommandLine {
             Command::Lsp(_) => lsp::run(),
             Command::View(arguments) => web::serve_trace(arguments),
             Command::Robot(arguments) => fleet::robot(arguments, registry),
+            Command::Emulate { what } => fleet::emulate(what, registry),
             Command::Fleet { command } => fleet::fleet(command, registry),
             Command::Web(arguments) => web::serve_page(arguments),
             Command::Schema => json::print(&schema()).map(|()| true),

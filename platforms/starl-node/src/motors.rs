@@ -22,7 +22,10 @@ pub const PATIENCE: Duration = Duration::from_millis(500);
 /// Tells where the robot is, from outside it.
 pub trait PositionSource: Send {
     /// The newest pose since the last call, and when it was measured; none if there is none. Does not block.
-    fn poll(&mut self) -> Option<(Instant, Pose)>;
+    ///
+    /// # Errors
+    /// Where the source cannot be reached, or does not know the robot. It is asked again.
+    fn poll(&mut self) -> Result<Option<(Instant, Pose)>, DeviceError>;
 }
 
 /// What the device's thread tells the program's.
@@ -158,8 +161,10 @@ fn drive(
             Ok(None) => {}
             Err(error) => problem = Some(error),
         }
-        if let Some((at, pose)) = positions.as_mut().and_then(|source| source.poll()) {
-            tell(Report::Seen(at, pose));
+        match positions.as_mut().map(|source| source.poll()) {
+            Some(Ok(Some((at, pose)))) => tell(Report::Seen(at, pose)),
+            Some(Err(error)) => problem = Some(error),
+            Some(Ok(None)) | None => {}
         }
         report(&mut trouble, problem, is_due, &mut tell);
         thread::sleep(PERIOD.saturating_sub(now.elapsed()));

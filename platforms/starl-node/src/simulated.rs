@@ -133,12 +133,12 @@ pub struct SimulatedPositions {
 }
 
 impl PositionSource for SimulatedPositions {
-    fn poll(&mut self) -> Option<(Instant, Pose)> {
+    fn poll(&mut self) -> Result<Option<(Instant, Pose)>, DeviceError> {
         let now = Instant::now();
         if now < self.next {
-            return None;
+            return Ok(None);
         }
         self.next = now + self.period;
-        Some((now, self.body.state().pose))
+        Ok(Some((now, self.body.state().pose)))
     }
 }

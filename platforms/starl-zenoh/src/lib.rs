@@ -1,1 +1,181 @@
 //! Zenoh as the network of a fleet (Eclipse Zenoh, <https://zenoh.io>).
+//!
+//! Each member of a fleet `F` subscribes to the key `starl/F/NUMBER`, and a packet for a member is put there. Members are
+//! peers that connect to each other, directly or by gossip, or clients of a router; the robots of a fleet may be in
+//! several networks as long as routers join them. No multicast is used. Packets are protected by
+//! [`starl_node::link::Channel`] as on any link; TLS comes beneath that where it is configured.
+
+use starl_node::link::{Arrival, Member, Origin, Transport};
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+use std::sync::mpsc::{self, SyncSender, TrySendError};
+use std::thread;
+use std::time::Instant;
+use zenoh::config::Config;
+use zenoh::qos::CongestionControl;
+use zenoh::{Session, Wait};
+
+/// So many packets may wait to be sent. More are lost.
+const QUEUE: usize = 4096;
+
+/// How a member joins the network.
+#[derive(Clone, Debug, Default)]
+pub struct ZenohOptions {
+    /// Where it listens, e.g. `tcp/0.0.0.0:7447`.
+    pub listen: Vec<String>,
+    /// Whom it connects to, e.g. `tcp/192.168.0.1:7447`. Those that are not there yet are tried again for ever.
+    pub connect: Vec<String>,
+    /// Whether it is a client, all of whose packets go by a router, or a peer.
+    pub is_client: bool,
+    /// What encrypts links whose endpoints begin with `tls/`.
+    pub tls: Option<Tls>,
+}
+
+/// Certificates and keys, as files in PEM.
+#[derive(Clone, Debug)]
+pub struct Tls {
+    /// The authority that signs the certificates of all members.
+    pub authority: PathBuf,
+    /// This member's certificate.
+    pub certificate: PathBuf,
+    /// The key to it.
+    pub key: PathBuf,
+}
+
+/// Why a member cannot join.
+#[derive(Debug)]
+pub struct ZenohError(String);
+
+impl fmt::Display for ZenohError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for ZenohError {}
+
+impl From<zenoh::Error> for ZenohError {
+    fn from(error: zenoh::Error) -> ZenohError {
+        ZenohError(error.to_string())
+    }
+}
+
+/// A member's connection to the network, which ends when this is dropped.
+pub struct Zenoh {
+    packets: SyncSender<(Member, Vec<u8>)>,
+    // Kept so that packets arrive.
+    _session: Session,
+}
+
+impl Zenoh {
+    /// Joins the network as `me`, and hands what arrives to `deliver`.
+    ///
+    /// # Errors
+    /// If an endpoint is malformed or cannot be listened on, or certificates cannot be read.
+    pub fn open(
+        fleet: &str,
+        me: Member,
+        options: &ZenohOptions,
+        deliver: impl Fn(Arrival) -> bool + Send + Sync + 'static,
+    ) -> Result<Zenoh, ZenohError> {
+        let session = zenoh::open(config(options)?).wait()?;
+        let own = key(fleet, me);
+        session
+            .declare_subscriber(own)
+            .callback(move |sample| {
+                deliver(Arrival {
+                    at: Instant::now(),
+                    origin: Origin::Named,
+                    packet: sample.payload().to_bytes().into_owned(),
+                });
+            })
+            .background()
+            .wait()?;
+        let (packets, queue) = mpsc::sync_channel::<(Member, Vec<u8>)>(QUEUE);
+        let (sender, fleet) = (session.clone(), fleet.to_string());
+        // A congested link holds up this thread alone.
+        thread::Builder::new()
+            .name("zenoh".to_string())
+            .spawn(move || {
+                for (to, packet) in queue {
+                    // Whoever cannot be reached now is a case that programs are made for.
+                    let _ = sender
+                        .put(key(&fleet, to), packet)
+                        .congestion_control(CongestionControl::Drop)
+                        .express(true)
+                        .wait();
+                }
+            })
+            .map_err(|error| ZenohError(error.to_string()))?;
+        Ok(Zenoh {
+            packets,
+            _session: session,
+        })
+    }
+}
+
+impl Transport for Zenoh {
+    fn send(&mut self, to: Member, packet: &[u8]) -> io::Result<()> {
+        match self.packets.try_send((to, packet.to_vec())) {
+            Ok(()) => Ok(()),
+            Err(TrySendError::Full(_)) => Err(io::ErrorKind::WouldBlock.into()),
+            Err(TrySendError::Disconnected(_)) => Err(io::ErrorKind::NotConnected.into()),
+        }
+    }
+
+    fn learn(&mut self, _: Member, _: Origin) {}
+}
+
+/// The key under which a member is reached. Names may hold what keys may not.
+fn key(fleet: &str, member: Member) -> String {
+    let name: String = fleet
+        .bytes()
+        .map(|byte| match byte.is_ascii_alphanumeric() {
+            true => char::from(byte).to_string(),
+            false => format!("-{byte:02x}"),
+        })
+        .collect();
+    format!("starl/{name}/{member}")
+}
+
+fn config(options: &ZenohOptions) -> Result<Config, ZenohError> {
+    let mut config = Config::default();
+    let list = |items: &[String]| {
+        let quoted: Vec<String> = items.iter().map(|item| format!("{item:?}")).collect();
+        format!("[{}]", quoted.join(","))
+    };
+    let mode = if options.is_client { "client" } else { "peer" };
+    let mut set = |key: &str, value: &str| {
+        let done = config.insert_json5(key, value);
+        done.map_err(|error| ZenohError(format!("{key} = {value}: {error}")))
+    };
+    set("mode", &format!("{mode:?}"))?;
+    set("listen/endpoints", &list(&options.listen))?;
+    set("connect/endpoints", &list(&options.connect))?;
+    // Robots start in any order.
+    set("connect/timeout_ms", "-1")?;
+    set("connect/exit_on_failure", "false")?;
+    set("scouting/multicast/enabled", "false")?;
+    set("scouting/gossip/enabled", "true")?;
+    set("transport/link/tx/queue/size/data", "16")?;
+    if let Some(tls) = &options.tls {
+        let path = |path: &PathBuf| format!("{:?}", path.display().to_string());
+        set(
+            "transport/link/tls/root_ca_certificate",
+            &path(&tls.authority),
+        )?;
+        set("transport/link/tls/enable_mtls", "true")?;
+        for side in ["listen", "connect"] {
+            set(
+                &format!("transport/link/tls/{side}_certificate"),
+                &path(&tls.certificate),
+            )?;
+            set(
+                &format!("transport/link/tls/{side}_private_key"),
+                &path(&tls.key),
+            )?;
+        }
+    }
+    Ok(config)
+}

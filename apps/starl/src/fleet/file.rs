@@ -33,6 +33,7 @@ struct Written {
     link: Link,
     #[serde(default)]
     safety: Safety,
+    positions: Option<Positions>,
     #[serde(default)]
     robots: BTreeMap<String, Robot>,
 }
@@ -47,6 +48,56 @@ struct Link {
     protected: Option<bool>,
     /// The port of the first robot that has no address of its own, those of the others follow; default 7400.
     first_port: Option<u16>,
+    /// The network; default UDP.
+    #[serde(default)]
+    kind: LinkKind,
+    /// With Zenoh: a router that all robots are clients of, e.g. `tcp/192.168.0.1:7447`; default none, robots connect to
+    /// each other.
+    router: Option<String>,
+    /// With Zenoh: certificates.
+    tls: Option<Tls>,
+}
+
+/// The network.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LinkKind {
+    /// UDP.
+    #[default]
+    Udp,
+    /// Zenoh.
+    Zenoh,
+}
+
+/// Certificates in PEM, by their paths from the fleet file's folder. `NAME` stands for the robot's name, or `operator`.
+#[cfg_attr(
+    not(feature = "zenoh"),
+    expect(dead_code, reason = "read by Zenoh alone")
+)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tls {
+    /// Of the authority that has signed all others.
+    pub authority: PathBuf,
+    /// Of the robot.
+    pub certificate: PathBuf,
+    /// The key to that.
+    pub key: PathBuf,
+}
+
+/// How robots reach each other, checked.
+#[cfg_attr(
+    not(feature = "zenoh"),
+    expect(dead_code, reason = "read by Zenoh alone")
+)]
+#[derive(Clone, Debug)]
+pub struct Network {
+    /// The network.
+    pub kind: LinkKind,
+    /// The router.
+    pub router: Option<String>,
+    /// Certificates.
+    pub tls: Option<Tls>,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -66,6 +117,8 @@ struct Robot {
     address: Option<SocketAddr>,
     /// What it drives; default a simulated body.
     device: Option<Device>,
+    /// What it is called by whoever tells positions; default its name.
+    body: Option<String>,
 }
 
 /// What a robot drives.
@@ -75,6 +128,47 @@ pub enum Device {
     /// A body of the scenario's model, computed in the robot's own process.
     #[default]
     Simulated,
+    /// An iRobot Create on a serial line.
+    Create {
+        /// The line, e.g. `/dev/ttyUSB0`.
+        port: PathBuf,
+        /// 1 for the Create of 2007, 2 for the Create 2; default 2.
+        generation: Option<u8>,
+        /// Bits per second of the line; default as the robot was sold.
+        baud: Option<u32>,
+    },
+    /// An AR.Drone 2.
+    Ardrone {
+        /// Where it takes commands; default `192.168.1.1:5556`.
+        commands: Option<SocketAddr>,
+        /// Where it gives navdata; default `192.168.1.1:5554`.
+        navdata: Option<SocketAddr>,
+    },
+}
+
+/// Who tells robots where they are. Without it they have their odometry alone, from where the scenario starts them.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Positions {
+    /// OptiTrack's Motive, or whatever speaks NatNet.
+    Natnet {
+        /// Its command port, e.g. `192.168.0.5:1510`.
+        server: SocketAddr,
+        /// Which axis points up, `z` or `y`; default `z`.
+        #[serde(default)]
+        up: Up,
+    },
+}
+
+/// Which axis points up.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Up {
+    /// The third.
+    #[default]
+    Z,
+    /// The second.
+    Y,
 }
 
 /// A fleet, read and checked.
@@ -91,6 +185,10 @@ pub struct Fleet {
     pub safety: starl_node::Safety,
     /// The file with the key; none if packets are not protected.
     pub key: Option<PathBuf>,
+    /// How robots reach each other.
+    pub network: Network,
+    /// Who tells robots where they are.
+    pub positions: Option<Positions>,
 }
 
 /// A robot of a fleet.
@@ -104,6 +202,8 @@ pub struct Member {
     pub address: SocketAddr,
     /// What it drives.
     pub device: Device,
+    /// What it is called by whoever tells positions.
+    pub body: String,
 }
 
 impl Fleet {
@@ -117,8 +217,9 @@ impl Fleet {
             Some(_) => written.scenario.clone(),
             None => folder.join(&written.scenario).display().to_string(),
         };
-        let application =
-            target::read(&arguments(scenario, program, &written.set), registry)?.application;
+        let arguments = arguments(scenario, program, &written.set);
+        let application = target::read(&arguments, registry)?.application;
+        let network = network(path, &written.link)?;
         let stem = path.file_stem().unwrap_or_default().display().to_string();
         let is_protected = written.link.protected.unwrap_or(true);
         if !is_protected && written.link.key.is_some() {
@@ -138,6 +239,8 @@ impl Fleet {
             name: written.name.unwrap_or(stem),
             application,
             key,
+            network,
+            positions: written.positions,
         })
     }
 
@@ -229,14 +332,39 @@ fn members(
             );
             return Err(Failure::file(path, what));
         }
+        let mut device = robot.device.unwrap_or_default();
+        if let Device::Create { port, .. } = &mut device {
+            // As with other files, a path is meant from the fleet file's folder.
+            *port = path.parent().unwrap_or(Path::new("")).join(&port);
+        }
         members.push(Member {
             id: RobotId(index as u32),
+            body: robot.body.unwrap_or_else(|| name.clone()),
             name,
             address,
-            device: robot.device.unwrap_or_default(),
+            device,
         });
     }
     Ok(members)
+}
+
+/// Refuses what the chosen network has no use for.
+fn network(path: &Path, link: &Link) -> Result<Network, Failure> {
+    let other = [
+        ("router", link.router.is_some()),
+        ("tls", link.tls.is_some()),
+    ];
+    if let (LinkKind::Udp, Some((field, _))) = (link.kind, other.iter().find(|(_, given)| *given)) {
+        return Err(Failure::file(
+            path,
+            format!("link.{field}: is for `kind = \"zenoh\"`; this link is UDP"),
+        ));
+    }
+    Ok(Network {
+        kind: link.kind,
+        router: link.router.clone(),
+        tls: link.tls.clone(),
+    })
 }
 
 fn safety(path: &Path, written: &Safety) -> Result<starl_node::Safety, Failure> {

@@ -1,8 +1,9 @@
 //! `starl robot`: runs one robot of a fleet until it is stopped.
 
-use super::file::{Device, Fleet, Member};
+use super::file::{Fleet, Member};
 use super::folder::Folder;
 use super::recorder::FleetRecorder;
+use super::{device, link};
 use crate::args::RobotArguments;
 use crate::failure::Failure;
 use crate::output::reason;
@@ -12,11 +13,9 @@ use starl_catalog::programs::Registry;
 use starl_core::{Pose, Random, RobotId};
 use starl_host::Hardware;
 use starl_host::hardware::Drive;
-use starl_node::link::udp::Udp;
-use starl_node::link::{Channel, Transport};
+use starl_node::link::Channel;
 use starl_node::localise::Accuracy;
 use starl_node::robot::{Connections, Incoming, Robot, Setup, mailbox};
-use starl_node::simulated::SimulatedBody;
 use starl_node::{Storage, WallClock};
 use starl_properties::Setting;
 use starl_sim::Scenario;
@@ -38,21 +37,13 @@ pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Fail
     let storage = storage.transpose()?;
     let (post, inbox) = mailbox();
     let arrivals = post.clone();
-    let deliver = move |arrival| arrivals.send(Incoming::Packet(arrival)).is_ok();
-    let transport = Udp::open(member.address, fleet.places(), deliver).map_err(|error| {
-        let why = reason(&error);
-        Failure(format!(
-            "{}: the address {} cannot be used: {why}",
-            member.name, member.address
-        ))
+    let transport = link::open(&fleet, Some(member), member.id.0, move |arrival| {
+        arrivals.send(Incoming::Packet(arrival)).is_ok()
     })?;
-    let transport: Box<dyn Transport> = Box::new(transport);
-    let body = match member.device {
-        Device::Simulated => SimulatedBody::new(group.model.clone(), start),
-    };
+    let (device, positions) = device::connect(&fleet, member, group, start)?;
     let connections = Connections {
-        device: Box::new(body.device()),
-        positions: Some(Box::new(body.positions(scenario.positioning.period))),
+        device,
+        positions,
         storage,
         transport,
         channel: Channel::new(member.id.0, &fleet.name, keys),

@@ -1,9 +1,12 @@
 //! Real fleets: `starl robot` runs one robot, `starl fleet` all of them, or what has to do with all of them.
 
 mod connect;
+mod device;
+mod emulate;
 mod file;
 mod folder;
 mod key;
+mod link;
 mod member;
 mod merge;
 mod recorder;
@@ -11,13 +14,18 @@ mod status;
 mod stop;
 mod up;
 
-use crate::args::{FleetCommand, RobotArguments};
+use crate::args::{EmulateArguments, FleetCommand, RobotArguments};
 use crate::failure::Failure;
 use starl_catalog::programs::Registry;
 
 /// `starl robot`
 pub fn robot(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Failure> {
     member::run(arguments, registry)
+}
+
+/// `starl emulate`
+pub fn emulate(arguments: &EmulateArguments, registry: &Registry) -> Result<bool, Failure> {
+    emulate::run(arguments, registry)
 }
 
 /// `starl fleet`

@@ -13,6 +13,7 @@ use crate::{console, verify};
 use starl_catalog::programs::Registry;
 use starl_node::Operator;
 use starl_sim::scenario::Goal;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -51,6 +52,10 @@ pub fn up(arguments: &FleetUpArguments, registry: &Registry) -> Result<bool, Fai
         None => scenario.duration,
     };
     let stop = stop_on_interrupt();
+    let _emulator = arguments
+        .emulate
+        .then(|| emulator(&arguments.fleet))
+        .transpose()?;
     let mut robots = Robots::start(arguments, &fleet, &folder)?;
     let mut operator = connect(&fleet)?;
     console::complain(&format!(
@@ -93,6 +98,37 @@ fn print(arguments: &FleetUpArguments, fleet: &Fleet) -> Result<bool, Failure> {
     }
     console::print(&text)?;
     Ok(true)
+}
+
+/// A process that emulates the fleet's devices until this is dropped.
+struct Emulator(Child);
+
+impl Drop for Emulator {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// Starts to emulate devices, and waits until they are there.
+fn emulator(fleet: &Path) -> Result<Emulator, Failure> {
+    let cannot = |error: &std::io::Error| {
+        Failure(format!("the devices cannot be emulated: {}", reason(error)))
+    };
+    let command = std::env::current_exe().map_err(|error| cannot(&error))?;
+    let mut command = Command::new(command);
+    command.args(["emulate", "fleet"]).arg(fleet);
+    command.stdin(Stdio::null()).stdout(Stdio::piped());
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(&mut command, 0);
+    let mut emulator = Emulator(command.spawn().map_err(|error| cannot(&error))?);
+    let output = emulator.0.stdout.take().into_iter();
+    let mut lines = output.flat_map(|output| BufReader::new(output).lines());
+    // It has said why, if it ends before.
+    match lines.any(|line| line.is_ok_and(|line| line == "ready")) {
+        true => Ok(emulator),
+        false => Err(Failure("the devices cannot be emulated".to_string())),
+    }
 }
 
 /// The processes of a fleet.

@@ -1,0 +1,91 @@
+//! Connects a robot's process to its hardware, and to whoever tells where it is.
+
+use super::file::{Device, Fleet, Member, Positions, Up};
+use crate::failure::Failure;
+use starl_ardrone::{Ardrone, ArdroneOptions};
+use starl_core::Pose;
+use starl_create::{Create, CreateOptions, Generation};
+use starl_natnet::{NatNet, NatNetOptions, UpAxis};
+use starl_node::DeviceError;
+use starl_node::motors::PositionSource;
+use starl_node::simulated::SimulatedBody;
+use starl_sim::scenario::Group;
+use std::net::{IpAddr, Ipv4Addr};
+use std::time::Instant;
+
+/// Where an AR.Drone is that makes its own network.
+const DRONE: IpAddr = IpAddr::V4(Ipv4Addr::new(192, 168, 1, 1));
+
+type Hardware = (Box<dyn starl_node::Device>, Option<Box<dyn PositionSource>>);
+
+/// Connects to the robot's device and to its positions.
+pub fn connect(
+    fleet: &Fleet,
+    member: &Member,
+    group: &Group,
+    start: Pose,
+) -> Result<Hardware, Failure> {
+    let cannot = |error: DeviceError| Failure(format!("{}: its device: {error}", member.name));
+    let device: Box<dyn starl_node::Device> = match &member.device {
+        Device::Simulated => {
+            let body = SimulatedBody::new(group.model.clone(), start);
+            let period = fleet.application.scenario().positioning.period;
+            return Ok((
+                Box::new(body.device()),
+                Some(Box::new(body.positions(period))),
+            ));
+        }
+        Device::Create { port, baud, .. } => {
+            let mut options = CreateOptions::new(generation(&member.device));
+            options.baud = baud.unwrap_or(options.baud);
+            let create = Create::open(port, &options);
+            Box::new(create.map_err(|error| {
+                Failure(format!("{}: {}: {error}", member.name, port.display()))
+            })?)
+        }
+        Device::Ardrone { commands, navdata } => {
+            let mut options = ArdroneOptions::new(DRONE);
+            options.commands = commands.unwrap_or(options.commands);
+            options.navdata = navdata.unwrap_or(options.navdata);
+            Box::new(Ardrone::connect(&options).map_err(cannot)?)
+        }
+    };
+    let positions = match &fleet.positions {
+        None => None,
+        Some(Positions::Natnet { server, up }) => {
+            let mut options = NatNetOptions::new(server.ip(), &member.body);
+            options.server = *server;
+            options.up = match up {
+                Up::Z => UpAxis::Z,
+                Up::Y => UpAxis::Y,
+            };
+            let client = NatNet::connect(options);
+            let client =
+                client.map_err(|error| Failure(format!("{}: positions: {error}", member.name)))?;
+            let source: Box<dyn PositionSource> = Box::new(Cameras(client));
+            Some(source)
+        }
+    };
+    Ok((device, positions))
+}
+
+/// Which Create a device is.
+pub fn generation(device: &Device) -> Generation {
+    match device {
+        Device::Create {
+            generation: Some(1),
+            ..
+        } => Generation::Create1,
+        _ => Generation::Create2,
+    }
+}
+
+/// Motion capture as a source of positions.
+struct Cameras(NatNet);
+
+impl PositionSource for Cameras {
+    fn poll(&mut self) -> Result<Option<(Instant, Pose)>, DeviceError> {
+        let polled = self.0.poll();
+        polled.map_err(|error| DeviceError::Fault(format!("positions: {error}")))
+    }
+}

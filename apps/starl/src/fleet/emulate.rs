@@ -1,0 +1,175 @@
+//! `starl emulate`: stands in for hardware. Emulated robots are the simulator's models in one world, behind the wire
+//! protocols of the devices.
+
+use super::device::generation;
+use super::file::{Device, Fleet, Member, Positions};
+use crate::args::{EmulateArguments, EmulateFleet};
+use crate::console;
+use crate::failure::Failure;
+use crate::output::reason;
+use crate::run::stop_on_interrupt;
+use starl_catalog::programs::Registry;
+use starl_core::{Pose, RobotId};
+use starl_create::Generation;
+use starl_emulate::ardrone::EmulatedArdrone;
+use starl_emulate::create::{EmulatedCreate, model};
+use starl_emulate::natnet::{Cameras, EmulatedNatNet};
+use starl_emulate::{BodyHandle, Noise, World};
+use starl_motion::models;
+use std::net::SocketAddr;
+use std::path::Path;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+/// Emulates devices until someone presses Ctrl-C.
+pub fn run(arguments: &EmulateArguments, registry: &Registry) -> Result<bool, Failure> {
+    let stop = stop_on_interrupt();
+    let devices = match arguments {
+        EmulateArguments::Fleet(arguments) => fleet(arguments, registry)?,
+        EmulateArguments::Create { link, generation } => {
+            let generation = if *generation == 1 {
+                Generation::Create1
+            } else {
+                Generation::Create2
+            };
+            let world = World::new(Vec::new(), Noise::NONE);
+            let body = add(&world, "create", Pose::default(), model(generation))?;
+            vec![create(body, link.as_deref())?]
+        }
+        EmulateArguments::Drone { commands, navdata } => {
+            let world = World::new(Vec::new(), Noise::NONE);
+            let drone = models::by_name("drone")
+                .ok_or_else(|| Failure("there is no model drone".to_string()))?;
+            let body = add(&world, "drone", Pose::default(), drone)?;
+            vec![ardrone(body, *commands, *navdata)?]
+        }
+    };
+    for device in &devices {
+        console::print(&format!("{}\n", device.text))?;
+    }
+    console::print("ready\n")?;
+    while !stop.load(Ordering::Relaxed) {
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    Ok(true)
+}
+
+/// Something that is emulated as long as this is there.
+struct Emulated {
+    /// Where it is.
+    text: String,
+    _device: Box<dyn std::any::Any>,
+}
+
+/// All devices that a fleet file names, in the world of its scenario.
+fn fleet(arguments: &EmulateFleet, registry: &Registry) -> Result<Vec<Emulated>, Failure> {
+    let fleet = Fleet::read(&arguments.fleet, None, registry)?;
+    let scenario = fleet.application.scenario();
+    let obstacles = scenario.world.obstacles.iter();
+    let noise = Noise {
+        speed: scenario.motion.speed_noise,
+        turn: scenario.motion.turn_noise,
+        seed: scenario.seed,
+    };
+    let world = World::new(
+        obstacles.map(|entry| entry.obstacle.clone()).collect(),
+        noise,
+    );
+    let mut emulated = Vec::new();
+    for member in &fleet.robots {
+        emulated.extend(member_device(&world, &fleet, member)?);
+    }
+    if let Some(Positions::Natnet { server, .. }) = &fleet.positions {
+        let cameras = Cameras {
+            deviation: scenario.positioning.position_noise,
+            seed: scenario.seed,
+            ..Cameras::default()
+        };
+        let device = EmulatedNatNet::start(world.clone(), *server, cameras)
+            .map_err(|error| Failure(format!("positions.server {server}: {}", reason(&error))))?;
+        emulated.push(Emulated {
+            text: format!("motion capture at {}", device.address()),
+            _device: Box::new(device),
+        });
+    }
+    match emulated.is_empty() {
+        true => Err(Failure::file(
+            &fleet.path,
+            "names no device that could be emulated: all robots are simulated",
+        )),
+        false => Ok(emulated),
+    }
+}
+
+fn member_device(
+    world: &World,
+    fleet: &Fleet,
+    member: &Member,
+) -> Result<Option<Emulated>, Failure> {
+    let robot = |id: RobotId| {
+        let (group, index) = fleet.application.scenario().fleet.group_of(id)?;
+        Some((group.model.clone(), group.starts[index]))
+    };
+    let Some((own, start)) = robot(member.id) else {
+        return Ok(None);
+    };
+    let named = |error: Failure| Failure(format!("{}: {}", member.name, error.0));
+    let device = match &member.device {
+        Device::Simulated => return Ok(None),
+        Device::Create { port, .. } => {
+            let body = add(
+                world,
+                &member.body,
+                start,
+                model(generation(&member.device)),
+            )?;
+            create(body, Some(port)).map_err(named)?
+        }
+        Device::Ardrone { commands, navdata } => {
+            let (Some(commands), Some(navdata)) = (commands, navdata) else {
+                let what = "a drone to be emulated needs `commands` and `navdata` addresses of this machine";
+                return Err(Failure(format!("{}: {what}", member.name)));
+            };
+            let body = add(world, &member.body, start, own)?;
+            ardrone(body, *commands, *navdata).map_err(named)?
+        }
+    };
+    Ok(Some(Emulated {
+        text: format!("{}: {}", member.name, device.text),
+        ..device
+    }))
+}
+
+fn add(
+    world: &World,
+    name: &str,
+    start: Pose,
+    model: std::sync::Arc<dyn starl_motion::Model>,
+) -> Result<BodyHandle, Failure> {
+    world
+        .add(name, model, start)
+        .map_err(|error| Failure(format!("{name}: {error}")))
+}
+
+fn create(body: BodyHandle, link: Option<&Path>) -> Result<Emulated, Failure> {
+    let device = EmulatedCreate::start(body, link)
+        .map_err(|error| Failure(format!("no serial line can be made: {}", reason(&error))))?;
+    Ok(Emulated {
+        text: format!("a Create at {}", device.path().display()),
+        _device: Box::new(device),
+    })
+}
+
+fn ardrone(
+    body: BodyHandle,
+    commands: SocketAddr,
+    navdata: SocketAddr,
+) -> Result<Emulated, Failure> {
+    let device = EmulatedArdrone::start(body, commands, navdata)
+        .map_err(|error| Failure(format!("{commands}, {navdata}: {}", reason(&error))))?;
+    let navdata = device.navdata().map_err(|error| Failure(reason(&error)))?;
+    Ok(Emulated {
+        text: format!("an AR.Drone at {}, navdata at {navdata}", device.commands()),
+        _device: Box::new(device),
+    })
+}
