@@ -24,8 +24,9 @@ def plain(text):
 
 
 def markdown(lines, first, kind):
-    """The blocks of Markdown lines, of which the first has the number `first`."""
-    fenced, begin, block = False, first, []
+    """The blocks of Markdown lines, of which the first has the number `first`. Tables after an HTML comment are
+    generated, so their source is checked instead."""
+    fenced, generated, begin, block = False, False, first, []
 
     def close():
         if block:
@@ -40,9 +41,15 @@ def markdown(lines, first, kind):
             fenced = fenced != fence
         elif heading := re.match(r"#+ +(.*)", line):
             yield from close()
+            generated = False
             yield Block("heading", number, plain(heading[1]))
+        elif line.startswith("<!--"):
+            yield from close()
+            generated = True
         elif line.lstrip().startswith("|"):
             yield from close()
+            if generated:
+                continue
             for cell in re.split(r"(?<!\\)\|", INLINE_CODE.sub("`x`", line.strip().strip("|"))):
                 if re.search(r"\w", cell):
                     yield Block(kind, number, plain(cell.strip()))
