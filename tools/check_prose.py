@@ -40,7 +40,7 @@ class Rule:
 def sentences(block):
     """The sentences of a block, with their lines."""
     begin = 0
-    for end in re.finditer(r"(?<![ (]e\.g)(?<![ (]i\.e)(?<!\bvs)(?<!\bpp)(?<! [A-Z])[.!?][\")\]’”]*(?=\s+[^a-z\s]|\s*$)", block.text):
+    for end in re.finditer(r"(?<![ (]e\.g)(?<![ (]i\.e)(?<!\bvs)(?<!\bpp)(?<! [A-Z])[.!?][\")\]*’”]*(?=\s+[^a-z\s]|\s*$)", block.text):
         yield block.line + block.text.count("\n", 0, begin), block.text[begin : end.end()].strip()
         begin = end.end() + 1
     if block.text[begin:].strip():
