@@ -53,7 +53,7 @@ def sentence_problems(block, longest):
         return
     for line, sentence in sentences(block):
         words = sentence.split()
-        if len(words) > longest:
+        if max(len(part.split()) for part in sentence.split(";")) > longest:
             yield line, f'a sentence of {len(words)} words, more than {longest}: "{" ".join(words[:6])} ..."'
         if re.match(r"(What|Who|Whom|Whoever|Whose)\b", sentence) and "?" not in sentence:
             yield line, f'begins with "{words[0]}" and is no question: "{" ".join(words[:6])} ..."'
