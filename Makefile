@@ -120,6 +120,7 @@ mutants:
 
 docs:
 	python3 tools/check_docs.py
+	python3 tools/check_prose.py
 	python3 tools/mutants.py --check
 	RUSTDOCFLAGS="--deny warnings" cargo doc --locked --workspace --no-deps
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what `make test` needs beyond a Rust toolchain, make and git: compilation targets, Python's
-# test tools in a folder of their own, and Node.js to run WebAssembly. Does nothing that is done.
+# Installs what `make test` needs beyond a Rust toolchain, make and git: compilation targets, Python's test tools in a
+# folder of their own, and Node.js to run WebAssembly. It skips what is installed, and prints what it installs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -16,6 +16,7 @@ need() { # need COMMAND PACKAGE...: the command, from Debian's packages if it is
     fi
     local sudo=""
     [ "$(id -u)" = 0 ] || sudo=sudo
+    echo "setup: '$command' is missing; installing Debian packages with ${sudo:+sudo }apt-get: $*"
     $sudo apt-get update -q
     $sudo apt-get install -qy "$@"
 }
@@ -30,13 +31,14 @@ rustup component add rustfmt clippy
 venv=target/venv
 if ! cmp -s tools/requirements.txt "$venv/requirements.txt"; then
     python3 -c 'import ensurepip' 2>/dev/null || need python3-venv-is-missing python3-venv
+    echo "setup: installing Python packages of tools/requirements.txt into $venv"
     rm -rf "$venv"
     python3 -m venv "$venv"
     "$venv/bin/pip" install --quiet --disable-pip-version-check -r tools/requirements.txt
     cp tools/requirements.txt "$venv/requirements.txt"
 fi
 
-# The page: what it is built from, and the browser that tests it.
+# The page: its build tools, and the browser that tests it.
 need npm npm
 need chromium chromium
 need wasm-opt binaryen
@@ -45,6 +47,7 @@ if ! node -e 'const [a, b] = process.versions.node.split("."); process.exit(a > 
     exit 1
 fi
 if ! cmp -s playground/package-lock.json playground/node_modules/package-lock.json; then
+    echo "setup: installing npm packages of playground/package-lock.json into playground/node_modules"
     (cd playground && npm ci --no-audit --no-fund)
     cp playground/package-lock.json playground/node_modules/package-lock.json
 fi

@@ -1,4 +1,4 @@
-//! Robots patrol the way-points: each begins at the way-point of its own number.
+//! Robots patrol the waypoints. Each robot begins at the waypoint with its own number.
 
 use starl_core::{Primitives, Program, Robot};
 use starl_primitives::ReachAvoid;
@@ -36,6 +36,6 @@ fn patrol(parameters: &mut starl::Parameters<'_>) -> Patrol {
 
 fn main() -> ExitCode {
     starl::command()
-        .program("patrol", "go from way-point to way-point", patrol)
+        .program("patrol", "drive from waypoint to waypoint", patrol)
         .run()
 }
