@@ -28,7 +28,7 @@ check:
 	$(VENV)/typos
 
 unit:
-	cargo test --locked --workspace
+	cargo test --locked --workspace --features starl/zenoh
 
 # What programs are made of also builds where there is no operating system.
 portable:
@@ -150,6 +150,6 @@ bench: $(RELEASE) wasm-module
 # example of starl-trace too.
 .PHONY: $(STARL) $(RELEASE)
 $(STARL):
-	cargo build --locked --profile test --workspace --bins --examples
+	cargo build --locked --profile test --workspace --features starl/zenoh --bins --examples
 $(RELEASE):
 	cargo build --locked --release

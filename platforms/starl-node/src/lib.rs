@@ -23,3 +23,8 @@ pub use operator::Operator;
 pub use robot::Robot;
 pub use safety::Safety;
 pub use storage::Storage;
+
+/// The page that shows how to write a [`Device`]; its code is compiled with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/how-to/port-to-a-new-robot.md")]
+pub struct PortToANewRobot;

@@ -103,7 +103,7 @@ pub struct Network {
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Safety {
-    /// Motors stop after this without a position; default 1 s.
+    /// Motors stop after this without a position; default 1 s, or three periods of positioning if that is longer.
     position_timeout: Option<String>,
     /// Motors stop after this without hearing another robot; default never.
     link_timeout: Option<String>,
@@ -234,7 +234,11 @@ impl Fleet {
         });
         Ok(Fleet {
             robots: members(path, &written, &application)?,
-            safety: safety(path, &written.safety)?,
+            safety: safety(
+                path,
+                &written.safety,
+                application.scenario().positioning.period,
+            )?,
             path: path.to_path_buf(),
             name: written.name.unwrap_or(stem),
             application,
@@ -367,7 +371,7 @@ fn network(path: &Path, link: &Link) -> Result<Network, Failure> {
     })
 }
 
-fn safety(path: &Path, written: &Safety) -> Result<starl_node::Safety, Failure> {
+fn safety(path: &Path, written: &Safety, period: Duration) -> Result<starl_node::Safety, Failure> {
     let span = |field: &str, text: &Option<String>| -> Result<Option<Duration>, Failure> {
         let Some(text) = text else { return Ok(None) };
         let span = starl_sim::read::duration(text).filter(|span| !span.is_zero());
@@ -375,10 +379,12 @@ fn safety(path: &Path, written: &Safety) -> Result<starl_node::Safety, Failure> 
             || format!("safety.{field} = \"{text}\": give a time, such as \"1s\" or \"500ms\"");
         span.map(Some).ok_or_else(|| Failure::file(path, what()))
     };
-    let usual = starl_node::Safety::default();
+    // Positions that come seldom are not missed at once.
+    let usual = starl_node::Safety::default()
+        .localisation
+        .max(Duration(period.0.saturating_mul(3)));
     Ok(starl_node::Safety {
-        localisation: span("position_timeout", &written.position_timeout)?
-            .unwrap_or(usual.localisation),
+        localisation: span("position_timeout", &written.position_timeout)?.unwrap_or(usual),
         link: span("link_timeout", &written.link_timeout)?,
     })
 }

@@ -8,6 +8,8 @@ mod exit_status;
 mod explain_program;
 mod explore_programs;
 mod first_program;
+#[cfg(feature = "fleet")]
+mod fleet;
 mod format_programs;
 mod interrupted_run;
 mod json_report;

@@ -1,0 +1,317 @@
+//! Robots in processes of their own, in real time: what a user of `starl robot` and `starl fleet` sees.
+
+#![cfg(unix)]
+
+use crate::support::*;
+use serde_json::Value;
+use std::net::UdpSocket;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// Real time is slow: a test that waits for longer has failed.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Two robots that run a race of about five seconds.
+const RACE: &str = r#"
+program = "race"
+duration = "60s"
+
+[world]
+way_point = [
+    { name = "A", position = [2, 0] },
+    { name = "B", position = [2, 2] },
+]
+
+[[robots]]
+model = "holonomic"
+name = "robot"
+count = 2
+start = [{ position = [0, 0] }, { position = [0, 1] }]
+"#;
+
+/// The first of `count` successive ports that are free.
+fn ports(count: u16) -> u16 {
+    let free = |port: u16| UdpSocket::bind(("127.0.0.1", port)).is_ok();
+    let socket = UdpSocket::bind("127.0.0.1:0").expect("there is a free port");
+    let start = socket.local_addr().expect("it is bound").port();
+    drop(socket);
+    (start..u16::MAX - count)
+        .chain(20_000..start)
+        .step_by(usize::from(count))
+        .find(|&first| (first..first + count).all(free))
+        .expect("some ports are free")
+}
+
+/// A folder with a fleet of two robots.
+fn fleet(test: &str) -> std::path::PathBuf {
+    let folder = folder(test);
+    file(&folder, "race.toml", RACE);
+    let text = format!(
+        "scenario = \"race.toml\"\n[link]\nfirst_port = {}\n",
+        ports(2)
+    );
+    file(&folder, "fleet.toml", &text);
+    folder
+}
+
+/// A fleet that runs until this is dropped.
+struct Up(Child);
+
+impl Up {
+    fn start(folder: &Path, arguments: &[&str]) -> Up {
+        let mut all = vec!["fleet", "up", "fleet.toml"];
+        all.extend_from_slice(arguments);
+        let mut command = command(folder, &all);
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        Up(command.spawn().expect("the command was built"))
+    }
+
+    /// What it printed, once it has ended.
+    fn end(mut self) -> std::process::Output {
+        let begun = Instant::now();
+        while self.0.try_wait().expect("it can be asked").is_none() {
+            assert!(begun.elapsed() < PATIENCE, "the fleet does not end");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        let taken = std::mem::replace(&mut self.0, idle());
+        taken.wait_with_output().expect("it has ended")
+    }
+}
+
+/// A process that is there to be replaced.
+fn idle() -> Child {
+    Command::new("true")
+        .spawn()
+        .expect("there is such a command")
+}
+
+impl Drop for Up {
+    fn drop(&mut self) {
+        // In good order, so that it ends its robots.
+        let id = self.0.id().to_string();
+        if self.0.try_wait().is_ok_and(|ended| ended.is_none()) {
+            let _ = Command::new("kill").args(["-INT", &id]).status();
+        }
+        let _ = self.0.wait();
+    }
+}
+
+fn status_of(folder: &Path) -> Vec<Value> {
+    let output = starl(folder, &["fleet", "status", "fleet.toml", "--json"]);
+    json(&output).as_array().expect("it is a list").clone()
+}
+
+/// Asks until the fleet is as it is to be.
+fn wait_until(folder: &Path, is_so: impl Fn(&[Value]) -> bool) -> Vec<Value> {
+    let begun = Instant::now();
+    loop {
+        let status = status_of(folder);
+        if is_so(&status) {
+            return status;
+        }
+        assert!(begun.elapsed() < PATIENCE, "{status:?}");
+    }
+}
+
+fn hear_each_other(status: &[Value]) -> bool {
+    let hears = |robot: &Value| {
+        robot["links"][0]["heard_ago"]
+            .as_f64()
+            .is_some_and(|ago| ago < 0.5)
+    };
+    status.len() == 2 && status.iter().all(hears)
+}
+
+/// Ends a robot's process as a power cut does.
+fn kill(folder: &Path, robot: &str) {
+    let path = folder.join("fleet.runs").display().to_string();
+    let listed = Command::new("ps")
+        .args(["-eo", "pid,args"])
+        .output()
+        .expect("there is such a command");
+    let listed = String::from_utf8_lossy(&listed.stdout).into_owned();
+    let own = |line: &&str| line.contains(&format!("--id {robot} ")) && !line.contains("ps -eo");
+    // Other tests run fleets too, whose robots are called the same: this one's run in this folder.
+    let ids = listed
+        .lines()
+        .filter(own)
+        .filter_map(|line| line.split_whitespace().next());
+    let here = |id: &&str| {
+        let place = std::fs::read_link(format!("/proc/{id}/cwd"));
+        place.is_ok_and(|place| Path::new(&path).starts_with(place))
+    };
+    let id = ids
+        .into_iter()
+        .find(here)
+        .unwrap_or_else(|| panic!("{robot} does not run:\n{listed}"));
+    assert!(
+        Command::new("kill")
+            .args(["-9", id])
+            .status()
+            .expect("there is such a command")
+            .success()
+    );
+}
+
+#[test]
+fn a_fleet_finishes_although_a_robot_is_killed() {
+    let folder = fleet("fleet_race");
+    let up = Up::start(&folder, &[]);
+    wait_until(&folder, hear_each_other);
+    kill(&folder, "robot1");
+    let output = up.end();
+    let (text, messages) = (stdout(&output), stderr(&output));
+    assert_eq!(status(&output), 0, "{text}{messages}");
+    assert!(
+        messages.contains("robot1 has died (signal 9), and is started again"),
+        "{messages}"
+    );
+    assert!(text.contains("broadcast.integrity   holds"), "{text}");
+    let run = folder.join("fleet.runs/0001");
+    assert_eq!(
+        names(&run),
+        [
+            "epoch",
+            "merged.mcap",
+            "robot0.1.mcap",
+            "robot1.1.mcap",
+            "robot1.2.mcap"
+        ]
+    );
+    // What each life of a robot did is repeated at a desk.
+    for (trace, robot) in [("robot0.1.mcap", "robot0"), ("robot1.2.mcap", "robot1")] {
+        let output = starl(&run, &["replay", trace, "--robot", robot]);
+        assert_eq!(status(&output), 0, "{}", stderr(&output));
+        assert!(stdout(&output).contains("identical"), "{}", stdout(&output));
+    }
+    let output = starl(&run, &["replay", "robot1.1.mcap", "--robot", "robot1"]);
+    assert!(
+        stdout(&output).contains("same as far as it goes") || status(&output) == 0,
+        "{}",
+        stdout(&output)
+    );
+    // One robot's records say nothing of the others.
+    let output = starl(&run, &["verify", "robot0.1.mcap"]);
+    assert_eq!(status(&output), 2);
+    assert!(
+        stderr(&output).contains("holds the records of robot0 alone"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[test]
+fn an_operator_sees_and_stops_a_fleet_and_a_stranger_does_not() {
+    let folder = fleet("fleet_operator");
+    let up = Up::start(&folder, &["--keep"]);
+    let robots = wait_until(&folder, hear_each_other);
+    assert_eq!(robots[0]["name"], "robot0");
+    assert!(robots[0]["position"][0].as_f64().is_some(), "{robots:?}");
+    assert!(
+        robots[0]["links"][0]["clock_offset"]
+            .as_f64()
+            .is_some_and(|s| s.abs() < 0.05)
+    );
+
+    // The same fleet file with another key.
+    let strange = folder.join("stranger");
+    std::fs::create_dir(&strange).expect("it can be made");
+    for name in ["race.toml", "fleet.toml"] {
+        std::fs::copy(folder.join(name), strange.join(name)).expect("it can be copied");
+    }
+    assert_eq!(status(&starl(&strange, &["fleet", "key", "fleet.toml"])), 0);
+    let output = starl(&strange, &["fleet", "stop", "fleet.toml"]);
+    assert_eq!(status(&output), 1, "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("no answer from robot0, robot1"),
+        "{}",
+        stderr(&output)
+    );
+    let robots = wait_until(&folder, |robots| {
+        robots[0]["refused_packets"].as_u64() > Some(0)
+    });
+    assert!(
+        robots.iter().all(|robot| robot["condition"] != "missing"),
+        "{robots:?}"
+    );
+
+    let output = starl(&folder, &["fleet", "stop", "fleet.toml"]);
+    assert_eq!(status(&output), 0, "{}", stderr(&output));
+    assert_eq!(stdout(&output), "stopped 2 robots\n");
+    drop(up);
+    assert!(
+        status_of(&folder)
+            .iter()
+            .all(|robot| robot["condition"] == "missing")
+    );
+}
+
+#[test]
+fn what_is_wrong_with_a_fleet_file_is_said_in_one_message() {
+    let folder = folder("fleet_bad");
+    file(&folder, "race.toml", RACE);
+    let cases = [
+        (
+            "scenario = \"race.toml\"\nspeed = 3\n",
+            "fleet.toml:2: unknown field `speed`",
+        ),
+        ("scenario = \"nothing.toml\"\n", "nothing.toml"),
+        (
+            "scenario = \"race.toml\"\n[robots.robot7]\n",
+            "robots.robot7: the scenario has no robot of this name",
+        ),
+        (
+            "scenario = \"race.toml\"\n[robots.robot0]\naddress = \"here\"\n",
+            "fleet.toml:3: invalid socket address",
+        ),
+        (
+            "scenario = \"race.toml\"\n[robots.robot0]\naddress = \"127.0.0.1:7000\"\n[robots.robot1]\naddress = \"127.0.0.1:7000\"\n",
+            "robots.robot1: has the address 127.0.0.1:7000, as robot0 has",
+        ),
+        (
+            "scenario = \"race.toml\"\n[safety]\nlink_timeout = \"fast\"\n",
+            "safety.link_timeout = \"fast\": give a time",
+        ),
+        (
+            "scenario = \"race.toml\"\n[link]\nrouter = \"tcp/here:1\"\n",
+            "link.router: is for `kind = \"zenoh\"`",
+        ),
+        (
+            "scenario = \"race.toml\"\n[robots.robot0]\ndevice = { kind = \"toaster\" }\n",
+            "fleet.toml:3: unknown variant `toaster`",
+        ),
+    ];
+    for (text, message) in cases {
+        file(&folder, "fleet.toml", text);
+        for arguments in [
+            ["fleet", "status", "fleet.toml"],
+            ["fleet", "up", "fleet.toml"],
+        ] {
+            let output = starl(&folder, &arguments);
+            assert_eq!(status(&output), 2, "{text}");
+            assert!(stderr(&output).contains(message), "{}", stderr(&output));
+        }
+    }
+    file(&folder, "fleet.toml", "scenario = \"race.toml\"\n");
+    let output = starl(
+        &folder,
+        &["robot", "--id", "robot0", "--fleet", "fleet.toml"],
+    );
+    assert_eq!(status(&output), 2);
+    assert!(
+        stderr(&output).contains("`starl fleet key fleet.toml` makes a key"),
+        "{}",
+        stderr(&output)
+    );
+    let output = starl(
+        &folder,
+        &["robot", "--id", "nobody", "--fleet", "fleet.toml"],
+    );
+    assert_eq!(status(&output), 2);
+    assert!(
+        stderr(&output).contains("the robots are robot0, robot1"),
+        "{}",
+        stderr(&output)
+    );
+}
