@@ -126,6 +126,11 @@ impl TraceOutput {
         Ok(())
     }
 
+    /// How many bytes the file has, without what is still in memory.
+    pub fn size(&self) -> u64 {
+        self.ending.start + self.ending.saved as u64
+    }
+
     /// Completes the file.
     pub fn finish(self, outcome: &Outcome) -> Result<(), Failure> {
         let unfinished = self.writer.unfinished().to_vec();

@@ -90,7 +90,10 @@ fn bare() -> Vec<Span> {
         let _ = sender.send_to(&[7; 80], place);
     }
     let received = reader.join().expect("it does not panic");
-    sent.into_iter().zip(received).map(|(sent, received)| received - sent).collect()
+    sent.into_iter()
+        .zip(received)
+        .map(|(sent, received)| received - sent)
+        .collect()
 }
 
 /// The other member of the fleet: a channel and a socket.
@@ -128,8 +131,9 @@ impl Peer {
 fn robot(keys: Vec<[u8; 32]>) -> Vec<Span> {
     let clock = WallClock::since(WallClock::system());
     let free = || UdpSocket::bind("127.0.0.1:0").and_then(|socket| socket.local_addr());
-    let places: BTreeMap<u32, SocketAddr> =
-        (0..2).map(|member| (member, free().expect("a port is free"))).collect();
+    let places: BTreeMap<u32, SocketAddr> = (0..2)
+        .map(|member| (member, free().expect("a port is free")))
+        .collect();
     let (post, inbox) = mailbox();
     let (arrivals, halt) = (post.clone(), post.clone());
     let deliver = move |arrival| arrivals.send(Incoming::Packet(arrival)).is_ok();

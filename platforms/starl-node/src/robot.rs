@@ -35,6 +35,9 @@ const BEACON_PERIOD: Duration = Duration::from_millis(100);
 /// How often the robot's true pose is recorded.
 const POSE_PERIOD: Duration = Duration::from_millis(100);
 
+/// A robot that was stopped answers for so long, since its confirmation may be lost.
+const FAREWELL: Duration = Duration::from_millis(1000);
+
 /// The longest that the loop waits.
 const LONGEST_WAIT: Duration = Duration::from_millis(20);
 
@@ -154,6 +157,8 @@ pub struct Robot<R: Recorder> {
     beacons: u32,
     link_heard: Time,
     failure: Option<String>,
+    /// Until when the robot, stopped by an operator, still answers.
+    leaving: Option<Time>,
     is_over: bool,
 }
 
@@ -234,6 +239,7 @@ impl<R: Recorder> Robot<R> {
             beacons: 0,
             link_heard: now,
             failure: None,
+            leaving: None,
             is_over: false,
             setup,
         })
@@ -272,7 +278,7 @@ impl<R: Recorder> Robot<R> {
     }
 
     fn next_due(&self) -> Time {
-        let node = match self.is_located() {
+        let node = match self.is_located() && self.leaving.is_none() {
             true => self.node.next_timeout(),
             false => Time::NEVER,
         };
@@ -287,6 +293,11 @@ impl<R: Recorder> Robot<R> {
     /// Does all that is due.
     fn turn(&mut self) {
         self.tick();
+        if let Some(end) = self.leaving {
+            self.motors.stop();
+            self.is_over = self.now >= end;
+            return;
+        }
         for datagram in std::mem::take(&mut self.to_self) {
             let (sequence, message) = (datagram.sequence, datagram.message);
             self.handle(Happening::Datagram { sequence, message });
@@ -424,6 +435,15 @@ impl<R: Recorder> Robot<R> {
             self.link_heard = self.now;
         }
         match frame {
+            Frame::Halt if from >= OPERATORS => {
+                self.motors.stop();
+                self.send(from, &Frame::Halted);
+                if self.leaving.is_none() {
+                    self.recorder.notice(self.now, "stopped by an operator");
+                    self.leaving = Some(self.now + FAREWELL);
+                }
+            }
+            _ if self.leaving.is_some() => {}
             Frame::Datagram {
                 sequence,
                 port,
@@ -440,12 +460,6 @@ impl<R: Recorder> Robot<R> {
             Frame::Ask if from >= OPERATORS => {
                 let status = Frame::Status(Box::new(self.status()));
                 self.send(from, &status);
-            }
-            Frame::Halt if from >= OPERATORS => {
-                self.motors.stop();
-                self.send(from, &Frame::Halted);
-                self.recorder.notice(self.now, "stopped by an operator");
-                self.is_over = true;
             }
             Frame::Order(order) if from >= OPERATORS => {
                 self.handle(Happening::Input(starl_core::Input::Order(order)));

@@ -9,7 +9,7 @@ use starl_catalog::Application;
 use starl_catalog::examples;
 use starl_catalog::programs::Registry;
 use starl_core::{Duration, RobotId};
-use starl_node::link::Key;
+use starl_node::link::{Impairment, Key};
 use starl_sim::read::suggest;
 use std::collections::BTreeMap;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
@@ -34,6 +34,8 @@ struct Written {
     #[serde(default)]
     safety: Safety,
     positions: Option<Positions>,
+    /// A robot's trace ends at this many MiB; default 1024.
+    trace_limit_mib: Option<u32>,
     #[serde(default)]
     robots: BTreeMap<String, Robot>,
 }
@@ -56,6 +58,24 @@ struct Link {
     router: Option<String>,
     /// With Zenoh: certificates.
     tls: Option<Tls>,
+    /// Makes the network worse than it is, for a rehearsal.
+    rehearse: Option<Rehearsal>,
+}
+
+/// What is done to packets that robots send.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Rehearsal {
+    /// The part of packets that is lost, 0 to 1.
+    #[serde(default)]
+    loss: f64,
+    /// The part of packets that arrives twice, 0 to 1.
+    #[serde(default)]
+    duplication: f64,
+    /// How long a packet takes, at least.
+    delay: Option<String>,
+    /// How much longer it may take.
+    jitter: Option<String>,
 }
 
 /// The network.
@@ -98,6 +118,8 @@ pub struct Network {
     pub router: Option<String>,
     /// Certificates.
     pub tls: Option<Tls>,
+    /// What makes the network worse than it is.
+    pub impairment: Option<Impairment>,
 }
 
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -189,6 +211,8 @@ pub struct Fleet {
     pub network: Network,
     /// Who tells robots where they are.
     pub positions: Option<Positions>,
+    /// A robot's trace ends when it has so many bytes.
+    pub trace_limit: u64,
 }
 
 /// A robot of a fleet.
@@ -245,6 +269,7 @@ impl Fleet {
             key,
             network,
             positions: written.positions,
+            trace_limit: u64::from(written.trace_limit_mib.unwrap_or(1024)) << 20,
         })
     }
 
@@ -368,6 +393,35 @@ fn network(path: &Path, link: &Link) -> Result<Network, Failure> {
         kind: link.kind,
         router: link.router.clone(),
         tls: link.tls.clone(),
+        impairment: link
+            .rehearse
+            .as_ref()
+            .map(|rehearsal| impairment(path, rehearsal))
+            .transpose()?,
+    })
+}
+
+fn impairment(path: &Path, rehearsal: &Rehearsal) -> Result<Impairment, Failure> {
+    let parts = [
+        ("loss", rehearsal.loss),
+        ("duplication", rehearsal.duplication),
+    ];
+    for (field, part) in parts {
+        if !(0.0..=1.0).contains(&part) {
+            let what = format!("link.rehearse.{field} = {part}: give a number from 0 to 1");
+            return Err(Failure::file(path, what));
+        }
+    }
+    let span = |field: &str, text: &Option<String>| {
+        let text = text.as_deref().unwrap_or("0s");
+        let what = format!("link.rehearse.{field} = \"{text}\": give a time, such as \"40ms\"");
+        starl_sim::read::duration(text).ok_or_else(|| Failure::file(path, what))
+    };
+    Ok(Impairment {
+        loss: rehearsal.loss,
+        duplication: rehearsal.duplication,
+        delay: span("delay", &rehearsal.delay)?,
+        jitter: span("jitter", &rehearsal.jitter)?,
     })
 }
 

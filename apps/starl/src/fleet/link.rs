@@ -3,8 +3,9 @@
 use super::file::{Fleet, LinkKind, Member};
 use crate::failure::Failure;
 use crate::output::reason;
+use starl_node::WallClock;
 use starl_node::link::udp::Udp;
-use starl_node::link::{Arrival, Transport};
+use starl_node::link::{Arrival, Impaired, Transport};
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 
 /// Joins the network as `me`: as this robot, or as an operator if there is none.
@@ -14,9 +15,17 @@ pub fn open(
     me: u32,
     deliver: impl Fn(Arrival) -> bool + Send + Sync + 'static,
 ) -> Result<Box<dyn Transport>, Failure> {
-    match fleet.network.kind {
+    let transport = match fleet.network.kind {
         LinkKind::Udp => udp(fleet, robot, deliver),
         LinkKind::Zenoh => zenoh(fleet, robot, me, deliver),
+    }?;
+    match fleet.network.impairment {
+        None => Ok(transport),
+        Some(impairment) => {
+            let seed = u64::from(me) ^ WallClock::system().as_nanos() as u64;
+            let impaired = Impaired::new(transport, impairment, seed);
+            Ok(Box::new(impaired.map_err(|error| Failure(reason(&error)))?))
+        }
     }
 }
 

@@ -55,7 +55,13 @@ pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Fail
         ..starl_sim::setting(scenario)
     };
     let trace = TraceOutput::create(&path, fleet.application.resolved(), &setting, true)?;
-    let recorder = FleetRecorder::new(member.id, &member.name, trace, arguments.quiet);
+    let recorder = FleetRecorder::new(
+        member.id,
+        &member.name,
+        trace,
+        fleet.trace_limit,
+        arguments.quiet,
+    );
     let halt = post.clone();
     on_interrupt(move || {
         let _ = halt.send(Incoming::Halt);

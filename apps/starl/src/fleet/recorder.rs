@@ -19,12 +19,20 @@ pub struct FleetRecorder {
     journal: Journal,
     batch: Batch,
     end: Time,
+    /// The trace ends when it is larger, bytes.
+    limit: u64,
     is_quiet: bool,
 }
 
 impl FleetRecorder {
-    /// A recorder that writes to this trace.
-    pub fn new(robot: RobotId, name: &str, trace: TraceOutput, is_quiet: bool) -> FleetRecorder {
+    /// A recorder that writes to this trace until it has `limit` bytes.
+    pub fn new(
+        robot: RobotId,
+        name: &str,
+        trace: TraceOutput,
+        limit: u64,
+        is_quiet: bool,
+    ) -> FleetRecorder {
         FleetRecorder {
             robot,
             name: name.to_string(),
@@ -32,6 +40,7 @@ impl FleetRecorder {
             journal: Journal::new(robot, 1),
             batch: Batch::default(),
             end: Time::ZERO,
+            limit,
             is_quiet,
         }
     }
@@ -39,6 +48,10 @@ impl FleetRecorder {
     /// Completes the trace.
     pub fn finish(mut self) {
         self.advance(self.end);
+        self.complete();
+    }
+
+    fn complete(&mut self) {
         if let Some(trace) = self.trace.take() {
             let outcome = Outcome {
                 outcome: "stopped".to_string(),
@@ -98,6 +111,18 @@ impl Recorder for FleetRecorder {
         self.journal.append_to(&mut batch);
         self.keep(|trace| trace.advance(&batch, now));
         self.batch = batch;
+        if self
+            .trace
+            .as_ref()
+            .is_some_and(|trace| trace.size() >= self.limit)
+        {
+            let text = format!(
+                "the trace has {} MiB and ends here; the robot goes on without one",
+                self.limit >> 20
+            );
+            self.notice(now, &text);
+            self.complete();
+        }
     }
 
     fn notice(&mut self, at: Time, text: &str) {

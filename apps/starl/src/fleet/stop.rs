@@ -2,12 +2,15 @@
 
 use super::connect::connect;
 use super::file::Fleet;
-use super::status::PATIENCE;
 use crate::args::FleetStopArguments;
 use crate::console;
 use crate::failure::Failure;
 use starl_catalog::programs::Registry;
 use starl_node::Operator;
+use std::time::Duration;
+
+/// A robot that does not confirm for so long may still run.
+const PATIENCE: Duration = Duration::from_secs(4);
 
 /// Stops a fleet; whether all robots have confirmed it.
 pub fn stop(arguments: &FleetStopArguments, registry: &Registry) -> Result<bool, Failure> {

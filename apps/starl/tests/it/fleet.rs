@@ -315,3 +315,49 @@ fn what_is_wrong_with_a_fleet_file_is_said_in_one_message() {
         stderr(&output)
     );
 }
+
+/// Race, byte for byte the program that the simulator runs, on four processes: two Creates on serial lines, two AR.Drones
+/// on UDP, positions from motion capture, and messages over Zenoh.
+#[cfg(feature = "zenoh")]
+#[test]
+fn race_runs_on_emulated_creates_and_drones_over_zenoh() {
+    let folder = folder("fleet_emulated");
+    let race = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/race");
+    let copy = Command::new("cp")
+        .arg("-r")
+        .arg(&race)
+        .arg(folder.join("race"))
+        .status();
+    assert!(copy.expect("there is such a command").success());
+    let first = ports(9);
+    let mut text = format!(
+        "scenario = \"race/race.toml\"\nlink = {{ kind = \"zenoh\", first_port = {first} }}\n\
+         positions = {{ kind = \"natnet\", server = \"127.0.0.1:{}\" }}\n",
+        first + 4
+    );
+    for (index, robot) in ["iRobot0", "iRobot1"].iter().enumerate() {
+        text += &format!(
+            "[robots.{robot}]\ndevice = {{ kind = \"create\", port = \"line{index}\" }}\n"
+        );
+    }
+    for (index, robot) in ["quadcopter0", "quadcopter1"].iter().enumerate() {
+        let port = first + 5 + 2 * index as u16;
+        text += &format!(
+            "[robots.{robot}]\ndevice = {{ kind = \"ardrone\", commands = \"127.0.0.1:{port}\", navdata = \"127.0.0.1:{}\" }}\n",
+            port + 1
+        );
+    }
+    file(&folder, "fleet.toml", &text);
+    let output = Up::start(&folder, &["--emulate"]).end();
+    let (text, messages) = (stdout(&output), stderr(&output));
+    assert_eq!(status(&output), 0, "{text}{messages}");
+    for property in [
+        "no_collision",
+        "reach_avoid.goal",
+        "broadcast.delivery",
+        "broadcast.integrity",
+    ] {
+        let line = text.lines().find(|line| line.starts_with(property));
+        assert!(line.is_some_and(|line| line.ends_with("holds")), "{text}");
+    }
+}

@@ -36,8 +36,12 @@ const LONGEST_PACKET: usize = 65_507;
 /// The longest content of a packet, bytes.
 pub const LONGEST: usize = LONGEST_PACKET - OVERHEAD;
 
-/// How long an initiation waits for its response before another one is sent.
+/// How long the first initiation waits for its response before another one is sent. Each further one waits twice as
+/// long, so that a handshake ends also where packets take longer.
 const PATIENCE: Duration = Duration::from_millis(250);
+
+/// How often the wait is doubled at most.
+const DOUBLINGS: u32 = 3;
 
 /// A session is replaced by one with another key after this long.
 const RENEWAL: Duration = Duration::from_millis(600_000);
@@ -132,6 +136,8 @@ struct Peer {
     pending: Option<Pending>,
     /// When the last initiation was sent.
     tried: Option<Time>,
+    /// How many were sent since there was a session.
+    attempts: u32,
     /// Whether this end makes sure that there is a session.
     is_wanted: bool,
 }
@@ -232,11 +238,13 @@ impl Channel {
             let is_good = session.is_some_and(|session| {
                 now.since(session.heard) < SILENCE && now.since(session.begun) < RENEWAL
             });
-            let waits = peer.tried.is_some_and(|at| now.since(at) < PATIENCE);
+            let patience = Duration(PATIENCE.0 << peer.attempts.saturating_sub(1).min(DOUBLINGS));
+            let waits = peer.tried.is_some_and(|at| now.since(at) < patience);
             if !peer.is_wanted || is_good || waits {
                 continue;
             }
             peer.tried = Some(now);
+            peer.attempts = peer.attempts.saturating_add(1);
             let Some(index) = fresh_index(&self.sessions) else {
                 continue;
             };
@@ -328,6 +336,7 @@ impl Channel {
     /// Uses a session for sending from now on.
     fn promote(&mut self, with: Member, index: u32) {
         let peer = self.peers.entry(with).or_default();
+        peer.attempts = 0;
         let before = peer.current.replace(index);
         let oldest = std::mem::replace(&mut peer.previous, before);
         if let Some(oldest) = oldest {
@@ -581,6 +590,37 @@ mod tests {
         b.set_keys(vec![new]);
         a.set_keys(vec![new]);
         assert_eq!(connect(&mut a, &mut b, later + RENEWAL), []);
+    }
+
+    #[test]
+    fn a_handshake_ends_where_packets_take_long() {
+        let (mut a, mut b) = (member(0, KEY), member(1, KEY));
+        a.want(1);
+        let delay = Duration::from_millis(700);
+        // What is on its way: when it arrives, whether at `b`, and the packet.
+        let mut flying: Vec<(Time, bool, Vec<u8>)> = Vec::new();
+        for tick in 0..100 {
+            let now = Time::ZERO + Duration::from_millis(100 * tick);
+            let initiations = a.due(now).into_iter();
+            flying.extend(initiations.map(|(_, packet)| (now + delay, true, packet)));
+            let (due, rest) = flying.into_iter().partition(|packet| packet.0 <= now);
+            flying = rest;
+            let due: Vec<(Time, bool, Vec<u8>)> = due;
+            for (_, at_b, packet) in due {
+                let end = if at_b { &mut b } else { &mut a };
+                if let Opened::Handshake {
+                    answer: Some(answer),
+                    ..
+                } = end.open(now, &packet)
+                {
+                    flying.push((now + delay, !at_b, answer));
+                }
+            }
+            if a.seal(1, b"hello").is_some() {
+                return;
+            }
+        }
+        panic!("there is no session after ten seconds");
     }
 
     #[test]

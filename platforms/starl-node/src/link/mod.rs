@@ -2,11 +2,13 @@
 
 pub mod channel;
 pub mod frame;
+pub mod impaired;
 pub mod quality;
 pub mod udp;
 mod window;
 
 pub use channel::{Channel, Key, Member, OPERATORS, Refusals};
+pub use impaired::{Impaired, Impairment};
 
 use std::io;
 use std::net::SocketAddr;
