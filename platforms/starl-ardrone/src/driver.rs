@@ -110,8 +110,7 @@ impl Ardrone {
             self.sequence += 1;
             command.encode(self.sequence, &mut datagram);
         }
-        self.commands.send(datagram.as_bytes())?;
-        Ok(())
+        send(&self.commands, datagram.as_bytes())
     }
 
     fn take(&mut self, navdata: Navdata) {
@@ -138,7 +137,8 @@ impl Ardrone {
                     }
                 }
                 Err(error) => match error.kind() {
-                    ErrorKind::WouldBlock => return Ok(()),
+                    // Nobody listens there: the same as silence.
+                    ErrorKind::WouldBlock | ErrorKind::ConnectionRefused => return Ok(()),
                     ErrorKind::Interrupted => {}
                     _ => return Err(error.into()),
                 },
@@ -149,7 +149,7 @@ impl Ardrone {
     fn ask(&mut self) -> Result<(), DeviceError> {
         if self.asked.is_none_or(|asked| asked.elapsed() > ASKING) {
             self.asked = Some(Instant::now());
-            self.navdata.send(&[1, 0, 0, 0])?;
+            send(&self.navdata, &[1, 0, 0, 0])?;
         }
         Ok(())
     }
@@ -299,4 +299,12 @@ fn socket(peer: SocketAddr) -> Result<UdpSocket, DeviceError> {
     socket.connect(peer)?;
     socket.set_nonblocking(true)?;
     Ok(socket)
+}
+
+/// Sends a datagram. That nobody listens shows as silence.
+fn send(socket: &UdpSocket, datagram: &[u8]) -> Result<(), DeviceError> {
+    match socket.send(datagram) {
+        Err(error) if error.kind() != ErrorKind::ConnectionRefused => Err(error.into()),
+        _ => Ok(()),
+    }
 }

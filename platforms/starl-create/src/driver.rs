@@ -227,7 +227,9 @@ pub fn wheel_speeds(command: &Command, wheel_distance: f64) -> Option<(f64, f64)
         Command::Straight { speed } => (speed, speed),
         Command::Turn { rate } => (-rate * half, rate * half),
         Command::Wheels { left, right } => (left, right),
-        Command::Curve { speed, radius } if radius != 0.0 && radius.is_finite() => {
+        Command::Curve { speed, radius }
+            if speed.is_finite() && radius.is_finite() && radius != 0.0 =>
+        {
             let (left, right) = (1.0 - half / radius, 1.0 + half / radius);
             let fastest = left.abs().max(right.abs());
             let speed = speed.clamp(-WHEEL_SPEED / fastest, WHEEL_SPEED / fastest);

@@ -3,7 +3,7 @@
 //! `devices FOLDER` prints a line of JSON that says where the devices are, and answers each line on its standard input
 //! with a line of true poses by name: `{"r1": [x, y, z, yaw], ...}`, metres and radians. It ends with its input.
 
-use starl_core::{Point, Pose};
+use starl_core::{Obstacle, Point, Pose};
 use starl_create::Generation;
 use starl_emulate::ardrone::EmulatedArdrone;
 use starl_emulate::create::{EmulatedCreate, model};
@@ -19,7 +19,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         .nth(1)
         .ok_or("usage: devices FOLDER")?
         .into();
-    let world = World::new(Vec::new(), Noise::NONE);
+    let wall = Obstacle::cuboid(Point::new(0.2, -0.5, 0.0), Point::new(4.0, -0.3, 0.4));
+    let world = World::new(vec![wall], Noise::NONE);
     let start = Pose::level(Point::planar(1.0, -2.0), 0.5);
     let body = world.add("create", model(Generation::Create2), start)?;
     let create = EmulatedCreate::start(body, Some(&folder.join("create")))?;
