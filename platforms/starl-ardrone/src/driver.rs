@@ -104,6 +104,22 @@ impl Ardrone {
         self.send(&[off.clone(), on, off])
     }
 
+    /// Fails while the drone is silent or its motors are cut.
+    fn check(&self) -> Result<(), DeviceError> {
+        if self.heard.elapsed() > SILENCE {
+            return Err(DeviceError::Fault(
+                "the AR.Drone is silent; is it switched on and in reach?".into(),
+            ));
+        }
+        let cut = |latest: Navdata| latest.state & state::EMERGENCY != 0;
+        if self.latest.is_some_and(cut) {
+            return Err(DeviceError::Fault(
+                "the AR.Drone has cut its motors; look at it, then clear the emergency".into(),
+            ));
+        }
+        Ok(())
+    }
+
     fn send(&mut self, commands: &[AtCommand]) -> Result<(), DeviceError> {
         let mut datagram = String::new();
         for command in commands {
@@ -215,7 +231,7 @@ impl Device for Ardrone {
                 "an AR.Drone cannot do {command:?}; use TakeOff, Land, Hover, Stop or Attitude"
             )));
         }
-        Ok(())
+        self.check()
     }
 
     fn stop(&mut self) -> Result<(), DeviceError> {
@@ -229,34 +245,25 @@ impl Device for Ardrone {
 
     fn read(&mut self) -> Result<Option<Reading>, DeviceError> {
         self.listen()?;
-        if self.heard.elapsed() > ASKING {
+        if self.latest.is_none() || self.heard.elapsed() > ASKING {
             self.ask()?;
         }
         if self.heard.elapsed() > SILENCE {
             // It may come back with its numbers and configuration begun anew.
-            self.heard = Instant::now();
             self.latest = None;
             self.configuration.restart();
-            return Err(DeviceError::Fault(
-                "the AR.Drone is silent; is it switched on and in reach?".into(),
-            ));
         }
+        self.check()?;
         let Some(latest) = self.latest else {
-            self.ask()?;
             return Ok(None);
         };
+        if !std::mem::take(&mut self.fresh) {
+            return Ok(None);
+        }
         if !self.configuration.complete() {
             // Until the first reading nobody drives it, so this is where it is configured.
             self.drive(&Command::Stop, &Estimate::default())?;
             return Ok(None);
-        }
-        if !std::mem::take(&mut self.fresh) {
-            return Ok(None);
-        }
-        if latest.state & state::EMERGENCY != 0 {
-            return Err(DeviceError::Fault(
-                "the AR.Drone has cut its motors; look at it, then clear the emergency".into(),
-            ));
         }
         Ok(latest.demo.map(|demo| {
             let [ahead, right, down] = demo.velocity.map(|speed| 0.001 * f64::from(speed));

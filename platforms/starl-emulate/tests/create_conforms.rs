@@ -15,11 +15,16 @@ fn options(generation: Generation) -> CreateOptions {
     CreateOptions::new(generation)
 }
 
+/// Without a guard, so that the driver itself stops the robot.
 fn robot(generation: Generation, world: &World) -> (Create, BodyHandle, EmulatedCreate) {
     let start = Pose::level(Point::planar(-1.0, 2.0), 0.7);
     let body = world.add("r1", model(generation), start).unwrap();
     let emulated = EmulatedCreate::start(body.clone(), None).unwrap();
-    let driver = Create::open(emulated.path(), &options(generation)).unwrap();
+    let options = CreateOptions {
+        guard: false,
+        ..options(generation)
+    };
+    let driver = Create::open(emulated.path(), &options).unwrap();
     (driver, body, emulated)
 }
 
