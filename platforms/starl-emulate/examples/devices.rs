@@ -7,8 +7,10 @@ use starl_core::{Obstacle, Point, Pose};
 use starl_create::Generation;
 use starl_emulate::ardrone::EmulatedArdrone;
 use starl_emulate::create::{EmulatedCreate, model};
+use starl_emulate::mavlink::EmulatedVehicle;
 use starl_emulate::natnet::{Cameras, EmulatedNatNet};
 use starl_emulate::{Noise, World};
+use starl_mavlink::Autopilot;
 use starl_motion::models::by_name;
 use std::error::Error;
 use std::io::{BufRead, stdin};
@@ -36,14 +38,23 @@ fn main() -> Result<(), Box<dyn Error>> {
         EmulatedNatNet::start(world.clone(), any, cameras)
     };
     let (natnet_3, natnet_4) = (natnet((3, 1))?, natnet((4, 1))?);
-    println!(
-        r#"{{"create": {:?}, "commands": {}, "navdata": {}, "natnet_3": {}, "natnet_4": {}}}"#,
-        create.path(),
-        drone.commands().port(),
-        drone.navdata()?.port(),
-        natnet_3.address().port(),
-        natnet_4.address().port(),
-    );
+    let vehicle = |name, autopilot, y| {
+        let start = Pose::level(Point::planar(-20.0, y), 0.3);
+        let body = world.add(name, by_name("drone").ok_or("no model")?, start)?;
+        EmulatedVehicle::start(body, autopilot, any, None).map_err(Box::<dyn Error>::from)
+    };
+    let px4 = vehicle("px4", Autopilot::Px4, 0.0)?;
+    let ardupilot = vehicle("ardupilot", Autopilot::ArduPilot, 20.0)?;
+    let ports = [
+        ("commands", drone.commands()),
+        ("navdata", drone.navdata()?),
+        ("natnet_3", natnet_3.address()),
+        ("natnet_4", natnet_4.address()),
+        ("px4", px4.address()?),
+        ("ardupilot", ardupilot.address()?),
+    ];
+    let ports = ports.map(|(name, address)| format!(", {name:?}: {}", address.port()));
+    println!(r#"{{"create": {:?}{}}}"#, create.path(), ports.concat());
     for line in stdin().lock().lines() {
         line?;
         let poses: Vec<String> = world
