@@ -1,5 +1,5 @@
 # The two commands of the README, and the parts that `make test` is made of.
-.PHONY: run setup test check unit portable wasm golden wasm-module page site web trace schema examples faults mutants nightly million docs deny bench editors diagrams
+.PHONY: run setup test check unit portable wasm golden wasm-module page site web trace schema examples faults mutants nightly million docs deny bench editors diagrams devices
 
 VENV = target/venv/bin
 CARGO_TARGET_DIR ?= target
@@ -14,7 +14,7 @@ run:
 	cargo run --release --locked -- run race
 
 # Everything that continuous integration runs.
-test: setup check unit portable wasm web trace schema examples faults docs deny
+test: setup check unit portable wasm web trace schema examples devices faults docs deny
 
 setup:
 	tools/setup.sh
@@ -85,6 +85,16 @@ schema: $(STARL)
 # Every example reaches its goal, in calm and in bad weather.
 examples: $(STARL)
 	tools/examples.sh $(STARL)
+
+# The emulated devices, driven by libraries that are not ours.
+FOREIGN = platforms/starl-emulate/tests/foreign
+devices:
+	cargo build --locked --profile test -p starl-emulate --example devices
+	$(VENV)/python $(FOREIGN)/create.py $(CARGO_TARGET_DIR)/debug/examples/devices
+	$(VENV)/python $(FOREIGN)/natnet_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
+	$(VENV)/python $(FOREIGN)/mavlink_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
+	cd $(FOREIGN) && npm ci --silent --no-audit --no-fund
+	node --no-deprecation $(FOREIGN)/ardrone.mjs $(CARGO_TARGET_DIR)/debug/examples/devices
 
 APPLICATIONS = race formation formation-space line intersection search flocking maze auction traffic-signs \
 	light-painting

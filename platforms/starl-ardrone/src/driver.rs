@@ -104,14 +104,29 @@ impl Ardrone {
         self.send(&[off.clone(), on, off])
     }
 
+    /// Fails while the drone is silent or its motors are cut.
+    fn check(&self) -> Result<(), DeviceError> {
+        if self.heard.elapsed() > SILENCE {
+            return Err(DeviceError::Fault(
+                "the AR.Drone is silent; is it switched on and in reach?".into(),
+            ));
+        }
+        let cut = |latest: Navdata| latest.state & state::EMERGENCY != 0;
+        if self.latest.is_some_and(cut) {
+            return Err(DeviceError::Fault(
+                "the AR.Drone has cut its motors; look at it, then clear the emergency".into(),
+            ));
+        }
+        Ok(())
+    }
+
     fn send(&mut self, commands: &[AtCommand]) -> Result<(), DeviceError> {
         let mut datagram = String::new();
         for command in commands {
             self.sequence += 1;
             command.encode(self.sequence, &mut datagram);
         }
-        self.commands.send(datagram.as_bytes())?;
-        Ok(())
+        send(&self.commands, datagram.as_bytes())
     }
 
     fn take(&mut self, navdata: Navdata) {
@@ -138,7 +153,8 @@ impl Ardrone {
                     }
                 }
                 Err(error) => match error.kind() {
-                    ErrorKind::WouldBlock => return Ok(()),
+                    // Nobody listens there: the same as silence.
+                    ErrorKind::WouldBlock | ErrorKind::ConnectionRefused => return Ok(()),
                     ErrorKind::Interrupted => {}
                     _ => return Err(error.into()),
                 },
@@ -149,7 +165,7 @@ impl Ardrone {
     fn ask(&mut self) -> Result<(), DeviceError> {
         if self.asked.is_none_or(|asked| asked.elapsed() > ASKING) {
             self.asked = Some(Instant::now());
-            self.navdata.send(&[1, 0, 0, 0])?;
+            send(&self.navdata, &[1, 0, 0, 0])?;
         }
         Ok(())
     }
@@ -215,7 +231,7 @@ impl Device for Ardrone {
                 "an AR.Drone cannot do {command:?}; use TakeOff, Land, Hover, Stop or Attitude"
             )));
         }
-        Ok(())
+        self.check()
     }
 
     fn stop(&mut self) -> Result<(), DeviceError> {
@@ -229,34 +245,25 @@ impl Device for Ardrone {
 
     fn read(&mut self) -> Result<Option<Reading>, DeviceError> {
         self.listen()?;
-        if self.heard.elapsed() > ASKING {
+        if self.latest.is_none() || self.heard.elapsed() > ASKING {
             self.ask()?;
         }
         if self.heard.elapsed() > SILENCE {
             // It may come back with its numbers and configuration begun anew.
-            self.heard = Instant::now();
             self.latest = None;
             self.configuration.restart();
-            return Err(DeviceError::Fault(
-                "the AR.Drone is silent; is it switched on and in reach?".into(),
-            ));
         }
+        self.check()?;
         let Some(latest) = self.latest else {
-            self.ask()?;
             return Ok(None);
         };
+        if !std::mem::take(&mut self.fresh) {
+            return Ok(None);
+        }
         if !self.configuration.complete() {
             // Until the first reading nobody drives it, so this is where it is configured.
             self.drive(&Command::Stop, &Estimate::default())?;
             return Ok(None);
-        }
-        if !std::mem::take(&mut self.fresh) {
-            return Ok(None);
-        }
-        if latest.state & state::EMERGENCY != 0 {
-            return Err(DeviceError::Fault(
-                "the AR.Drone has cut its motors; look at it, then clear the emergency".into(),
-            ));
         }
         Ok(latest.demo.map(|demo| {
             let [ahead, right, down] = demo.velocity.map(|speed| 0.001 * f64::from(speed));
@@ -299,4 +306,12 @@ fn socket(peer: SocketAddr) -> Result<UdpSocket, DeviceError> {
     socket.connect(peer)?;
     socket.set_nonblocking(true)?;
     Ok(socket)
+}
+
+/// Sends a datagram. That nobody listens shows as silence.
+fn send(socket: &UdpSocket, datagram: &[u8]) -> Result<(), DeviceError> {
+    match socket.send(datagram) {
+        Err(error) if error.kind() != ErrorKind::ConnectionRefused => Err(error.into()),
+        _ => Ok(()),
+    }
 }

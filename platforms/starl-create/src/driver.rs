@@ -53,8 +53,10 @@ pub struct Create {
     odometry: Odometry,
     wheel_distance: f64,
     packets: Vec<u8>,
-    /// When the last frame arrived, or the stream was last asked for.
+    /// When the last frame arrived, or the line was opened.
     heard: Instant,
+    /// When the stream was last asked for.
+    greeted: Instant,
     latest: Option<Latest>,
     /// Last field, so that its last word comes after the driver's own.
     _guard: Option<Guard>,
@@ -90,13 +92,15 @@ impl Create {
             .chain([sensor::CHARGE, sensor::CAPACITY])
             .chain(cliffs)
             .collect();
-        let create = Create {
+        let now = Instant::now();
+        let mut create = Create {
             line,
             frames: FrameDecoder::new(&packets),
             odometry: Odometry::new(options.generation, options.wheel_distance),
             wheel_distance: options.wheel_distance,
             packets,
-            heard: Instant::now(),
+            heard: now,
+            greeted: now,
             latest: None,
             _guard: match options.guard {
                 true => Some(Guard::start(path)?),
@@ -108,12 +112,23 @@ impl Create {
     }
 
     /// Opens the interface, takes control and asks for the stream.
-    fn greet(&self) -> Result<(), DeviceError> {
+    fn greet(&mut self) -> Result<(), DeviceError> {
+        self.greeted = Instant::now();
         let mut bytes = Vec::new();
         OpenInterface::Start.encode(&mut bytes);
         OpenInterface::Safe.encode(&mut bytes);
         OpenInterface::Stream(self.packets.clone()).encode(&mut bytes);
         Ok(self.line.send(&bytes)?)
+    }
+
+    /// Fails while the robot is silent.
+    fn check(&self) -> Result<(), DeviceError> {
+        if self.heard.elapsed() <= SILENCE {
+            return Ok(());
+        }
+        Err(DeviceError::Fault(
+            "the Create is silent; is it switched on and connected?".into(),
+        ))
     }
 
     fn send(&self, command: &OpenInterface) -> Result<(), DeviceError> {
@@ -168,7 +183,8 @@ impl Device for Create {
             self.send(&OpenInterface::Safe)?;
         }
         let [left, right] = [left, right].map(|speed| (1000.0 * speed).round() as i16);
-        self.send(&OpenInterface::DriveDirect { right, left })
+        self.send(&OpenInterface::DriveDirect { right, left })?;
+        self.check()
     }
 
     fn stop(&mut self) -> Result<(), DeviceError> {
@@ -187,14 +203,14 @@ impl Device for Create {
                 self.take(&values);
             }
         }
-        if self.heard.elapsed() > SILENCE {
-            self.heard = Instant::now();
-            self.latest = None;
-            self.odometry.forget();
-            self.greet()?;
-            return Err(DeviceError::Fault(
-                "the Create is silent; is it switched on and connected?".into(),
-            ));
+        if let Err(silent) = self.check() {
+            if self.greeted.elapsed() > SILENCE {
+                // It may have been switched off and on.
+                self.latest = None;
+                self.odometry.forget();
+                self.greet()?;
+            }
+            return Err(silent);
         }
         let Some(latest) = self.latest.as_mut().filter(|latest| latest.fresh) else {
             return Ok(None);
@@ -227,7 +243,9 @@ pub fn wheel_speeds(command: &Command, wheel_distance: f64) -> Option<(f64, f64)
         Command::Straight { speed } => (speed, speed),
         Command::Turn { rate } => (-rate * half, rate * half),
         Command::Wheels { left, right } => (left, right),
-        Command::Curve { speed, radius } if radius != 0.0 && radius.is_finite() => {
+        Command::Curve { speed, radius }
+            if speed.is_finite() && radius.is_finite() && radius != 0.0 =>
+        {
             let (left, right) = (1.0 - half / radius, 1.0 + half / radius);
             let fastest = left.abs().max(right.abs());
             let speed = speed.clamp(-WHEEL_SPEED / fastest, WHEEL_SPEED / fastest);

@@ -12,7 +12,7 @@ mod odometry;
 pub mod sensor;
 pub mod stream;
 
-pub use driver::{Create, CreateOptions};
+pub use driver::{Create, CreateOptions, wheel_speeds};
 pub use line::{Guard, SerialLine};
 
 /// Greatest speed of a wheel's rim that the robot takes, metres per second.

@@ -3,12 +3,14 @@
 //! `devices FOLDER` prints a line of JSON that says where the devices are, and answers each line on its standard input
 //! with a line of true poses by name: `{"r1": [x, y, z, yaw], ...}`, metres and radians. It ends with its input.
 
-use starl_core::{Point, Pose};
+use starl_core::{Obstacle, Point, Pose};
 use starl_create::Generation;
 use starl_emulate::ardrone::EmulatedArdrone;
 use starl_emulate::create::{EmulatedCreate, model};
+use starl_emulate::mavlink::EmulatedVehicle;
 use starl_emulate::natnet::{Cameras, EmulatedNatNet};
 use starl_emulate::{Noise, World};
+use starl_mavlink::Autopilot;
 use starl_motion::models::by_name;
 use std::error::Error;
 use std::io::{BufRead, stdin};
@@ -19,7 +21,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         .nth(1)
         .ok_or("usage: devices FOLDER")?
         .into();
-    let world = World::new(Vec::new(), Noise::NONE);
+    let wall = Obstacle::cuboid(Point::new(0.2, -0.5, 0.0), Point::new(4.0, -0.3, 0.4));
+    let world = World::new(vec![wall], Noise::NONE);
     let start = Pose::level(Point::planar(1.0, -2.0), 0.5);
     let body = world.add("create", model(Generation::Create2), start)?;
     let create = EmulatedCreate::start(body, Some(&folder.join("create")))?;
@@ -35,14 +38,23 @@ fn main() -> Result<(), Box<dyn Error>> {
         EmulatedNatNet::start(world.clone(), any, cameras)
     };
     let (natnet_3, natnet_4) = (natnet((3, 1))?, natnet((4, 1))?);
-    println!(
-        r#"{{"create": {:?}, "commands": {}, "navdata": {}, "natnet_3": {}, "natnet_4": {}}}"#,
-        create.path(),
-        drone.commands().port(),
-        drone.navdata()?.port(),
-        natnet_3.address().port(),
-        natnet_4.address().port(),
-    );
+    let vehicle = |name, autopilot, y| {
+        let start = Pose::level(Point::planar(-20.0, y), 0.3);
+        let body = world.add(name, by_name("drone").ok_or("no model")?, start)?;
+        EmulatedVehicle::start(body, autopilot, any, None).map_err(Box::<dyn Error>::from)
+    };
+    let px4 = vehicle("px4", Autopilot::Px4, 0.0)?;
+    let ardupilot = vehicle("ardupilot", Autopilot::ArduPilot, 20.0)?;
+    let ports = [
+        ("commands", drone.commands()),
+        ("navdata", drone.navdata()?),
+        ("natnet_3", natnet_3.address()),
+        ("natnet_4", natnet_4.address()),
+        ("px4", px4.address()?),
+        ("ardupilot", ardupilot.address()?),
+    ];
+    let ports = ports.map(|(name, address)| format!(", {name:?}: {}", address.port()));
+    println!(r#"{{"create": {:?}{}}}"#, create.path(), ports.concat());
     for line in stdin().lock().lines() {
         line?;
         let poses: Vec<String> = world

@@ -22,6 +22,9 @@ use std::any::Any;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+/// Sends bytes to where they should not be.
+pub type Interference = Box<dyn FnMut(&[u8])>;
+
 /// A driver connected to an emulated robot that stands at rest, with 2 m of free floor around it except where a check
 /// says otherwise.
 pub struct Rig {
@@ -30,7 +33,7 @@ pub struct Rig {
     /// The body of the emulated robot.
     pub body: BodyHandle,
     /// Sends bytes that make no sense to the driver, and to the robot where its protocol can tell noise from commands.
-    pub noise: Box<dyn FnMut(&[u8])>,
+    pub noise: Interference,
     /// How long the robot moves on after its driver has fallen silent. `None` if it would move on for ever.
     pub watchdog: Option<Duration>,
     /// Whatever keeps the emulated robot running.

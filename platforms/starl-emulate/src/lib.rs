@@ -25,6 +25,7 @@
 pub mod ardrone;
 pub mod conformance;
 pub mod create;
+pub mod mavlink;
 pub mod natnet;
 mod service;
 pub mod world;

@@ -15,11 +15,16 @@ fn options(generation: Generation) -> CreateOptions {
     CreateOptions::new(generation)
 }
 
+/// Without a guard, so that the driver itself stops the robot.
 fn robot(generation: Generation, world: &World) -> (Create, BodyHandle, EmulatedCreate) {
     let start = Pose::level(Point::planar(-1.0, 2.0), 0.7);
     let body = world.add("r1", model(generation), start).unwrap();
     let emulated = EmulatedCreate::start(body.clone(), None).unwrap();
-    let driver = Create::open(emulated.path(), &options(generation)).unwrap();
+    let options = CreateOptions {
+        guard: false,
+        ..options(generation)
+    };
+    let driver = Create::open(emulated.path(), &options).unwrap();
     (driver, body, emulated)
 }
 
@@ -140,19 +145,17 @@ fn silent_robot_is_reported_and_taken_back() {
     assert!(!path.is_symlink());
 }
 
-/// The variable that tells [`drives_until_killed`] which line to drive.
+/// Names the line for the process that is killed.
 const LINE: &str = "STARL_TEST_LINE";
 
 #[test]
-#[ignore = "run as a process of its own by killed_driver_leaves_a_robot_that_stops"]
-fn drives_until_killed() {
-    let line = std::env::var(LINE).expect("the other test names a line");
-    let mut driver = Create::open(line, &options(Generation::Create2)).unwrap();
-    drive(&mut driver, |_| false);
-}
-
-#[test]
 fn killed_driver_leaves_a_robot_that_stops() {
+    if let Ok(line) = std::env::var(LINE) {
+        // This is the process to be killed.
+        let mut driver = Create::open(line, &options(Generation::Create2)).unwrap();
+        drive(&mut driver, |_| false);
+        return;
+    }
     let world = World::new(Vec::new(), Noise::NONE);
     let body = world
         .add("r1", model(Generation::Create2), Pose::default())
@@ -166,7 +169,7 @@ fn killed_driver_leaves_a_robot_that_stops() {
         }
     };
     let mut child = std::process::Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "drives_until_killed", "--ignored"])
+        .args(["--exact", "killed_driver_leaves_a_robot_that_stops"])
         .env(LINE, emulated.path())
         .stdout(std::process::Stdio::null())
         .spawn()

@@ -119,10 +119,11 @@ fn hidden_body_is_not_seen_and_a_server_that_ends_is_silent() {
     }
     let address = server.address();
     drop(server);
-    wait(&mut hidden, |answer| match answer {
-        Err(NatNetError::Silent(server)) => Some(assert_eq!(server, address)),
+    let silent = wait(&mut hidden, |answer| match answer {
+        Err(NatNetError::Silent(server)) => Some(server),
         _ => None,
     });
+    assert_eq!(silent, address);
     let again = EmulatedNatNet::start(world(), address, Cameras::default()).unwrap();
     wait(&mut hidden, |answer| answer.ok().flatten());
     drop(again);

@@ -150,7 +150,8 @@ impl NatNet {
             match self.socket.recv(&mut buffer) {
                 Ok(length) => self.take(&buffer[..length])?,
                 Err(error) => match error.kind() {
-                    ErrorKind::WouldBlock => break,
+                    // Nobody listens there: the same as silence.
+                    ErrorKind::WouldBlock | ErrorKind::ConnectionRefused => break,
                     ErrorKind::Interrupted => {}
                     _ => return Err(error.into()),
                 },
@@ -174,9 +175,11 @@ impl NatNet {
             (Some(_), None) => Message::RequestDescriptions,
             (Some(_), Some(_)) => Message::KeepAlive,
         };
-        self.socket
-            .send(&message.encode(self.version.unwrap_or((3, 0))))?;
-        Ok(())
+        let datagram = message.encode(self.version.unwrap_or((3, 0)));
+        match self.socket.send(&datagram) {
+            Err(error) if error.kind() != ErrorKind::ConnectionRefused => Err(error.into()),
+            _ => Ok(()),
+        }
     }
 
     fn take(&mut self, datagram: &[u8]) -> Result<(), NatNetError> {

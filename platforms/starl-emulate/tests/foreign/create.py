@@ -73,11 +73,18 @@ def main():
         assert 0 < sensors.battery_charge <= sensors.battery_capacity, "packets 25 and 26"
         assert not any(sensors.bumps_wheeldrops), "nothing touches the robot"
 
+        robot.drive_direct(500, 500)
+        time.sleep(4)
+        bumps = robot.get_sensors().bumps_wheeldrops
+        assert bumps.bump_left or bumps.bump_right, "packet 7 at the wall"
+
+        robot.drive_direct(-100, -100)
         robot.stop()
         stopped = emulator.pose("create")
         time.sleep(0.3)
         assert emulator.pose("create") == stopped, "173 stops the motors"
-        robot.close()
+        # It stops the robot once more as it is deleted, so while there is one.
+        del robot
     print("pycreate2 drives the emulated Create")
 
 

@@ -1,0 +1,428 @@
+//! The driver: commands of the platform to set-points, telemetry to readings.
+
+use crate::autopilot::{Autopilot, Mode};
+use crate::common::{
+    COMMAND_LONG_DATA, HEARTBEAT_DATA, MavAutopilot, MavCmd, MavFrame, MavMessage, MavModeFlag,
+    MavState, MavType, PositionTargetTypemask, SET_POSITION_TARGET_LOCAL_NED_DATA,
+};
+use crate::state::Vehicle;
+use crate::{PX4_PORT, wire};
+use mavlink::MavHeader;
+use starl_core::math::tan;
+use starl_core::{Command, Estimate, Point};
+use starl_node::{Device, DeviceError, Reading};
+use std::io::ErrorKind;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr, UdpSocket};
+use std::time::{Duration, Instant};
+
+/// How to fly a vehicle.
+#[derive(Clone, Copy, Debug)]
+pub struct MavlinkOptions {
+    /// Where the vehicle sends to: this machine's address and port.
+    pub listen: SocketAddr,
+    /// Where the vehicle listens, if it waits for the first message.
+    pub vehicle: Option<SocketAddr>,
+    /// How high it takes off, metres.
+    pub take_off_height: f64,
+    /// How fast it takes off, metres per second.
+    pub take_off_speed: f64,
+}
+
+impl Default for MavlinkOptions {
+    /// A PX4 vehicle that sends to this machine.
+    fn default() -> MavlinkOptions {
+        MavlinkOptions {
+            listen: (IpAddr::from(Ipv4Addr::UNSPECIFIED), PX4_PORT).into(),
+            vehicle: None,
+            take_off_height: 0.6,
+            take_off_speed: 0.5,
+        }
+    }
+}
+
+/// A vehicle that is silent for so long is out of reach. It sends its place 20 times a second.
+const SILENCE: Duration = Duration::from_millis(2000);
+/// How often the vehicle hears that there is a computer.
+const HEARTBEAT: Duration = Duration::from_millis(500);
+/// How often a request is repeated until the vehicle shows that it has done it.
+const REPEAT: Duration = Duration::from_millis(400);
+/// Numbers of the messages that are asked for: place, attitude, whether it has landed.
+const TELEMETRY: [u32; 3] = [32, 30, 245];
+/// Microseconds between two of them.
+const INTERVAL: f32 = 50_000.0;
+/// The autopilot's gain from an error of velocity to an acceleration, 1/s: PX4's `MPC_XY_VEL_P_ACC` is 1.8, ArduCopter's
+/// `PSC_VELXY_P` 2.
+const VELOCITY_GAIN: f64 = 1.8;
+const GRAVITY: f64 = 9.80665;
+
+/// A multicopter with PX4 or ArduPilot.
+///
+/// An attitude of the model `drone` means an acceleration; it is flown as the velocity from which the autopilot's own
+/// loop makes that acceleration. Where set-points stop, the autopilot holds its place after 1 s (PX4) or 3 s
+/// (ArduPilot), or does what its failsafe is set to.
+#[derive(Debug)]
+pub struct MavlinkVehicle {
+    socket: UdpSocket,
+    options: MavlinkOptions,
+    peer: Option<(SocketAddr, u8)>,
+    vehicle: Option<Vehicle>,
+    sequence: u8,
+    heard: Instant,
+    greeted: Option<Instant>,
+    asked: Option<Instant>,
+    /// Whether it is to be in the air; unknown until the vehicle says whether it is.
+    fly: Option<bool>,
+}
+
+impl MavlinkVehicle {
+    /// Opens a socket. A vehicle that is not there shows in [`Device::read`].
+    ///
+    /// # Errors
+    /// Where the address is in use or not this machine's.
+    pub fn connect(options: &MavlinkOptions) -> Result<MavlinkVehicle, DeviceError> {
+        let socket = UdpSocket::bind(options.listen)?;
+        socket.set_nonblocking(true)?;
+        Ok(MavlinkVehicle {
+            socket,
+            options: *options,
+            peer: None,
+            vehicle: None,
+            sequence: 0,
+            heard: Instant::now(),
+            greeted: None,
+            asked: None,
+            fly: None,
+        })
+    }
+
+    /// Where it listens.
+    ///
+    /// # Errors
+    /// Where the system does not tell the port.
+    pub fn address(&self) -> std::io::Result<SocketAddr> {
+        self.socket.local_addr()
+    }
+
+    fn send(&mut self, message: &MavMessage) -> Result<(), DeviceError> {
+        let known = self.peer.map(|(address, _)| address);
+        let Some(address) = known.or(self.options.vehicle) else {
+            return Ok(());
+        };
+        let header = MavHeader {
+            // By convention a computer beside the autopilot's has another system's number.
+            system_id: 245,
+            component_id: 191,
+            sequence: self.sequence,
+        };
+        self.sequence = self.sequence.wrapping_add(1);
+        let mut datagram = Vec::new();
+        wire::encode(header, message, &mut datagram);
+        match self.socket.send_to(&datagram, address) {
+            Err(error) if error.kind() != ErrorKind::ConnectionRefused => Err(error.into()),
+            _ => Ok(()),
+        }
+    }
+
+    fn command(&mut self, command: MavCmd, parameters: [f32; 7]) -> Result<(), DeviceError> {
+        let [param1, param2, param3, param4, param5, param6, param7] = parameters;
+        self.send(&MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
+            param1,
+            param2,
+            param3,
+            param4,
+            param5,
+            param6,
+            param7,
+            command,
+            target_system: self.peer.map_or(1, |(_, system)| system),
+            target_component: 1,
+            confirmation: 0,
+        }))
+    }
+
+    /// Velocity forward, left and up, and rate of turn to the left.
+    fn set_velocity(&mut self, velocity: Point, yaw_rate: f64) -> Result<(), DeviceError> {
+        use PositionTargetTypemask as Mask;
+        let position = Mask::POSITION_TARGET_TYPEMASK_X_IGNORE
+            | Mask::POSITION_TARGET_TYPEMASK_Y_IGNORE
+            | Mask::POSITION_TARGET_TYPEMASK_Z_IGNORE;
+        let acceleration = Mask::POSITION_TARGET_TYPEMASK_AX_IGNORE
+            | Mask::POSITION_TARGET_TYPEMASK_AY_IGNORE
+            | Mask::POSITION_TARGET_TYPEMASK_AZ_IGNORE;
+        // Newer names of the frame are not known to PX4 before 1.14.
+        #[allow(deprecated)]
+        let coordinate_frame = MavFrame::MAV_FRAME_BODY_NED;
+        self.send(&MavMessage::SET_POSITION_TARGET_LOCAL_NED(
+            SET_POSITION_TARGET_LOCAL_NED_DATA {
+                vx: velocity.x as f32,
+                vy: -velocity.y as f32,
+                vz: -velocity.z as f32,
+                yaw_rate: -yaw_rate as f32,
+                type_mask: position | acceleration | Mask::POSITION_TARGET_TYPEMASK_YAW_IGNORE,
+                target_system: self.peer.map_or(1, |(_, system)| system),
+                target_component: 1,
+                coordinate_frame,
+                ..SET_POSITION_TARGET_LOCAL_NED_DATA::DEFAULT
+            },
+        ))
+    }
+
+    /// Tells the vehicle that somebody is here, and what to send.
+    fn greet(&mut self) -> Result<(), DeviceError> {
+        if self.greeted.is_some_and(|at| at.elapsed() < HEARTBEAT) {
+            return Ok(());
+        }
+        self.greeted = Some(Instant::now());
+        self.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA {
+            custom_mode: 0,
+            mavtype: MavType::MAV_TYPE_ONBOARD_CONTROLLER,
+            autopilot: MavAutopilot::MAV_AUTOPILOT_INVALID,
+            base_mode: MavModeFlag::empty(),
+            system_status: MavState::MAV_STATE_ACTIVE,
+            mavlink_version: 3,
+        }))?;
+        let complete = |vehicle: &Vehicle| vehicle.landed.is_some();
+        if self.peer.is_some() && !self.vehicle.as_ref().is_some_and(complete) {
+            for message in TELEMETRY {
+                let parameters = [message as f32, INTERVAL, 0.0, 0.0, 0.0, 0.0, 0.0];
+                self.command(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, parameters)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a request may be sent now.
+    fn may_ask(&mut self) -> bool {
+        let may = self.asked.is_none_or(|at| at.elapsed() >= REPEAT);
+        if may {
+            self.asked = Some(Instant::now());
+        }
+        may
+    }
+
+    /// Takes what has arrived. The first autopilot that is heard is the vehicle; others are not listened to.
+    fn listen(&mut self) -> Result<(), DeviceError> {
+        let mut buffer = [0; 2048];
+        loop {
+            let (length, from) = match self.socket.recv_from(&mut buffer) {
+                Ok(received) => received,
+                Err(error) => match error.kind() {
+                    ErrorKind::WouldBlock => return Ok(()),
+                    ErrorKind::Interrupted | ErrorKind::ConnectionRefused => continue,
+                    _ => return Err(error.into()),
+                },
+            };
+            for (header, message) in wire::decode(&buffer[..length]) {
+                if self.peer.is_none()
+                    && let MavMessage::HEARTBEAT(data) = &message
+                    && let Some(autopilot) = Autopilot::of(data.autopilot)
+                    && let Ok(system) = u8::try_from(header.system_id)
+                {
+                    self.peer = Some((from, system));
+                    self.vehicle = Some(Vehicle::new(autopilot));
+                }
+                let known = self.peer == u8::try_from(header.system_id).ok().map(|id| (from, id));
+                if let Some(vehicle) = self.vehicle.as_mut().filter(|_| known) {
+                    vehicle.take(&message);
+                    self.heard = Instant::now();
+                    if self.fly.is_none() {
+                        self.fly = vehicle.landed.map(|landed| !landed);
+                    }
+                }
+            }
+        }
+    }
+
+    fn check(&self) -> Result<(), DeviceError> {
+        let fault = |text: String| Err(DeviceError::Fault(text));
+        if self.heard.elapsed() > SILENCE {
+            return fault(format!(
+                "no autopilot is heard on {}; does the vehicle send there?",
+                self.options.listen
+            ));
+        }
+        match &self.vehicle {
+            Some(vehicle) if vehicle.manual => {
+                fault("a pilot flies the vehicle by hand; it does not follow the program".into())
+            }
+            Some(vehicle) => match vehicle.refusal() {
+                Some(refused) => fault(format!("the autopilot refuses {refused}")),
+                None => Ok(()),
+            },
+            None => Ok(()),
+        }
+    }
+
+    /// Brings the vehicle into the mode in which it follows set-points, and arms it.
+    fn take_control(&mut self, autopilot: Autopilot) -> Result<(), DeviceError> {
+        let Some(vehicle) = &self.vehicle else {
+            return Ok(());
+        };
+        let (mode, armed) = (vehicle.mode, vehicle.armed);
+        if mode != Mode::External {
+            if self.may_ask() {
+                let [second, third] = autopilot.request(Mode::External);
+                let custom = MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED.bits();
+                let parameters = [f32::from(custom), second, third, 0.0, 0.0, 0.0, 0.0];
+                self.command(MavCmd::MAV_CMD_DO_SET_MODE, parameters)?;
+            }
+        } else if !armed && self.may_ask() {
+            let parameters = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+            self.command(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, parameters)?;
+        }
+        Ok(())
+    }
+
+    fn take_off(&mut self, autopilot: Autopilot) -> Result<(), DeviceError> {
+        let MavlinkOptions {
+            take_off_height,
+            take_off_speed,
+            ..
+        } = self.options;
+        let vehicle = self.vehicle.as_ref();
+        let height = vehicle.map_or(0.0, Vehicle::height);
+        let ready = vehicle.is_some_and(|vehicle| vehicle.armed && vehicle.mode == Mode::External);
+        let standing = vehicle.is_some_and(|vehicle| vehicle.landed == Some(true));
+        match autopilot {
+            // PX4 gives control to nobody who does not send set-points already.
+            Autopilot::Px4 => {
+                let rises = ready && height < take_off_height;
+                let climb = if rises { take_off_speed } else { 0.0 };
+                self.set_velocity(Point::new(0.0, 0.0, climb), 0.0)?;
+            }
+            Autopilot::ArduPilot => {
+                if ready && standing && self.may_ask() {
+                    let height = take_off_height as f32;
+                    let parameters = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, height];
+                    self.command(MavCmd::MAV_CMD_NAV_TAKEOFF, parameters)?;
+                }
+            }
+        }
+        self.take_control(autopilot)
+    }
+
+    fn land(&mut self) -> Result<(), DeviceError> {
+        let Some(vehicle) = &self.vehicle else {
+            return Ok(());
+        };
+        let landing = vehicle.mode == Mode::Land || vehicle.landed == Some(true);
+        if landing || !self.may_ask() {
+            return Ok(());
+        }
+        let nan = f32::NAN;
+        self.command(
+            MavCmd::MAV_CMD_NAV_LAND,
+            [0.0, 0.0, 0.0, nan, 0.0, 0.0, 0.0],
+        )
+    }
+
+    /// The velocity and rate of turn for a command in the air.
+    fn translate(&self, command: &Command) -> (Point, f64) {
+        match *command {
+            Command::Attitude {
+                yaw_rate,
+                pitch,
+                roll,
+                gaz,
+            } if is_flown(command) => {
+                let now = self.vehicle.as_ref().map_or(Point::ZERO, Vehicle::velocity);
+                // Beyond this the tangent grows without bound; no vehicle tilts so far.
+                let faster = |tilt: f64| GRAVITY * tan(tilt.clamp(-0.7, 0.7)) / VELOCITY_GAIN;
+                let velocity = Point::new(now.x + faster(pitch), now.y - faster(roll), gaz);
+                (velocity, yaw_rate)
+            }
+            _ => (Point::ZERO, 0.0),
+        }
+    }
+}
+
+impl Device for MavlinkVehicle {
+    /// Takes `TakeOff`, `Land`, `Hover`, `Stop` (which hovers) and `Attitude`. Any other command makes it hover and is a
+    /// fault. A landing goes on until `TakeOff`.
+    fn drive(&mut self, command: &Command, _: &Estimate) -> Result<(), DeviceError> {
+        self.greet()?;
+        match command {
+            Command::TakeOff => self.fly = Some(true),
+            Command::Land => self.fly = Some(false),
+            _ => {}
+        }
+        if let Some(vehicle) = &self.vehicle
+            && !vehicle.manual
+        {
+            let autopilot = vehicle.autopilot;
+            match (self.fly, command) {
+                (Some(true), Command::TakeOff) => self.take_off(autopilot)?,
+                (Some(true), _) => {
+                    let (velocity, yaw_rate) = self.translate(command);
+                    self.set_velocity(velocity, yaw_rate)?;
+                    self.take_control(autopilot)?;
+                }
+                (Some(false), _) => self.land()?,
+                (None, _) => {}
+            }
+        }
+        if !is_flown(command) {
+            return Err(DeviceError::Fault(format!(
+                "a MAVLink vehicle cannot do {command:?}; use TakeOff, Land, Hover, Stop or Attitude"
+            )));
+        }
+        self.check()
+    }
+
+    fn stop(&mut self) -> Result<(), DeviceError> {
+        self.greet()?;
+        self.fly = Some(false);
+        // It brakes even if the request to land is lost.
+        self.set_velocity(Point::ZERO, 0.0)?;
+        self.land()
+    }
+
+    fn read(&mut self) -> Result<Option<Reading>, DeviceError> {
+        self.listen()?;
+        self.greet()?;
+        if self.heard.elapsed() > SILENCE {
+            // It may come back with another address, or have been switched off.
+            self.peer = None;
+            self.vehicle = None;
+        }
+        self.check()?;
+        let Some(vehicle) = self.vehicle.as_mut() else {
+            return Ok(None);
+        };
+        if vehicle.landed.is_none() {
+            return Ok(None);
+        }
+        Ok(vehicle.reading())
+    }
+}
+
+/// Whether a command is one of a drone's, with finite numbers.
+fn is_flown(command: &Command) -> bool {
+    match *command {
+        Command::Stop | Command::Hover | Command::TakeOff | Command::Land => true,
+        Command::Attitude {
+            yaw_rate,
+            pitch,
+            roll,
+            gaz,
+        } => [yaw_rate, pitch, roll, gaz]
+            .iter()
+            .all(|number| number.is_finite()),
+        _ => false,
+    }
+}
+
+impl Drop for MavlinkVehicle {
+    /// Lands a vehicle in the air, and says so more than once, since nobody looks whether it is heard.
+    fn drop(&mut self) {
+        for _ in 0..5 {
+            self.asked = None;
+            let _ = self.stop();
+            let landed = |vehicle: &Vehicle| vehicle.landed == Some(true);
+            if self.vehicle.as_ref().is_none_or(landed) {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! What the vehicle has said of itself.
+
+use crate::Autopilot;
+use crate::autopilot::Mode;
+use mavlink::dialects::common::{
+    ATTITUDE_DATA, LOCAL_POSITION_NED_DATA, MavCmd, MavLandedState, MavMessage, MavModeFlag,
+    MavResult,
+};
+use starl_core::Point;
+use starl_core::math::sincos;
+use starl_node::Reading;
+use std::time::{Duration, Instant};
+
+/// An autopilot refuses what it is not ready for, such as a mode whose set-points have only begun.
+const PATIENCE: Duration = Duration::from_secs(3);
+
+/// A refusal that is older was of a command that is not sent any more.
+const RECENT: Duration = Duration::from_secs(1);
+
+/// A command that the vehicle refuses.
+#[derive(Clone, Copy, Debug)]
+struct Refusal {
+    command: MavCmd,
+    result: MavResult,
+    since: Instant,
+    last: Instant,
+}
+
+/// The newest of each kind of message.
+#[derive(Clone, Debug)]
+pub(crate) struct Vehicle {
+    pub autopilot: Autopilot,
+    pub mode: Mode,
+    pub armed: bool,
+    /// Whether a pilot steers it by hand.
+    pub manual: bool,
+    pub landed: Option<bool>,
+    position: Option<LOCAL_POSITION_NED_DATA>,
+    attitude: Option<ATTITUDE_DATA>,
+    /// Height of the floor, metres down in the vehicle's frame.
+    floor: Option<f32>,
+    battery: Option<f64>,
+    refused: Option<Refusal>,
+    fresh: bool,
+}
+
+impl Vehicle {
+    pub fn new(autopilot: Autopilot) -> Vehicle {
+        Vehicle {
+            autopilot,
+            mode: Mode::Other(0),
+            armed: false,
+            manual: false,
+            landed: None,
+            position: None,
+            attitude: None,
+            floor: None,
+            battery: None,
+            refused: None,
+            fresh: false,
+        }
+    }
+
+    pub fn take(&mut self, message: &MavMessage) {
+        match message {
+            MavMessage::HEARTBEAT(data) => {
+                self.mode = self.autopilot.mode(data.custom_mode);
+                let has = |flag| data.base_mode.contains(flag);
+                self.armed = has(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
+                self.manual = has(MavModeFlag::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED);
+            }
+            MavMessage::EXTENDED_SYS_STATE(data) => {
+                let landed = data.landed_state == MavLandedState::MAV_LANDED_STATE_ON_GROUND;
+                self.landed = Some(landed);
+            }
+            MavMessage::LOCAL_POSITION_NED(data) => {
+                let numbers = [data.z, data.vx, data.vy, data.vz];
+                if numbers.iter().all(|number| number.is_finite()) {
+                    if self.floor.is_none() || (self.landed == Some(true) && !self.armed) {
+                        self.floor = Some(data.z);
+                    }
+                    self.position = Some(data.clone());
+                    self.fresh = true;
+                }
+            }
+            MavMessage::ATTITUDE(data) if data.yaw.is_finite() => {
+                self.attitude = Some(data.clone());
+            }
+            MavMessage::SYS_STATUS(data) => {
+                // -1 means that it does not know.
+                let known = (0..=100).contains(&data.battery_remaining);
+                self.battery = known.then(|| 0.01 * f64::from(data.battery_remaining));
+            }
+            MavMessage::COMMAND_ACK(data) => self.acknowledge(data.command, data.result),
+            _ => {}
+        }
+    }
+
+    fn acknowledge(&mut self, command: MavCmd, result: MavResult) {
+        let now = Instant::now();
+        let before = self.refused.filter(|refusal| refusal.command == command);
+        let done = [
+            MavResult::MAV_RESULT_ACCEPTED,
+            MavResult::MAV_RESULT_IN_PROGRESS,
+        ];
+        if !done.contains(&result) {
+            self.refused = Some(Refusal {
+                command,
+                result,
+                since: before.map_or(now, |refusal| refusal.since),
+                last: now,
+            });
+        } else if before.is_some() {
+            self.refused = None;
+        }
+    }
+
+    /// What it goes on to refuse for longer than it takes to get ready.
+    pub fn refusal(&self) -> Option<String> {
+        let refusal = self.refused?;
+        let goes_on = refusal.last.elapsed() < RECENT && refusal.since.elapsed() > PATIENCE;
+        goes_on.then(|| format!("{:?}: {:?}", refusal.command, refusal.result))
+    }
+
+    /// Velocity in the vehicle's frame: metres per second forward, left and up.
+    pub fn velocity(&self) -> Point {
+        let (Some(position), Some(attitude)) = (&self.position, &self.attitude) else {
+            return Point::ZERO;
+        };
+        let [north, east, down] = [position.vx, position.vy, position.vz].map(f64::from);
+        let (sin, cos) = sincos(f64::from(attitude.yaw));
+        Point::new(cos * north + sin * east, sin * north - cos * east, -down)
+    }
+
+    /// Metres above the floor from which it has taken off.
+    pub fn height(&self) -> f64 {
+        match (&self.position, self.floor) {
+            (Some(position), Some(floor)) => f64::from(floor - position.z),
+            _ => 0.0,
+        }
+    }
+
+    /// What it has measured since the last call.
+    pub fn reading(&mut self) -> Option<Reading> {
+        let attitude = self.attitude.as_ref()?;
+        if !std::mem::take(&mut self.fresh) {
+            return None;
+        }
+        Some(Reading {
+            velocity: Some(self.velocity()),
+            height: Some(self.height()),
+            // The vehicle measures from north to the right.
+            heading: Some(-f64::from(attitude.yaw)),
+            battery: self.battery,
+            ..Reading::default()
+        })
+    }
+}
