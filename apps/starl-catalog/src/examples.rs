@@ -20,7 +20,7 @@ pub struct Example {
     pub files: &'static [(&'static str, &'static [u8])],
 }
 
-/// A scenario for programs that come without one: a few robots on the floor, and way-points. It names
+/// A scenario for programs that come without one: a few robots on the floor, and waypoints. It names
 /// no program.
 pub const DEFAULT_SCENARIO: &str = include_str!("default.toml");
 
@@ -44,7 +44,7 @@ macro_rules! example {
 pub const EXAMPLES: &[Example] = &[
     example!(
         "race",
-        "ground robots and quadcopters race through way-points",
+        "ground robots and quadcopters race through waypoints",
         "race",
         "race.toml",
         [

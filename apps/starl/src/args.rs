@@ -583,7 +583,7 @@ pub enum Workload {
     Swarm(SwarmArguments),
     /// Ground robots broadcast at every tick to about eight neighbours
     Radio(RadioArguments),
-    /// Ground robots drive to a far way-point, each running the program of the example Race
+    /// Ground robots drive to a far waypoint, each running the program of the example Race
     Race(RaceArguments),
 }
 

@@ -37,7 +37,7 @@ pub trait Witness {
     /// How long it is since the start and since a fault last overwrote the state of robots at random.
     fn uncorrupted(&self) -> Duration;
 
-    /// The application's way-points.
+    /// The application's waypoints.
     fn way_points(&self) -> &[WayPoint];
 
     /// The obstacles that stand and that all robots know of, the walls around the world included.

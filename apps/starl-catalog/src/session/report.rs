@@ -149,7 +149,7 @@ pub struct Member {
 pub struct World {
     /// The obstacles that stand, the walls around the world included.
     pub obstacles: Vec<Standing>,
-    /// The way-points.
+    /// The waypoints.
     pub way_points: Vec<WayPoint>,
     /// The things.
     pub things: Vec<Thing>,

@@ -45,7 +45,7 @@ fn are_the_same(sets: &[&str]) {
         starl.iter().filter(is_told).count()
     };
     let told: Vec<usize> = (0..SEEDS).into_par_iter().map(compare).collect();
-    // Four way-points are reached by some robot, and each of four robots finishes.
+    // Four waypoints are reached by some robot, and each of four robots finishes.
     assert!(told.iter().all(|&count| count > 20), "{told:?}");
 }
 

@@ -1,4 +1,4 @@
-//! Pictures of a run from above, as in figure 2.2 of the thesis: obstacles grey, way-points as red
+//! Pictures of a run from above, as in figure 2.2 of the thesis: obstacles grey, waypoints as red
 //! circles, each robot's path in its own colour, one scale in metres for both axes.
 //!
 //! A picture is first a list of shapes ([`drawing`]), made by [`scene`]; [`svg`] and [`png`] write the
@@ -34,7 +34,7 @@ pub struct PlotData {
     pub arena: Option<(Point, Point)>,
     /// The world's obstacles.
     pub obstacles: Vec<Obstacle>,
-    /// The application's way-points.
+    /// The application's waypoints.
     pub way_points: Vec<WayPoint>,
     /// The robots, in the order in which they get their colours.
     pub robots: Vec<RobotPath>,

@@ -1,5 +1,5 @@
 //! What a picture shows, from the back to the front: floor, obstacles, paths, marks, bodies, collisions,
-//! way-points, heading, legend.
+//! waypoints, heading, legend.
 
 use super::drawing::{Anchor, Drawing, Fill, Shape as Drawn, Spot, Stroke};
 use super::frame::Frame;
@@ -224,7 +224,7 @@ pub fn body_look(stroke: Stroke) -> (Fill, Stroke) {
     )
 }
 
-/// With more way-points than this they are dots without names: a drawing or a map, not places to go to.
+/// With more waypoints than this they are dots without names: a drawing or a map, not places to go to.
 const MOST_NAMES: usize = 24;
 
 fn draw_way_points(drawing: &mut Drawing, frame: &Frame, data: &PlotData) {

@@ -137,8 +137,8 @@ impl Account {
         }
         match self.properties.len() - used().count() {
             0 => {}
-            1 => writeln!(text, "1 more is about what this trace does not use")?,
-            many => writeln!(text, "{many} more are about what this trace does not use")?,
+            1 => writeln!(text, "1 more property does not apply (unused primitive)")?,
+            many => writeln!(text, "{many} more properties do not apply (unused primitives)")?,
         }
         for Property {
             property, first, ..

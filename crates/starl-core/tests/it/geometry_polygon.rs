@@ -1,4 +1,4 @@
-//! What counts as a convex polygon, and distances to one.
+//! The definition of a convex polygon, and distances to one.
 
 use crate::geometry_cases::Cases;
 use starl_core::geometry::{ConvexPolygon, Point, PolygonError};

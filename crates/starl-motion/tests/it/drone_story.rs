@@ -1,5 +1,5 @@
-//! What sets the quadcopter apart, as the thesis tells it (section 2.2): it takes off before it
-//! travels, flies faster than the ground robots, and overshoots more.
+//! The quadcopter differs from the others (thesis, section 2.2): it takes off before it travels,
+//! flies faster than the ground robots, and overshoots more.
 
 use crate::conformance::{CALM, Positioning, Run, every_model};
 use starl_core::math::{FRAC_PI_2, radians, sin, tan};

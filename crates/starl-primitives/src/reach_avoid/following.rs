@@ -114,7 +114,7 @@ impl ReachAvoid {
         false
     }
 
-    /// Moves on along the path as far as the robot has come; says whether that gave a new way-point.
+    /// Moves on along the path as far as the robot has come; says whether that gave a new waypoint.
     pub(super) fn advance(&mut self, robot: &Robot<'_>) -> bool {
         let Some(command) = &mut self.command else {
             return false;
@@ -139,7 +139,7 @@ impl ReachAvoid {
             ..
         } = self.options;
         let position = body.reachable(robot.position());
-        // At a way-point the way on is the planned one, but for a quarter of the vicinity.
+        // At a waypoint the way on is the planned one, but for a quarter of the vicinity.
         route.advance(position, 0.25 * vicinity, pass_radius, free)
     }
 

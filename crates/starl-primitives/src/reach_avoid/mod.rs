@@ -1,7 +1,7 @@
 //! ReachAvoid: go to a target, keep out of an unsafe set (thesis, section 3.2).
 //!
 //! It asks the host's planner for a path from where the robot has come to rest and feeds its points to
-//! the way-point tracker one by one. It plans again when the robot is pushed off the path or to where
+//! the waypoint tracker one by one. It plans again when the robot is pushed off the path or to where
 //! the straight way on is not free, when it comes no further, and when an obstacle that it had not
 //! known is in the way. Properties, under the thesis's assumptions (the actuators do
 //! not fail, positions are accurate to half the vicinity, a path of some width exists):
@@ -194,7 +194,7 @@ impl ReachAvoid {
         self.failed
     }
 
-    /// Where the path under way starts, then its way-points, metres.
+    /// Where the path under way starts, then its waypoints, metres.
     pub fn path(&self) -> Option<&[Point]> {
         match &self.command.as_ref()?.phase {
             Phase::Following { route, .. } => Some(route.points()),

@@ -118,7 +118,7 @@ impl Simulation {
                 let mut known = self.shared.way_points.iter();
                 known
                     .all(|point| point.name != *name)
-                    .then_some(("way-point", name))
+                    .then_some(("waypoint", name))
             }
             Intervention::RemoveThing { name } => {
                 let mut known = self.shared.things.names.iter();

@@ -94,7 +94,7 @@ pub struct Account {
     pub store: Option<Box<Store>>,
     /// What operators have told it and it has not heard yet, by time.
     pub orders: Vec<(Time, Order)>,
-    /// How many way-points ReachAvoid has reached.
+    /// How many waypoints ReachAvoid has reached.
     pub way_points: u32,
 }
 

@@ -372,7 +372,7 @@ impl Simulation {
         })
     }
 
-    /// The application's way-points.
+    /// The application's waypoints.
     pub fn places(&self) -> &[WayPoint] {
         &self.shared.way_points
     }
@@ -412,7 +412,7 @@ impl Simulation {
         self.mind(robot).distance
     }
 
-    /// How many way-points a robot's ReachAvoid has reached.
+    /// How many waypoints a robot's ReachAvoid has reached.
     pub fn way_points(&self, robot: RobotId) -> u32 {
         self.mind(robot).account.way_points
     }

@@ -105,7 +105,7 @@ impl Contents {
             )
         });
         for (kind, list) in [
-            ("way-point", way_points.collect::<Vec<_>>()),
+            ("waypoint", way_points.collect::<Vec<_>>()),
             ("thing", things.collect()),
         ] {
             let mut known = BTreeMap::new();

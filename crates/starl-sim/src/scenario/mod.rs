@@ -33,7 +33,7 @@ pub struct Scenario {
     pub duration: Duration,
     /// When the run has reached its goal.
     pub goal: Goal,
-    /// Obstacles, way-points and things.
+    /// Obstacles, waypoints and things.
     pub world: World,
     /// The robots.
     pub fleet: Fleet,

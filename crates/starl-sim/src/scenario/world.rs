@@ -2,7 +2,7 @@
 
 use starl_core::{ConvexPolygon, Obstacle, Point, Time, WayPoint};
 
-/// Obstacles, way-points and things.
+/// Obstacles, waypoints and things.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct World {
     /// Walls around everything; none by default.

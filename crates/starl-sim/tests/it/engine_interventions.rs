@@ -324,7 +324,7 @@ fn what_cannot_be_is_refused_with_a_reason_and_changes_nothing() {
         ),
         (
             Intervention::RemoveWayPoint { name: name() },
-            "there is no way-point C",
+            "there is no waypoint C",
         ),
     ] {
         assert_eq!(simulation.apply(at(0), what), Err(expected.into()));

@@ -1,5 +1,5 @@
 //! World files of StarL 1.5 are read as they are: with Windows line ends, comments, walls, hidden and
-//! expiring obstacles, groups of way-points, and no newline at the end.
+//! expiring obstacles, groups of waypoints, and no newline at the end.
 
 use crate::reading::{self, Files};
 use starl_core::{Point, Time};

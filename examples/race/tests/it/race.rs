@@ -40,7 +40,7 @@ fn indices(world: &World, name: &str, robot: u32) -> Vec<i64> {
         .collect()
 }
 
-/// The way-points that a robot arrived at or was told of, in the order of time.
+/// The waypoints that a robot arrived at or was told of, in the order of time.
 fn steps(world: &World, robot: u32) -> Vec<i64> {
     let step = |(_, id, event): &(Time, RobotId, Event)| match event {
         Event::Program { fields, .. } if id.0 == robot => Some(int(&fields[0].1)),

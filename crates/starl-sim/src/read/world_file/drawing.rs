@@ -1,4 +1,4 @@
-//! Reads the lines of an SVG drawing as way-points: each line is a stroke, a group of its own.
+//! Reads the lines of an SVG drawing as waypoints: each line is a stroke, a group of its own.
 //!
 //! One unit of the drawing is a millimetre, as in the other world files. Its lower left corner is the
 //! origin, and y points up. Curves become straight lines no longer than about [`STEP`].
@@ -24,7 +24,7 @@ const NOT_LINES: [&str; 3] = ["image", "text", "use"];
 /// A stroke's points in units of the drawing.
 type Stroke = Vec<(f64, f64)>;
 
-/// Adds the strokes of a drawing to the way-points. They are numbered on from the groups that there are.
+/// Adds the strokes of a drawing to the waypoints. They are numbered on from the groups that there are.
 pub(super) fn read(text: &str, start: Origin, contents: &mut Contents, report: &Report) {
     let at = |offset: usize| Origin {
         offset: offset as u32,
