@@ -1,11 +1,12 @@
-//! What checkers know before the first record: plain data that any host can fill in and write into its trace.
+//! The information of checkers before the first record: plain data that any host can fill in and write into
+//! its trace.
 
 use serde::{Deserialize, Serialize};
 use starl_core::event::Name;
 use starl_core::motion::Body;
 use starl_core::{Duration, Obstacle, RobotId, Time};
 
-/// What a checker knows before the first record.
+/// The information of a checker before the first record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Setting {

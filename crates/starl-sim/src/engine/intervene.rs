@@ -54,7 +54,8 @@ impl Simulation {
         }
     }
 
-    /// What has been applied to this run and when, what is yet to happen included, in the order in which it was applied.
+    /// The interventions applied to this run with their times, including future ones, in the order in which they were
+    /// applied.
     pub fn applied(&self) -> &[(Time, Intervention)] {
         self.agenda.applied()
     }
@@ -369,7 +370,7 @@ impl Simulation {
             .record(digest, robot, at, Event::Moved(state.pose));
     }
 
-    /// Robots go for good, on record as crashes. What they hold stays where they were.
+    /// Robots leave permanently, recorded as crashes. Things that they hold stay where they were.
     fn leave(&mut self, at: Time, robots: &[RobotId]) {
         self.have_changed = true;
         self.shared.gone.resize(self.shared.bodies.len(), false);

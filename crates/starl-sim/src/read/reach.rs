@@ -1,9 +1,9 @@
 //! Refuses waypoints that no robot of the fleet can ever reach.
 //!
-//! A waypoint passes if some robot can get within its program's vicinity of it. What is searched is
-//! a grid that takes a cell as free as soon as any point in it could be: so a waypoint is refused
-//! only if it is certainly out of reach, never because the grid is coarse. Obstacles that expire do
-//! not count, nor, for robots that fly, those they might fly over.
+//! A waypoint passes if some robot can get within its program's vicinity of it. The search uses a
+//! grid in which a cell is free if any point in it could be free. So a waypoint is refused only if
+//! it is certainly unreachable, never because the grid is coarse. Obstacles that expire do not
+//! count, nor, for robots that fly, those that they might fly over.
 
 use super::Placed;
 use super::report::Report;

@@ -64,7 +64,7 @@ pub(super) fn read(
             ..begin
         };
         if !line_of_fields.trim().is_empty() {
-            // What is wrong was reported; the next line may be right.
+            // The error was reported; the next line may be correct.
             let _ = file.line(line_of_fields, begin);
         }
         offset += line.len() + 1;

@@ -1,4 +1,4 @@
-//! What happens to a run besides faults: things and waypoints appear, operators speak, the world changes.
+//! Events of a run besides faults: things and waypoints appear, operators send orders, the world changes.
 
 use super::Bounds;
 use starl_core::{Intervention, RobotId, Time};
@@ -8,7 +8,7 @@ use starl_core::{Intervention, RobotId, Time};
 pub struct ScenarioEvent {
     /// When it takes place.
     pub occasion: Occasion,
-    /// What happens.
+    /// The intervention.
     pub what: Intervention,
 }
 

@@ -7,7 +7,7 @@ use starl_core::{ConvexPolygon, Obstacle, Point, Time, WayPoint};
 pub struct World {
     /// Walls around everything; none by default.
     pub bounds: Option<Bounds>,
-    /// What is in the way.
+    /// The obstacles.
     pub obstacles: Vec<WorldObstacle>,
     /// Places handed to every program.
     pub way_points: Vec<WayPoint>,

@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// What robots move in.
+/// The world that robots move in.
 pub(super) const WORLD: &[Field] = &[
     field(
         "files",

@@ -95,7 +95,7 @@ fn lower_left(svg: Node<'_, '_>) -> Option<(f64, f64)> {
     Some((0.0, number(svg, "height").ok()?))
 }
 
-/// What an element draws.
+/// The strokes of an element.
 fn strokes(node: Node<'_, '_>) -> Result<Vec<Stroke>, String> {
     let get = |name| number(node, name);
     let name = node.tag_name().name();
@@ -231,7 +231,7 @@ fn transform_of(node: Node<'_, '_>) -> Result<Transform, String> {
     Ok(whole)
 }
 
-/// What first does `inner`, then `outer`.
+/// The transform that applies `inner` first, then `outer`.
 fn joined(outer: Transform, inner: Transform) -> Transform {
     let Transform { a, b, c, d, e, f } = inner;
     let turned = |x: f64, y: f64| (outer.a * x + outer.c * y, outer.b * x + outer.d * y);
