@@ -16,7 +16,7 @@ pub struct Setting {
     pub obstacles: Vec<(Obstacle, Time)>,
     /// How many of them, the last, are the walls around the world.
     pub walls: usize,
-    /// What is checked, and within which bounds.
+    /// The checked properties, and their bounds.
     pub properties: Properties,
     /// Properties that were watched on the running programs themselves, by a [`Monitor`](crate::Monitor): records do
     /// not show them.
@@ -57,7 +57,7 @@ impl Default for Setting {
     }
 }
 
-/// What is checked while a run goes on.
+/// The properties that are checked during a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Properties {
@@ -89,19 +89,19 @@ pub struct Properties {
     pub election_bound: Duration,
     /// Mutex's safety, non-interference, progress and growing numbers; default true.
     pub mutex: bool,
-    /// What is free is granted within this time; default 35 s.
+    /// A free resource is granted within this time; default 35 s.
     pub mutex_bound: Duration,
     /// Linearizability of registers; default true.
     pub register: bool,
     /// Registration: agreement, exclusion, soundness, progress and convergence; default true.
     pub registration: bool,
-    /// Robots agree on who takes part within this time, the thesis's d2; default 35 s.
+    /// Robots agree on the participants within this time, the thesis's d2; default 35 s.
     pub registration_bound: Duration,
     /// Barrier: safety and progress; default true.
     pub barrier: bool,
     /// Robots pass within this time of the arrival of the last; default 35 s.
     pub barrier_bound: Duration,
-    /// What programs in the StarL language say of themselves; default true.
+    /// The properties that programs in the StarL language declare; default true.
     pub program: bool,
 }
 

@@ -26,8 +26,8 @@ impl Simulation {
     /// the same goes on alike.
     ///
     /// # Errors
-    /// What is wrong with the intervention: numbers that make no sense, robots that there are not, and, if it
-    /// is to happen now, names and indices of nothing in the world.
+    /// The error of the intervention: invalid numbers, unknown robots, and, if it is to happen now, unknown
+    /// names and indices.
     pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), String> {
         let what = what.tidy();
         if !what.is_valid() {
