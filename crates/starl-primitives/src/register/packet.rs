@@ -19,7 +19,7 @@ pub(super) struct Datagram {
     pub content: Content,
 }
 
-/// What it says.
+/// The content.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Content {
     /// The sender has just started. In the first stage it asks for the number of its last life; in the

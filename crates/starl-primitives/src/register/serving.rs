@@ -1,4 +1,4 @@
-//! What a participant answers, and how copies and lives become known.
+//! A participant's answers, and the spread of copies and lives.
 //!
 //! Invariant: only a participant that is up answers, and what it has acknowledged it has.
 
