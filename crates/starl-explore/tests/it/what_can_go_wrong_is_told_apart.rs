@@ -8,7 +8,7 @@ use starl_core::{
 use starl_explore::{Bounds, Clocks, End, FAILED, STUCK, Step};
 use std::fmt::Write;
 
-/// Robot 0 greets robot 1 once; whoever has greeted or was greeted finishes.
+/// Robot 0 greets robot 1 once; a robot that has greeted or was greeted finishes.
 #[derive(Clone, Debug, Default, Primitives)]
 struct Greeter {
     /// Greets again when this fires.
@@ -89,7 +89,7 @@ fn who_waits_for_what_was_lost_is_stuck() {
         }
         other => panic!("{other:?}"),
     }
-    // With goals of another kind nobody needs to finish.
+    // With other goals the robots need not finish.
     setup.model.all_finish = false;
     assert_eq!(search(setup).run(), &End::Complete);
 }

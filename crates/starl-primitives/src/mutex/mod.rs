@@ -1,8 +1,8 @@
 //! Mutual exclusion on sets of named resources (thesis, section 3.4.3).
 //!
 //! A robot requests several resources at once, gets all of them at once, and releases them together or one
-//! by one. The [`Algorithm`] decides who gets them: permission of all others, grants of a quorum, or leases
-//! of a majority. Their guarantees are the same:
+//! by one. The [`Algorithm`] decides when it gets them: permission of all others, grants of a quorum, or
+//! leases of a majority. Their guarantees are the same:
 //! - safety: no resource is held by two robots at once, whatever the network does and whichever robots
 //!   crash and restart. With leases this requires that clocks keep the bound of [`Options::drift`]; if they
 //!   do not, [`Mutex::fencing`] identifies the later holder;

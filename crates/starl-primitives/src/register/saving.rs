@@ -1,4 +1,5 @@
-//! What outlasts a restart, on robots with storage: the copies and promises, and the crash vector.
+//! The state that survives a restart, on robots with storage: the copies and promises, and the
+//! crash vector.
 //!
 //! A robot that finds its own life on storage answers immediately, in the same life: all its acknowledgements
 //! were on storage before others could see them. So does a robot with empty storage that never lost anything: no

@@ -15,7 +15,7 @@ pub(super) struct Datagram<C> {
     pub content: C,
 }
 
-/// What it says.
+/// The content.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum Content {
     /// To all: elements to merge.

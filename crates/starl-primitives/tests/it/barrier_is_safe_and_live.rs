@@ -1,5 +1,5 @@
-//! Nobody passes a barrier before all have come to it, whatever the network does and whichever robots crash
-//! and restart; and when all have come, all pass.
+//! No robot passes a barrier before all have arrived, whatever the network does and whichever robots crash
+//! and restart; and when all have arrived, all pass.
 
 use crate::harness::crosser::{Crosser, arrive, barrier, crosser, crossings};
 use crate::harness::{Wire, World};
@@ -150,7 +150,7 @@ fn late_joiners_are_waited_for() {
         }
         world.run_for(SECOND * 40);
         assert!(crosser(&world, 4).crossings >= 10, "seed {seed}");
-        // Who joins has not come to what was passed before; from then on all are counted.
+        // A robot that joins has not arrived at earlier generations; from then on all are counted.
         for robot in 0..5 {
             let ahead = barrier(&world, robot).generation();
             assert!(ahead.abs_diff(barrier(&world, 4).generation()) <= 1);

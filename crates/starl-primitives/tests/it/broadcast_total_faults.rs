@@ -1,5 +1,5 @@
-//! What becomes of a totally ordered broadcast when its leader dies, when the fleet falls apart, when a
-//! robot is away for long, when most robots stop at once, and when someone joins late.
+//! A totally ordered broadcast when its leader dies, when the network is partitioned, when a robot is
+//! away for long, when most robots stop at once, and when a robot joins late.
 
 use crate::harness::teller::{Id, Step, Teller, runs, sequences, tell, teller, total_violation};
 use crate::harness::{Wire, World};
@@ -182,7 +182,7 @@ fn a_group_that_has_lost_its_majority_is_followed_by_another() {
         for robot in 0..5 {
             assert!(!teller(&world, robot).failed(), "seed {seed}");
         }
-        // Those who were in the group before say that they may have missed something.
+        // The members of the earlier group report that they may have missed messages.
         assert!(world.events("gap").len() >= 2, "seed {seed}");
     }
 }

@@ -15,7 +15,7 @@ struct Troubled {
     world: World,
     random: Random,
     count: u32,
-    /// How many events there were before, and who.
+    /// The number of events before each crash, and the robot.
     crashes: Vec<(usize, u32)>,
     down: Vec<u32>,
     /// Whether a majority may forget at once.

@@ -1,5 +1,5 @@
-//! A robot that has heard of nobody yet, as it has just restarted, is not served before those who wait already.
-//! Where ever new robots came, these would wait for ever.
+//! A robot that has not heard from any other, because it has just restarted, is not served before those that
+//! wait already. Otherwise a stream of new robots would starve them.
 
 use crate::harness::locker::{ALGORITHMS, Locker, acquire, mutex, release, set};
 use crate::harness::{Wire, World};

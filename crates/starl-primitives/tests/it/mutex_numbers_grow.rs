@@ -20,7 +20,7 @@ fn set_clocks(world: &mut World, random: &mut Random) {
     }
 }
 
-/// Who went on without knowing the last number.
+/// The robots that continued without knowing the last number.
 fn anew(world: &World) -> Vec<u32> {
     let mut anew = Vec::new();
     for (_, robot, event) in &world.records {

@@ -1,4 +1,4 @@
-//! What robots are handed is judged by the order that the instance promises.
+//! Deliveries are judged by the order of the instance.
 
 use crate::support::{Story, assert_none, assert_only, seconds};
 use starl_core::RobotId;

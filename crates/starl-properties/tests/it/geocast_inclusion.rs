@@ -19,7 +19,7 @@ fn sent_to(area: Area) -> Story {
     story
 }
 
-/// Robots 0 and 1 are inside, robot 2 is far away; nobody delivers.
+/// Robots 0 and 1 are inside, robot 2 is far away; no robot delivers.
 fn silence() -> Story {
     let mut story = sent_to(circle());
     story.stays(0, 20_000, 0, at(-0.5, 0.0));

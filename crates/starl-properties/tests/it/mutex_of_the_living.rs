@@ -68,7 +68,7 @@ fn a_minority_need_not_go_on_and_a_majority_has_to_as_soon_as_it_is_ready() {
         story.excused(30_000, NON_INTERFERENCE),
         [(Excuse::NoMajority, 1)]
     );
-    // Whoever has started has forgotten what it granted until it says otherwise.
+    // A robot that has started has forgotten its grants until it reports otherwise.
     story.fault(10_000, Some(2), "restart");
     assert_none(&story.verdict(30_000));
     ready(&mut story, 12_000, 2, 3, true);

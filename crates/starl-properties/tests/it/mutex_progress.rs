@@ -1,5 +1,4 @@
-//! What is free is granted within the bound: to a request that nobody else's overlaps with, and to one of those
-//! that overlap.
+//! A free resource is granted within the bound: to a request without overlap, and to one of those that overlap.
 
 use crate::support::{Story, assert_none, assert_only, seconds};
 
@@ -56,7 +55,7 @@ fn those_who_wait_for_each_other_are_reported_together() {
     story.locks(2500, 2, "acquire", "c");
     let verdict = story.verdict(20_000);
     assert_only(&verdict, PROGRESS, 6000, &[0]);
-    // Whoever holds something at the end of the row is waited for.
+    // A holder at the end of the row is waited for.
     let mut story = story_with_a_holder();
     assert_none(&story.verdict(20_000));
     story.locks(3000, 2, "release", "d");

@@ -153,7 +153,7 @@ fn who_restarts_in_its_fall_sinks_on_for_a_moment() {
 
 #[test]
 fn who_restarts_in_its_fall_and_goes_down_by_itself_collides() {
-    // It never rises, but two seconds after its restart nobody falls.
+    // It never rises, but two seconds after its restart no robot falls.
     let story = restart_in_the_fall((0.9, 0.7), 1050, 3100);
     let verdict = story.verdict(3100);
     assert_only(&verdict, "no_collision", 3100, &[0, 1]);

@@ -183,7 +183,7 @@ fn after_a_majority_forgot(operations: &[(u32, &'static str, u64, u64, i64)]) ->
 
 #[test]
 fn it_is_judged_again_when_a_majority_is_back_though_a_robot_stays_dead() {
-    // What a lost majority wrote may be there or not, and what it then turns out to be stays.
+    // A write of a lost majority may exist or not, and its later state stays.
     for found in [0, 5] {
         let reads = [(2, "read", 40_000, 40_100, found)];
         assert_none(&after_a_majority_forgot(&reads).verdict(60_000));

@@ -1,4 +1,4 @@
-//! Nobody shows a write of a causal variable without those that its writer showed.
+//! No robot shows a write of a causal variable without those that its writer showed.
 
 use crate::support::{Story, assert_none, assert_only};
 use starl_core::Value;

@@ -242,7 +242,7 @@ fn robots_in_the_same_part_owe_each_other() {
     assert_only(&verdict, PROPERTY, 6000, &[0, 2]);
 }
 
-/// What was sent before the partition set in says nothing of its parts.
+/// Messages sent before the partition began do not show its parts.
 #[test]
 fn a_datagram_from_before_the_partition_joins_nobody() {
     let mut story = robot_2_shows_nothing();
@@ -283,7 +283,7 @@ fn a_corrupted_memory_is_not_judged_for_what_was_written_before_or_until_it_spea
     assert_only(&story.verdict(60_000), PROPERTY, 25_000, &[0, 2]);
 }
 
-/// What a corruption brought into the world is to be agreed on like anything else.
+/// Robots must agree on invented state of a corruption like on any other.
 #[test]
 fn garbage_that_spreads_is_to_reach_all() {
     let mut story = robot_2_shows_nothing();

@@ -1,4 +1,5 @@
-//! What a robot shows of a shared variable never goes back to an earlier write while it is up.
+//! The value of a shared variable that a robot shows never goes back to an earlier write while it
+//! is up.
 
 use crate::support::{Story, assert_none, assert_only};
 

@@ -330,7 +330,7 @@ fn what_cannot_be_is_refused_with_a_reason_and_changes_nothing() {
         assert_eq!(simulation.apply(at(0), what), Err(expected.into()));
     }
     assert_eq!(simulation.digest(), digest);
-    // What may be there by then is warned of when it is not.
+    // A missing target of a later intervention causes a warning.
     let later = Intervention::RemoveThing { name: name() };
     simulation
         .apply(at(1000), later)

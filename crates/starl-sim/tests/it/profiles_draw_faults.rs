@@ -1,5 +1,5 @@
-//! What profiles make of a scenario: the same for the same seed, within the time that there is, and no
-//! worse than they say.
+//! The scenarios of profiles: the same for the same seed, within the given time, and within their
+//! stated limits.
 
 use crate::broken::{self, robots};
 use starl_core::{Duration, RobotId, Time};

@@ -2,7 +2,7 @@
 //! agrees.
 //!
 //! Within a group this is Raft (Ongaro and Ousterhout 2014), a relative of Viewstamped Replication (Liskov
-//! and Cowling 2012): a leader adds messages to a log, an entry that a majority of the fleet has is
+//! and Cowling 2012). A leader adds messages to a log. An entry that a majority of the fleet has is
 //! decided, and each robot delivers the decided entries in the order of the log.
 //!
 //! Where ours differs: nothing is kept when a robot stops. A robot that restarts is a different voter without

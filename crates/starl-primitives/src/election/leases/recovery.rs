@@ -6,8 +6,8 @@
 //!
 //! Invariant: the robot learns every epoch with a leader by its forgotten vote, unless a majority has
 //! forgotten at once. The others voted for that epoch while the robot waited, or before; therefore it asks
-//! only afterwards. (Recovery as in Viewstamped Replication Revisited, Liskov and Cowling 2012, may ask too
-//! early: see Michael, Ports, Sharma and Szekeres 2017, who solve it differently.)
+//! only afterwards. Recovery as in Viewstamped Replication Revisited (Liskov and Cowling 2012) may ask too
+//! early: see Michael, Ports, Sharma and Szekeres 2017, with a different solution.
 //!
 //! If a majority is recovering at once, all memory may be lost, and waiting for it is useless. This is the case
 //! when a fleet starts. Then these robots start again, from the latest epoch that any of them has heard of and from
