@@ -8,9 +8,9 @@ use starl_sim::read::{Loader, Source};
 /// An example: a scenario and the files that it names.
 #[derive(Clone, Copy, Debug)]
 pub struct Example {
-    /// What it is called on the command line.
+    /// Its name on the command line.
     pub name: &'static str,
-    /// What one sees, in one line.
+    /// A description, in one line.
     pub summary: &'static str,
     /// Its scenario's path in the repository, by which errors call it.
     pub path: &'static str,
@@ -204,7 +204,7 @@ impl Example {
     }
 }
 
-/// What names of examples' files begin with where they stand in other scenarios: `example:race/race.starl`.
+/// The prefix of examples' files in other scenarios: `example:race/race.starl`.
 const GLOBAL: &str = "example:";
 
 /// A loader that knows the files of all examples by their names besides what it has from another, which

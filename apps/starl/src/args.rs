@@ -19,12 +19,12 @@ fn whole(low: u32, high: u32) -> impl Fn(&str) -> Result<u32, String> + Clone + 
 #[derive(Parser, Debug)]
 #[command(name = "starl", version, arg_required_else_help = true)]
 pub struct Arguments {
-    /// What to do.
+    /// The subcommand.
     #[command(subcommand)]
     pub command: Command,
 }
 
-/// What to do.
+/// The subcommands.
 #[derive(Subcommand, Debug)]
 pub enum Command {
     /// Run an example, a scenario file or a program in the simulator
@@ -37,7 +37,7 @@ pub enum Command {
     Explore(ExploreArguments),
     /// Look for violations: run with many seeds and kinds of faults, and shrink what fails
     Test(TestArguments),
-    /// Draw who said what to whom, and when, as a space-time diagram
+    /// Draw the messages of a run as a space-time diagram
     Diagram(DiagramArguments),
     /// Check programs and libraries of the language
     Check(CheckArguments),
@@ -53,13 +53,13 @@ pub enum Command {
     Robot(RobotArguments),
     /// Run a real fleet, ask how it is, stop it, and join what its robots recorded
     Fleet {
-        /// What to do.
+        /// The subcommand.
         #[command(subcommand)]
         command: FleetCommand,
     },
     /// Stand in for robots' hardware: the simulator's models behind the wire protocols of real devices
     Emulate {
-        /// What to emulate.
+        /// The device to emulate.
         #[command(subcommand)]
         what: EmulateArguments,
     },
@@ -78,8 +78,8 @@ pub enum Command {
 pub struct RunArguments {
     /// An example's name (see `starl list`), a scenario file, or a program: a file ending in .starl
     pub target: String,
-    /// What to run a program in: a scenario file or an example's name [default: the program's own
-    /// name with .toml, or else a few robots on an empty floor]
+    /// The scenario for a program: a scenario file or an example's name
+    /// [default: the program's own name with .toml, or else a few robots on an empty floor]
     #[arg(long, value_name = "SCENARIO")]
     pub scenario: Option<String>,
     /// Another fleet: models with how many of each, e.g. create=2,drone=2
@@ -167,7 +167,7 @@ pub struct RobotArguments {
     pub quiet: bool,
 }
 
-/// What to emulate.
+/// The devices to emulate.
 #[derive(Subcommand, Debug)]
 pub enum EmulateArguments {
     /// All devices that a fleet file names, in the world of its scenario
@@ -199,18 +199,18 @@ pub struct EmulateFleet {
     pub fleet: PathBuf,
 }
 
-/// What to do with a real fleet.
+/// The subcommands for a real fleet.
 #[derive(Subcommand, Debug)]
 pub enum FleetCommand {
     /// Run all robots on this machine, each in its own process, and judge what they did
     Up(FleetUpArguments),
-    /// Show who is alive, where it is, what it does, and how well it hears the others
+    /// Show the robots that are alive, with their positions, states and link qualities
     Status(FleetStatusArguments),
     /// Stop the motors of all robots at once, and then the robots
     Stop(FleetStopArguments),
     /// Join the robots' traces on one time axis
     Merge(FleetMergeArguments),
-    /// Make the fleet's key, without which nobody can take part
+    /// Create the fleet's key, which every member needs
     Key(FleetKeyArguments),
 }
 
@@ -282,10 +282,10 @@ pub struct FleetKeyArguments {
     pub change: bool,
 }
 
-/// What changes a target that is run many times, or drawn.
+/// Changes of a target that is run many times, or drawn.
 #[derive(Args, Debug, Default)]
 pub struct ChangeArguments {
-    /// What to run a program in, as for `starl run`
+    /// The scenario for a program, as for `starl run`
     #[arg(long, value_name = "SCENARIO")]
     pub scenario: Option<String>,
     /// Another fleet, as for `starl run`
@@ -421,7 +421,7 @@ pub struct VerifyArguments {
 pub struct ExploreArguments {
     /// An example's name, a scenario file, or a program, as for `starl run`
     pub target: Option<String>,
-    /// What to explore a program in, as for `starl run`
+    /// The scenario for a program, as for `starl run`
     #[arg(long, value_name = "SCENARIO")]
     pub scenario: Option<String>,
     /// The first N of the scenario's robots [default: 3, or all if there are fewer]
@@ -442,7 +442,7 @@ pub struct ExploreArguments {
     /// Let all that was once sent arrive any number of times, or never
     #[arg(long, conflicts_with_all = ["duplicates", "loss"])]
     pub any_copies: bool,
-    /// Crashes, at most; who is down may start again at any time
+    /// Maximum number of crashes; a robot that is down may restart at any time
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub crashes: u8,
     /// Suspicions by failure detectors, true or false, and ends of suspicions, at most
@@ -571,7 +571,7 @@ pub struct ListArguments {
 /// Arguments of `starl bench`.
 #[derive(Args, Debug)]
 pub struct BenchArguments {
-    /// What to measure.
+    /// The workload.
     #[command(subcommand)]
     pub workload: Workload,
 }
@@ -587,7 +587,7 @@ pub enum Workload {
     Race(RaceArguments),
 }
 
-/// What all workloads have in common.
+/// The common options of all workloads.
 #[derive(Args, Debug)]
 pub struct LoadArguments {
     /// Simulated seconds
@@ -610,7 +610,7 @@ pub struct SwarmArguments {
     /// How many robots
     #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = whole(1, MOST_ROBOTS))]
     pub robots: u32,
-    /// What all workloads have in common.
+    /// The common options of all workloads.
     #[command(flatten)]
     pub load: LoadArguments,
 }
@@ -624,7 +624,7 @@ pub struct RadioArguments {
     /// Bodies block the radio
     #[arg(long)]
     pub occluded: bool,
-    /// What all workloads have in common.
+    /// The common options of all workloads.
     #[command(flatten)]
     pub load: LoadArguments,
 }
@@ -638,7 +638,7 @@ pub struct RaceArguments {
     /// Run the program that is written in Rust in the place of the one in the StarL language
     #[arg(long)]
     pub native: bool,
-    /// What all workloads have in common.
+    /// The common options of all workloads.
     #[command(flatten)]
     pub load: LoadArguments,
 }

@@ -22,7 +22,7 @@
 use starl_core::{Message, Primitive, Primitives, Program, Random, Robot, WayPoint};
 use starl_primitives::{Broadcast, ReachAvoid, reach_avoid, reliable};
 
-/// What the robot does next.
+/// The state of the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
     /// Start.
@@ -69,7 +69,7 @@ impl Race {
         }
     }
 
-    /// What the robot does next.
+    /// The state of the robot.
     pub fn location(&self) -> Location {
         self.location
     }
@@ -79,7 +79,7 @@ impl Race {
         self.current_index
     }
 
-    /// A fault has overwritten the index with what cannot be: it begins anew.
+    /// A fault has overwritten the index with an impossible value: the program restarts.
     fn recover(&mut self, robot: &mut Robot<'_>) {
         let is_beyond = self.current_index as usize > robot.way_points().len();
         if self.location != Location::Init && is_beyond {

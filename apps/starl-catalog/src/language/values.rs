@@ -1,4 +1,4 @@
-//! What a scenario gives as parameters, as values of the types that a program declares.
+//! The parameters of a scenario, as values of the types that a program declares.
 
 use crate::parameters::{Complaint, complaint, describe};
 use starl_core::{Point, Time};
@@ -115,7 +115,7 @@ impl Reader<'_> {
         self.bytecode.types.get(usize::from(number))
     }
 
-    /// What is to be written in the scenario for a value of this type.
+    /// The form of a value of this type in scenarios.
     fn expected(&self, kind: &Type) -> String {
         match kind {
             Type::Bool => "true or false".into(),

@@ -28,9 +28,9 @@ pub struct Registry(Vec<Entry>);
 /// A program with its name.
 #[derive(Clone)]
 pub struct Entry {
-    /// What scenarios call it.
+    /// Its name in scenarios.
     pub name: String,
-    /// What it does, in one line.
+    /// A description, in one line.
     pub summary: String,
     make: Arc<Make>,
 }

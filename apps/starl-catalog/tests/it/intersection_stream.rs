@@ -1,5 +1,5 @@
-//! Streams of cars that come at random all get through, under every kind of fault that is mended; and where cars
-//! break down for good nobody runs into them, and who does not get on knows it.
+//! Streams of cars that arrive at random all get through, under every kind of temporary fault. Where cars break
+//! down permanently there are no collisions, and cars that are stuck know it.
 
 use crate::intersection_support::{Traffic, drive};
 use rayon::prelude::*;

@@ -7,7 +7,7 @@ use starl_core::{Event, Record};
 
 const SEEDS: u64 = 100;
 
-/// What the program and the robots did, in the order of time.
+/// The actions of the program and the robots, in the order of time.
 fn history(program: &str, seed: u64, sets: &[&str]) -> Vec<Record> {
     let program = format!("program={program}");
     let sets: Vec<&str> = sets.iter().copied().chain([&*program]).collect();

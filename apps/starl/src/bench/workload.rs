@@ -5,7 +5,7 @@ use crate::args::{LoadArguments, RaceArguments, RadioArguments, SwarmArguments};
 
 /// A scenario to measure.
 pub struct Workload {
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
     /// The scenario file.
     pub scenario: String,

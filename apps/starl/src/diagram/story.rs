@@ -60,7 +60,7 @@ pub struct Mark {
     pub kind: MarkKind,
 }
 
-/// What kind of thing a robot did.
+/// The kind of a robot's action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MarkKind {
     /// A primitive reported something.
@@ -265,7 +265,7 @@ impl Story {
     }
 }
 
-/// What an event is called, with the values that fit on a label.
+/// The name of an event, with the values that fit on a label.
 fn with_fields(name: &str, fields: &[(&str, ValueRef<'_>)]) -> String {
     let shown = fields.iter().filter_map(|(_, value)| short(*value));
     let words: Vec<String> = std::iter::once(name.to_string()).chain(shown).collect();

@@ -23,7 +23,7 @@ use starl_core::event::MarkShape;
 use starl_core::{Obstacle, Point, WayPoint};
 use std::collections::BTreeMap;
 
-/// What a picture shows. Coordinates that are not finite are left out.
+/// The content of a picture. Coordinates that are not finite are omitted.
 #[derive(Clone, Debug, Default)]
 pub struct PlotData {
     /// First line of the heading, e.g. the example's name.
@@ -55,7 +55,7 @@ pub struct RobotPath {
     pub flies: bool,
     /// Its true positions in the order of time, metres.
     pub path: Vec<Point>,
-    /// What its program has drawn and not taken away, by label.
+    /// Its program's current drawings, by label.
     pub marks: BTreeMap<String, MarkShape>,
 }
 

@@ -1,4 +1,4 @@
-//! What there is to say of a trace that was judged, for people and for programs alike.
+//! The report of a judged trace, for people and for programs.
 
 use super::Judged;
 use crate::console::{counted, grouped};
@@ -89,7 +89,7 @@ impl Account {
         }
     }
 
-    /// What people read.
+    /// The text for people.
     pub fn text(&self) -> String {
         let mut text = String::new();
         // Writing to a string does not fail.

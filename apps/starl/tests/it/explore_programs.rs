@@ -226,7 +226,7 @@ fn a_way_that_cannot_be_gone_any_more_is_told() {
     let output = explore(&folder, &[&target, "--save", "way.json", "--quiet"]);
     assert_eq!(status(&output), 1);
     let text = std::fs::read_to_string(folder.join("way.json")).expect("it is there");
-    // Somebody has mended the program.
+    // The program has been fixed.
     let mended = text.replace("asked < time", "asked <= time");
     assert_ne!(text, mended);
     file(&folder, "way.json", &mended);

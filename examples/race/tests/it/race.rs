@@ -1,4 +1,5 @@
-//! Race on a small host whose robots move as they like: who arrives first tells the others, and all finish.
+//! Race on a small host whose robots move as they like: the first to arrive tells the others, and all
+//! finish.
 
 use crate::harness::{Wire, World, int};
 use starl_core::{Duration, Event, Point, RobotId, Time, WayPoint};
