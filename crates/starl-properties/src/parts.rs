@@ -164,13 +164,13 @@ mod tests {
     }
 
     #[test]
-    fn who_is_heard_is_in_the_same_part() {
+    fn a_robot_that_is_heard_is_in_the_same_part() {
         assert!(!together_after(Fault::Partition, &[]));
         assert!(together_after(Fault::Partition, &[(0, 1)]));
     }
 
     #[test]
-    fn who_is_heard_and_does_not_hear_may_be_apart() {
+    fn a_robot_that_is_heard_and_does_not_hear_may_be_apart() {
         assert!(!together_after(Fault::OneWay, &[(0, 1)]));
         assert!(together_after(Fault::OneWay, &[(0, 1), (1, 0)]));
     }

@@ -123,7 +123,7 @@ fn nothing_is_held_twice_a_while_after_a_corruption_of_state() {
 /// Two robots tried other quorums while the network was parted, and what they gave back was not heard: of their old
 /// requests one was granted and the other waited for it.
 #[test]
-fn requests_that_were_given_back_unheard_block_nobody() {
+fn requests_with_lost_releases_block_no_robot() {
     let faults = "
         [[fault]]
         at = \"700ms\"

@@ -131,7 +131,7 @@ fn what_a_robot_searched_before_a_crash_is_not_searched_again() {
 
 /// The lobby is 20 m long, and the rooms that are given out first are the nearest to it.
 #[test]
-fn nobody_goes_round_the_building() {
+fn no_robot_drives_round_the_building() {
     (1..=4).into_par_iter().for_each(|seed| {
         let story = Story::of(Case::new("search-building", &["duration=4s"], seed));
         assert!(story.paths.len() >= 10, "{seed}: {}", story.paths.len());

@@ -74,7 +74,7 @@ fn all_is_explored() {
 }
 
 #[test]
-fn who_waits_for_what_was_lost_is_stuck() {
+fn a_robot_that_waits_for_a_lost_message_is_stuck() {
     let bounds = Bounds {
         losses: 1,
         ..Bounds::default()
@@ -95,7 +95,7 @@ fn who_waits_for_what_was_lost_is_stuck() {
 }
 
 #[test]
-fn who_repeats_it_is_not_stuck() {
+fn a_robot_that_retransmits_is_not_stuck() {
     for timers in [0, 1, 2] {
         let greeter = Greeter {
             patience: Some(Duration::from_millis(100)),

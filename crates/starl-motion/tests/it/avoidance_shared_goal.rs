@@ -33,14 +33,14 @@ fn race(model: &'static str, count: u32, bound: f64) {
 }
 
 #[test]
-fn the_first_of_six_arrives_at_each_way_point() {
+fn the_first_of_six_arrives_at_each_waypoint() {
     for model in AGILE {
         race(model, 6, 40.0);
     }
 }
 
 #[test]
-fn the_first_of_twelve_arrives_at_each_way_point() {
+fn the_first_of_twelve_arrives_at_each_waypoint() {
     for model in ["create", "holonomic", "differential"] {
         race(model, 12, 60.0);
     }

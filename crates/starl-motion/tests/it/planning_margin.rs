@@ -134,7 +134,7 @@ fn a_passage_narrower_than_positions_err_is_no_way() {
 }
 
 #[test]
-fn nobody_squeezes_past_a_robot_that_stands_in_a_door() {
+fn no_robot_squeezes_past_a_robot_in_a_door() {
     // A door of one metre, a dead robot beside one of its posts, 6 mm more than the body on either side;
     // round the end of the wall is another way.
     let model = model("create");

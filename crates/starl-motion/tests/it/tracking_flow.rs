@@ -20,7 +20,7 @@ fn slowest(model: &dyn Model, tells_next: bool) -> f64 {
 }
 
 #[test]
-fn robots_keep_their_speed_through_way_points_in_a_line() {
+fn robots_keep_their_speed_through_waypoints_in_a_line() {
     for model in every_model() {
         let cruise = model.limits().cruise_speed;
         let (flowing, stopping) = (slowest(&*model, true), slowest(&*model, false));

@@ -107,7 +107,7 @@ fn too_many_messages_on_their_way_fail_the_oldest() {
 }
 
 #[test]
-fn a_fleet_of_one_has_nobody_to_wait_for() {
+fn a_fleet_of_one_does_not_wait() {
     let options = Options::default();
     let mut world = World::new(1, 5, Wire::perfect(), None, Talker::boxed(options));
     world.command(0, broadcast(1));

@@ -91,7 +91,7 @@ fn with_leases_a_leader_that_is_cut_off_stops_before_another_leads() {
 }
 
 #[test]
-fn with_leases_nobody_leads_where_no_part_has_a_majority() {
+fn with_leases_no_robot_leads_without_a_majority() {
     let mut world = world(1, Algorithm::Leases);
     part(&mut world, &[0, 1]);
     for (from, to) in [(2, 3), (2, 4)] {

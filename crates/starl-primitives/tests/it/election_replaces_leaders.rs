@@ -161,7 +161,7 @@ fn with_leases_there_is_no_leader_where_too_few_remember() {
 /// A robot that was down when the others started again joins them, and then remembers as much as they do: a
 /// robot that restarts after that can learn from it, although another one is down.
 #[test]
-fn with_leases_who_joins_those_that_began_anew_remembers_as_they_do() {
+fn with_leases_a_robot_that_joins_restarted_ones_remembers_as_they_do() {
     for seed in 0..20 {
         let make = Elector::eager(by(Algorithm::Leases));
         let mut world = World::new(4, seed, Wire::perfect(), None, make);

@@ -8,7 +8,7 @@ use starl_core::Duration;
 const SECOND: Duration = Duration::from_seconds(1);
 
 #[test]
-fn a_robot_that_restarted_comes_after_those_who_wait() {
+fn a_restarted_robot_comes_after_waiting_robots() {
     for algorithm in ALGORITHMS {
         let boxed = Locker::boxed(algorithm, false);
         let period = Some(Duration::from_millis(100));

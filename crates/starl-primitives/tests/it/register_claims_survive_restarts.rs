@@ -25,7 +25,7 @@ fn set_linked(world: &mut World, one: u32, other: u32, linked: bool) {
 }
 
 #[test]
-fn whoever_restarts_recovers_what_it_has_promised() {
+fn a_restarted_robot_recovers_its_promises() {
     let mut world = idle();
     world.command(0, claim());
     world.run_for(SECOND);

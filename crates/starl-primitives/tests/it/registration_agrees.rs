@@ -21,7 +21,7 @@ fn checked(world: &World) -> usize {
 }
 
 #[test]
-fn who_registers_together_is_in_one_list() {
+fn robots_that_register_together_are_in_one_list() {
     for seed in 0..50 {
         let mut world = idle(5, seed, Wire::perfect());
         (0..4).for_each(|robot| world.command(robot, register()));
@@ -127,7 +127,7 @@ fn robots_of_one_area_agree() {
 }
 
 #[test]
-fn who_waits_for_long_is_told() {
+fn a_long_wait_is_reported() {
     let mut world = idle(2, 1, Wire::perfect());
     world.command(0, register());
     world.command(1, register());

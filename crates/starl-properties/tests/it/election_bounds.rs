@@ -82,7 +82,7 @@ fn robots_that_were_unwell_have_the_bound_from_then_on() {
 }
 
 #[test]
-fn who_stands_without_a_leader_for_too_long_is_reported() {
+fn standing_without_a_leader_for_too_long_is_reported() {
     for algorithm in ["bully", "leases"] {
         let mut story = three(algorithm);
         shows(&mut story, 1000, 0, 0);
@@ -97,7 +97,7 @@ fn who_stands_without_a_leader_for_too_long_is_reported() {
 }
 
 #[test]
-fn who_does_not_stand_needs_no_leader() {
+fn a_robot_that_does_not_stand_needs_no_leader() {
     let mut story = three("bully");
     shows(&mut story, 1000, 0, 0);
     shows(&mut story, 1000, 1, 0);
@@ -141,7 +141,7 @@ fn with_leases_robots_that_wait_for_one_that_remembers_have_no_leader() {
 /// Robot 2 is down, robot 1 recovers. If robot 0 recovers with it, they start again together; if it voted already,
 /// robot 2 is needed to continue. Within a second the two cases cannot be distinguished.
 #[test]
-fn with_leases_who_voted_within_a_second_may_have_voted_before() {
+fn with_leases_a_robot_that_voted_within_a_second_may_have_voted_before() {
     let verdict = |millis| {
         let mut story = three("leases");
         story.fault(100, Some(2), "crash");

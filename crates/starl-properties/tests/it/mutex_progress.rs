@@ -13,7 +13,7 @@ fn story() -> Story {
 }
 
 #[test]
-fn a_request_that_nobody_overlaps_with_is_granted_in_time() {
+fn a_request_without_overlap_is_granted_in_time() {
     let mut late = story();
     late.locks(1000, 0, "acquire", "a")
         .locks(1000, 0, "acquire", "b");
@@ -44,7 +44,7 @@ fn what_is_held_may_be_waited_for() {
 }
 
 #[test]
-fn those_who_wait_for_each_other_are_reported_together() {
+fn robots_that_wait_for_each_other_are_reported_together() {
     let mut story = story();
     story
         .locks(1000, 0, "acquire", "a")
@@ -105,7 +105,7 @@ fn robots_that_are_down_or_apart_excuse() {
 }
 
 #[test]
-fn nobody_is_overtaken_for_ever() {
+fn no_robot_is_overtaken_for_ever() {
     let mut story = story();
     story.locks(0, 0, "acquire", "a");
     for turn in 1..=101 {

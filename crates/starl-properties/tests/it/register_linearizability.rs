@@ -85,7 +85,7 @@ fn operations_at_the_same_time_may_take_effect_in_any_order() {
 }
 
 #[test]
-fn whoever_reads_later_does_not_read_the_value_before() {
+fn a_later_read_does_not_return_the_earlier_value() {
     // The write is still under way: either value may be read, but not the new one and then the old.
     let write = (0, "write", 300, 5000, 5);
     let good = story(&[write, (1, "read", 400, 500, 0), (2, "read", 600, 700, 5)]);

@@ -164,7 +164,7 @@ fn what_was_written_while_it_was_apart_is_one_debt() {
 }
 
 #[test]
-fn what_nobody_has_any_more_is_owed_by_nobody() {
+fn a_lost_write_is_not_required() {
     let mut story = Story::of_ground_robots(3);
     story.setting.properties.shared_memory_bound = seconds(5);
     for robot in 0..3 {
@@ -244,7 +244,7 @@ fn robots_in_the_same_part_owe_each_other() {
 
 /// Messages sent before the partition began do not show its parts.
 #[test]
-fn a_datagram_from_before_the_partition_joins_nobody() {
+fn a_datagram_from_before_the_partition_joins_no_robots() {
     let mut story = robot_2_shows_nothing();
     story.sends(890, 0, 0, 2);
     story.fault(900, None, "partition");
@@ -263,7 +263,7 @@ fn another_partition_separates_those_that_one_joined() {
 }
 
 #[test]
-fn a_partition_long_past_excuses_nobody() {
+fn a_partition_long_past_excuses_no_robot() {
     let mut story = robot_2_shows_nothing();
     story.fault(100, None, "partition");
     story.fault(900, None, "heal");
@@ -335,7 +335,7 @@ fn a_datagram_after_the_healing_says_nothing_of_the_parts_before() {
 }
 
 #[test]
-fn a_fault_after_the_bound_excuses_nobody() {
+fn a_fault_after_the_bound_excuses_no_robot() {
     let mut story = robot_2_shows_nothing();
     story.fault(6010, Some(2), "crash");
     assert_only(&story.verdict(60_000), PROPERTY, 6000, &[0, 2]);

@@ -77,7 +77,7 @@ fn variables_and_elements_are_told_apart() {
 }
 
 #[test]
-fn a_robot_that_restarts_begins_anew() {
+fn a_restarted_robot_starts_again() {
     let mut story = two_writes();
     story.fault(2100, Some(1), "crash");
     story.fault(2200, Some(1), "restart");

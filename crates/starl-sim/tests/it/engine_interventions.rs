@@ -122,7 +122,7 @@ fn a_robot_that_is_down_hears_no_order() {
 }
 
 #[test]
-fn programs_hear_of_new_way_points_and_read_them() {
+fn programs_hear_of_new_waypoints_and_read_them() {
     let mut simulation = listeners();
     let way_point = |x| {
         Intervention::SetWayPoint(WayPoint {

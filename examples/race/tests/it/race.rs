@@ -63,7 +63,7 @@ fn the_fastest_arrives_everywhere_and_the_others_are_told() {
 }
 
 #[test]
-fn all_finish_over_a_bad_wire_and_nobody_goes_back() {
+fn all_finish_over_a_bad_wire_and_no_robot_goes_back() {
     for seed in 0..100 {
         let mut world = race(6, seed, Wire::bad());
         world.run_for(Duration::from_seconds(60));
@@ -111,7 +111,7 @@ fn what_a_finished_robot_said_last_still_gets_through() {
 }
 
 #[test]
-fn a_robot_that_restarts_runs_again_and_a_dead_one_holds_nobody_up() {
+fn a_restarted_robot_runs_again_and_a_dead_one_blocks_no_robot() {
     let mut world = race(4, 1, Wire::perfect());
     world.crash(3);
     world.run_for(Duration::from_seconds(8));
