@@ -77,7 +77,7 @@ pub const EXAMPLES: &[Example] = &[
     ),
     example!(
         "intersection",
-        "four cars agree on who crosses which zone when",
+        "four cars agree on which of them crosses which zone and when",
         "intersection",
         "intersection.toml",
         ["intersection.starl", "junction.starl", "traffic.starl"]
@@ -182,7 +182,7 @@ pub const EXAMPLES: &[Example] = &[
     ),
     example!(
         "registration",
-        "robots come and go, and agree on who takes part",
+        "robots come and go, and agree on the participants",
         "primitives",
         "registration.toml",
         ["registration.starl"]

@@ -22,7 +22,7 @@ impl Walk {
         let mut left = ticks;
         while let Some(step) = self.next_of_warm_up(&mut left) {
             if taken.len() >= LONGEST {
-                let text = format!("robots have not come to rest after {LONGEST} steps");
+                let text = format!("robots are still active after {LONGEST} steps");
                 return Err(Impossible(text));
             }
             let moment = self.step(&step)?;

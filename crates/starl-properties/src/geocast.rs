@@ -288,7 +288,7 @@ fn outside<'a>(
     let mut samples = samples.peekable();
     samples.peek()?;
     if !area.is_valid() {
-        return Some("whose area holds nobody".into());
+        return Some("whose area is invalid".into());
     }
     let mut kept = f64::INFINITY;
     for sample in samples {

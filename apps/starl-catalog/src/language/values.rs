@@ -129,7 +129,7 @@ impl Reader<'_> {
             Type::Optional(kind) => self.expected(kind),
             Type::Record(_) => "nothing: a scenario cannot set records".into(),
             Type::Object(number) => match self.object(*number) {
-                Some(ObjectType::Text) => "a text that is no quantity".into(),
+                Some(ObjectType::Text) => "a text that is not a quantity".into(),
                 Some(ObjectType::List(element) | ObjectType::Set(element)) => {
                     format!("a list, each element {}", self.expected(element))
                 }

@@ -120,7 +120,7 @@ fn what_does_not_fit_is_refused_with_its_place() {
         ),
         (
             "name = 4",
-            "parameters.name: 4 does not fit; give a text that is no quantity",
+            "parameters.name: 4 does not fit; give a text that is not a quantity",
         ),
         (
             "span = 4",

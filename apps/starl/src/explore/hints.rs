@@ -43,10 +43,10 @@ impl Wish {
 
     fn in_vain(self) -> &'static str {
         match self {
-            Wish::Leader => "nobody is ever elected",
-            Wish::Resource => "nobody ever gets a resource",
-            Wish::List => "nobody is ever agreed on",
-            Wish::Passage => "nobody ever passes the barrier",
+            Wish::Leader => "no robot is ever elected",
+            Wish::Resource => "no robot ever gets a resource",
+            Wish::List => "no list is ever agreed on",
+            Wish::Passage => "no robot ever passes the barrier",
         }
     }
 }

@@ -160,7 +160,7 @@ async fn talk(socket: &mut WebSocket, mut engine: Engine) -> Option<Reason> {
             Err(panic) => {
                 let message = format!(
                     "the simulator has failed, which is a fault of StarL or of a program in Rust: {}; load the page \
-                     again to start anew",
+                     again to restart",
                     text_of(panic)
                 );
                 socket.send(refusal(id, &message)).await.ok()?;

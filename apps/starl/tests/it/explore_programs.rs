@@ -175,7 +175,7 @@ fn what_never_comes_is_noted() {
     let output = explore(&folder, &["election"]);
     assert_eq!(status(&output), 0, "{}", stderr(&output));
     let text = stdout(&output);
-    assert!(text.contains("nobody is ever elected"), "{text}");
+    assert!(text.contains("no robot is ever elected"), "{text}");
     assert!(text.contains("--tick"), "{text}");
     let ballots = [
         "election",
@@ -188,7 +188,7 @@ fn what_never_comes_is_noted() {
     ];
     let output = explore(&folder, &ballots);
     let text = stdout(&output);
-    assert!(!text.contains("nobody is ever elected"), "{text}");
+    assert!(!text.contains("no robot is ever elected"), "{text}");
 }
 
 #[test]

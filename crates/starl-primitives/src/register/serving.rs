@@ -53,7 +53,7 @@ impl Register {
                         tag: ballot,
                         promised,
                     },
-                    None => return, // There is no room for it, or nobody can have claimed it.
+                    None => return, // There is no room for it, or no robot can have claimed it.
                 },
             },
             Content::Store { id, entry } => {

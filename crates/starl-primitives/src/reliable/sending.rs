@@ -63,7 +63,7 @@ impl Reliable {
             return Notices::new();
         };
         if before > outgoing.next() {
-            return Notices::new(); // nobody can have taken that
+            return Notices::new(); // no robot can have taken that
         }
         let ahead = runs(before, &ahead);
         let Credit { settled, newest } = outgoing.credit(from, before, &ahead, are_taken);

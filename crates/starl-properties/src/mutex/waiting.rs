@@ -138,9 +138,9 @@ impl Locks {
             let (property, why) = match group.len() {
                 1 => (
                     NON_INTERFERENCE,
-                    "though nobody else holds or wants any of it",
+                    "though no other robot holds or requests any of it",
                 ),
-                _ => (PROGRESS, "though nobody holds any of it"),
+                _ => (PROGRESS, "though no robot holds any of it"),
             };
             found.push(Violation {
                 property: property.into(),

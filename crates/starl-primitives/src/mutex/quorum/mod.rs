@@ -94,7 +94,7 @@ mod tests {
         for count in 1..=200 {
             let fleet = fleet(count);
             for me in &fleet {
-                let quorum = quorum(&fleet, *me, &BTreeSet::new()).expect("nobody is avoided");
+                let quorum = quorum(&fleet, *me, &BTreeSet::new()).expect("no robot is avoided");
                 assert!(quorum.contains(me));
                 assert!(quorum.len() <= 2 * columns(count as usize), "{count}");
             }
