@@ -30,15 +30,15 @@ check:
 unit:
 	cargo test --locked --workspace --features starl/zenoh
 
-# What programs are made of also builds where there is no operating system.
+# The crates of programs also build without an operating system.
 portable:
 	cargo check --locked -p starl-core -p starl-primitives -p starl-motion --target thumbv7em-none-eabihf
 	cargo check --locked -p starl-host --lib --example bare --target thumbv7em-none-eabihf
 	cargo check --locked -p starl-host --target wasm32-unknown-unknown
 	cargo check --locked -p starl-lang --no-default-features --target thumbv7em-none-eabihf
 
-# The same run has the same digest natively and in WebAssembly. `make golden` writes the digests down
-# anew after a change of behaviour that is meant.
+# The same run has the same digest natively and in WebAssembly. `make golden` rewrites the digests
+# after an intended change of behaviour.
 wasm: wasm-module $(STARL)
 	node --test apps/starl-wasm/tests/starl.test.mjs
 	node apps/starl-wasm/golden.mjs $(STARL) $(ANSWER)
@@ -144,7 +144,7 @@ editors: $(RELEASE)
 	cd editors/vscode && STARL=$(abspath $(RELEASE)) npm test
 	cd editors/vscode && npm run package
 
-# What `starl explain` draws, read by Mermaid and Graphviz. Not part of `make test` for the same reason.
+# Checks the drawings of `starl explain` with Mermaid and Graphviz. Not part of `make test` for the same reason.
 diagrams: $(RELEASE)
 	tools/diagrams.sh $(RELEASE)
 

@@ -1,5 +1,5 @@
-"""Checks that every relative link of the project's Markdown files leads to a file, and to a heading of it,
-and that the paths which the maps of the code name exist.
+"""Checks that every relative link of the project's Markdown files leads to a file, and to a heading of it, that the paths
+which the maps of the code name exist, and that programs are quoted as they are.
 
     python3 tools/check_docs.py
 """
@@ -46,10 +46,30 @@ def missing_paths_of(page):
                 yield f"{page.name}:{number}: {path}: there is no such file or folder"
 
 
+def code_of(text):
+    """The lines of a program, without comments, indentation and white space at their ends."""
+    return "\n".join(re.sub(r"\s*//.*", "", line).strip() for line in text.splitlines())
+
+
+def misquotes_of(page):
+    """The quoted parts of programs that no program of the page's example has; `...` stands for anything on a line."""
+    programs = page.parent.glob("*.starl" if page.parent != ROOT else "examples/*/*.starl")
+    sources = [code_of(path.read_text(encoding="utf-8")) for path in programs]
+    text = page.read_text(encoding="utf-8")
+    for block in re.finditer(r"^```starl\n(.*?)^```$", text, re.M | re.S):
+        for part in re.split(r"\n{2,}", code_of(block[1])):
+            pattern = r"[^\n]*".join(re.escape(piece) for piece in part.strip().split("..."))
+            if not any(re.search(f"^{pattern}$", source, re.M) for source in sources):
+                line = text.count("\n", 0, block.start()) + 1
+                yield f"{page.relative_to(ROOT)}:{line}: no program has: {part.strip().splitlines()[0]}"
+
+
 tracked = ["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"]
 names = subprocess.run(tracked, cwd=ROOT, check=True, capture_output=True, text=True).stdout.splitlines()
 pages = [ROOT / name for name in names if (ROOT / name).exists()]
 problems = [problem for page in pages for problem in problems_of(page)]
+examples = [ROOT / "README.md", *ROOT.glob("examples/*/README.md")]
+problems += [problem for page in examples for problem in misquotes_of(page)]
 problems += [problem for name in MAPS for problem in missing_paths_of(ROOT / name)]
-print("\n".join(problems) or f"{len(pages)} pages: all links lead somewhere")
+print("\n".join(problems) or f"{len(pages)} pages: all links lead somewhere, and programs are quoted as they are")
 sys.exit(bool(problems))

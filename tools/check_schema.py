@@ -65,7 +65,7 @@ def put(scenario, place, value):
 def fields(schema, place=()):
     """Every field of the schema with its place."""
     for name, field in schema.get("properties", {}).items():
-        # What a model adds to a field says nothing of the field itself.
+        # The additions of a model do not describe the field itself.
         if not field.keys() <= {"properties", "additionalProperties"}:
             yield (*place, name), field
     for part in [*schema.get("properties", {}).items(), ("", schema.get("items")), ("", schema.get("then"))]:

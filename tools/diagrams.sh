@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 folder=target/diagrams
 mkdir -p $folder
 cp tools/diagrams/package.json tools/diagrams/parse.mjs $folder
-# What an earlier version drew is of no interest.
+# Earlier drawings are not needed.
 rm -f $folder/*.mmd $folder/*.svg
 npm install --prefix $folder --silent --no-audit --no-fund
 

@@ -6,7 +6,7 @@
 # Usage: tools/million.sh STARL FOLDER [RUNS [SEEDS]]
 #
 # STARL is the command, RUNS how many there are to be in all (default 1000000), SEEDS how many each profile
-# is tried with in a block (default 500). To begin afresh, name another folder.
+# is tried with in a block (default 500). To start again, name another folder.
 set -euo pipefail
 starl=${1:?usage: tools/million.sh STARL FOLDER [RUNS [SEEDS]]}
 folder=${2:?usage: tools/million.sh STARL FOLDER [RUNS [SEEDS]]}

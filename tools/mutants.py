@@ -165,7 +165,7 @@ def build():
 
 # The campaign
 
-# What went wrong without any bug.
+# Failures without any bug.
 WITHOUT_BUGS = []
 
 

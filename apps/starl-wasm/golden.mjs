@@ -42,7 +42,7 @@ function natively(request) {
   return JSON.parse(stdout);
 }
 
-// What a page does: it steers the run, goes back, and looks into robots.
+// The actions of a page: it steers the run, goes back, and inspects robots.
 function* visit(example) {
   const about = { simulation: 0 };
   const at = { x: 1.5, y: 1.0, z: 0 };

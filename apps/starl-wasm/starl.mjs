@@ -6,7 +6,7 @@
 // The module's memory does not grow further: build.rs.
 const MOST_MEMORY = 2 ** 30;
 
-/** What StarL refuses, with the single problems where there are any. */
+/** An error of StarL, with its single problems if there are any. */
 export class StarlError extends Error {
   constructor(message, diagnostics = []) {
     super(message);

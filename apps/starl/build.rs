@@ -1,5 +1,5 @@
-//! Puts the built page, `playground/dist`, into the command: writes `page.rs`, the list of its files. They are copied
-//! first, so that a page that is built anew meanwhile does no harm.
+//! Embeds the built page, `playground/dist`, into the command: writes `page.rs`, the list of its files. They are
+//! copied first, so that a later build of the page does no harm.
 
 use std::env::{var, var_os};
 use std::fmt::Write;

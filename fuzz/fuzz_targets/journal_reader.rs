@@ -15,7 +15,7 @@ fuzz_target!(|bytes: &[u8]| {
     let (first, second) = bytes.split_at(bytes.len() * usize::from(cut) / 256);
     let mut reader = Reader::new(RobotId(0));
     for message in [first, second] {
-        // What it shows is looked at to the last byte.
+        // Its output is read to the last byte.
         let read = reader.read(Time::ZERO, message, &mut |at, observed| {
             assert!(!format!("{at:?} {observed:?}").is_empty());
         });

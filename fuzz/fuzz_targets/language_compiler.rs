@@ -1,6 +1,6 @@
-//! What the checker takes of any text is compiled, or refused for a reason; what is compiled can be
-//! loaded, is the same when it was written as text and read again, and never goes wrong as it runs.
-//! Seeds: `fuzz/seeds/language`.
+//! Every text that the checker accepts is compiled, or refused with a reason. A compiled program
+//! can be loaded, is unchanged after it was written as text and read again, and never fails
+//! internally as it runs. Seeds: `fuzz/seeds/language`.
 
 #![no_main]
 

@@ -59,7 +59,7 @@ fuzz_target!(|text: &str| {
         }
         assert!(state.bytes() <= 2 * limits.memory + 16 * state.scalars.len() + 1000);
     }
-    // What the program left can be shown, stored and compared.
+    // The program's final state can be shown, stored and compared.
     assert!(program.values(&state).count() <= program.bytecode().variables.len());
     let stored: Option<State> = message::decode(&message::encode(&state));
     assert_eq!(stored.as_ref(), Some(&state));

@@ -1,5 +1,5 @@
-//! Reading any text gives a tree of the whole of it; diagnostics and mends lie in the text and can be
-//! shown; formatting keeps what matters and settles at once. Seeds: `fuzz/seeds/language`.
+//! Reading any text gives a tree of the whole of it; diagnostics and fixes are within the text and
+//! can be shown; formatting keeps the meaning and is stable. Seeds: `fuzz/seeds/language`.
 
 #![no_main]
 

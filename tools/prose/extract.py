@@ -94,7 +94,7 @@ def token_blocks(token, line, in_tests):
         text = token["string"] or token["raw"] or ""
         if re.match(r"[A-Za-z`{][^\n]*? \S+ \S", text):
             text = re.sub(r"\\\n\s*", "\n", text)
-            yield Block("message", line, plain(re.sub(r"\\n|\\\"", " ", text)))
+            yield Block("message", line, plain(re.sub(r"\\n|\\\"|\{[^{}]*\}", " ", text)))
 
 
 SCRIPT = re.compile(

@@ -8,9 +8,9 @@ use starl_sim::read::{Loader, Source};
 /// An example: a scenario and the files that it names.
 #[derive(Clone, Copy, Debug)]
 pub struct Example {
-    /// What it is called on the command line.
+    /// Its name on the command line.
     pub name: &'static str,
-    /// What one sees, in one line.
+    /// A description, in one line.
     pub summary: &'static str,
     /// Its scenario's path in the repository, by which errors call it.
     pub path: &'static str,
@@ -20,7 +20,7 @@ pub struct Example {
     pub files: &'static [(&'static str, &'static [u8])],
 }
 
-/// A scenario for programs that come without one: a few robots on the floor, and way-points. It names
+/// A scenario for programs that come without one: a few robots on the floor, and waypoints. It names
 /// no program.
 pub const DEFAULT_SCENARIO: &str = include_str!("default.toml");
 
@@ -44,7 +44,7 @@ macro_rules! example {
 pub const EXAMPLES: &[Example] = &[
     example!(
         "race",
-        "ground robots and quadcopters race through way-points",
+        "ground robots and quadcopters race through waypoints",
         "race",
         "race.toml",
         [
@@ -77,7 +77,7 @@ pub const EXAMPLES: &[Example] = &[
     ),
     example!(
         "intersection",
-        "four cars agree on who crosses which zone when",
+        "four cars agree on which of them crosses which zone and when",
         "intersection",
         "intersection.toml",
         ["intersection.starl", "junction.starl", "traffic.starl"]
@@ -182,7 +182,7 @@ pub const EXAMPLES: &[Example] = &[
     ),
     example!(
         "registration",
-        "robots come and go, and agree on who takes part",
+        "robots come and go, and agree on the participants",
         "primitives",
         "registration.toml",
         ["registration.starl"]
@@ -204,7 +204,7 @@ impl Example {
     }
 }
 
-/// What names of examples' files begin with where they stand in other scenarios: `example:race/race.starl`.
+/// The prefix of examples' files in other scenarios: `example:race/race.starl`.
 const GLOBAL: &str = "example:";
 
 /// A loader that knows the files of all examples by their names besides what it has from another, which

@@ -1,6 +1,6 @@
-//! What a scenario is to an explorer: its robots, who stand still at their starts, with its programs and
-//! properties. Its motion, network and faults are left out: what may go wrong there is a matter of the
-//! exploration's bounds.
+//! A scenario for an explorer: its robots, which stand still at their starts, with its programs and
+//! properties. Its motion, network and faults are ignored: the exploration's bounds define the possible
+//! faults.
 
 use crate::Application;
 use starl_core::Duration;

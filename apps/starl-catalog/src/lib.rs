@@ -1,4 +1,4 @@
-//! What the front ends ship with: the examples, the programs that scenarios can name, and how a
+//! The catalog of the front ends: the examples, the programs that scenarios can name, and how a
 //! scenario that names them is read and started.
 //!
 //! The command and the WebAssembly module link this, so that a name means the same to both. Nothing

@@ -5,14 +5,14 @@ use starl_core::Duration;
 use starl_sim::scenario::Parameter;
 use std::collections::BTreeMap;
 
-/// What is wrong with a program's name or parameters.
+/// An error in a program's name or parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Complaint {
     /// The field below the group or the scenario: `program` or `parameters.vicinity`.
     pub field: String,
-    /// What is wrong.
+    /// The error.
     pub message: String,
-    /// How to mend it.
+    /// The suggested fix.
     pub help: String,
 }
 
@@ -33,7 +33,7 @@ impl<'a> Parameters<'a> {
         }
     }
 
-    /// What was built from the parameters, if all of them are known and were as they should be.
+    /// The value built from the parameters, if all of them are known and valid.
     pub(crate) fn finish<T>(self, built: T) -> Result<T, Complaint> {
         let unknown = self
             .given

@@ -17,7 +17,7 @@ const OPTIONS: &str = "options.json";
 /// Files that the scenario names are kept under this and their paths.
 const FILES: &str = "scenario/";
 
-/// What is read besides the scenario and the files it names.
+/// The changes of a scenario that is read, and the libraries beside its programs.
 #[derive(Serialize, Deserialize)]
 struct Options {
     /// The scenario's name.

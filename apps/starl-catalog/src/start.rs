@@ -27,14 +27,14 @@ pub struct Application {
 /// All that is wrong with a scenario and its programs.
 #[derive(Clone, Debug)]
 pub struct Refusal {
-    /// What the compiler has found in the programs.
+    /// The compiler's findings in the programs.
     pub findings: Vec<Findings>,
-    /// What is wrong with the scenario itself.
+    /// The errors of the scenario itself.
     pub problems: Vec<Problem>,
 }
 
-/// Reads a scenario, its programs and their parameters included. Names of programs that are no files are looked up
-/// in the registry.
+/// Reads a scenario, including its programs and their parameters. Names of programs that are not files are looked
+/// up in the registry.
 ///
 /// # Errors
 /// All that is wrong with it.
@@ -69,7 +69,7 @@ pub fn read(
             problems.push(blame(&application.resolved, index, complaint));
         }
     }
-    // What several groups have from the scenario is wrong once.
+    // An error in a value that several groups take from the scenario is reported once.
     problems.sort();
     problems.dedup();
     match problems.is_empty() && !is_broken {
@@ -82,12 +82,12 @@ pub fn read(
 }
 
 impl Application {
-    /// What was read.
+    /// The resolved scenario.
     pub fn resolved(&self) -> &Resolved {
         &self.resolved
     }
 
-    /// What the scenario says.
+    /// The scenario.
     pub fn scenario(&self) -> &Scenario {
         &self.resolved.scenario
     }
@@ -105,7 +105,7 @@ impl Application {
     /// A run at its start, watched by all that the scenario asks for.
     ///
     /// # Errors
-    /// None that [`read()`] has not found before.
+    /// Returns only errors that [`read()`] has found before.
     pub fn run(&self) -> Result<Run, StartError> {
         self.run_of(self.scenario().clone())
     }
@@ -141,7 +141,8 @@ impl Application {
     /// The fresh program of a robot, with its parameters.
     ///
     /// # Errors
-    /// If there is no such robot; else none that [`read()`] has not found before.
+    /// Fails if the robot does not exist; otherwise only with errors that [`read()`] has found
+    /// before.
     pub fn program_of(&self, robot: RobotId) -> Result<Box<dyn Program>, String> {
         let group = self.scenario().fleet.group_of(robot);
         let (group, _) = group.ok_or_else(|| format!("there is no robot {robot}"))?;

@@ -1,8 +1,9 @@
 //! The names that the module exports.
 //!
 //! One buffer carries JSON both ways: JavaScript asks for room with [`buffer`], writes a request there, calls
-//! [`call`], and reads as many bytes as that returns from where [`answer`] says. Numbers are read in place: [`poses`]
-//! and [`poses_at`], [`frames`] and [`frames_at`]. What was read before is gone after the next call, and memory may have grown.
+//! [`call`], and reads as many bytes as that returns from the place that [`answer`] gives. Numbers are read in place:
+//! [`poses`] and [`poses_at`], [`frames`] and [`frames_at`]. Earlier results are invalid after the next call, and
+//! memory may have grown.
 //!
 //! A panic is a fault of StarL and ends the instance: the call traps, and [`failure`] puts the message where
 //! [`answer`] says.

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 const MOST_THREADS: u32 = 1_024;
 const MOST_ROBOTS: u32 = 10_000_000;
 
-/// Reads a whole number in a range, and says the range where it is something else.
+/// Reads a whole number in a range, and reports the range if it is something else.
 fn whole(low: u32, high: u32) -> impl Fn(&str) -> Result<u32, String> + Clone + Send + Sync {
     move |text| match text.parse() {
         Ok(number) if (low..=high).contains(&number) => Ok(number),
@@ -15,51 +15,51 @@ fn whole(low: u32, high: u32) -> impl Fn(&str) -> Result<u32, String> + Clone + 
     }
 }
 
-/// Distributed robot applications: write, run, replay and measure them.
+/// Distributed robot applications: write, run, test, replay and measure them.
 #[derive(Parser, Debug)]
 #[command(name = "starl", version, arg_required_else_help = true)]
 pub struct Arguments {
-    /// What to do.
+    /// The subcommand.
     #[command(subcommand)]
     pub command: Command,
 }
 
-/// What to do.
+/// The subcommands.
 #[derive(Subcommand, Debug)]
 pub enum Command {
     /// Run an example, a scenario file or a program in the simulator
     Run(RunArguments),
-    /// Run again what a trace recorded, and compare record by record
+    /// Repeat a recorded run, and compare record by record
     Replay(ReplayArguments),
     /// Judge the properties of a run by its trace, whichever host wrote it
     Verify(VerifyArguments),
-    /// Explore every behaviour of a small fleet within bounds, or go again a way that was found
+    /// Explore every behaviour of a small fleet within bounds, or repeat a path that was found
     Explore(ExploreArguments),
-    /// Look for violations: run with many seeds and kinds of faults, and shrink what fails
+    /// Look for violations: run with many seeds and kinds of faults, and shrink failures
     Test(TestArguments),
-    /// Draw who said what to whom, and when, as a space-time diagram
+    /// Draw the messages of a run as a space-time diagram
     Diagram(DiagramArguments),
     /// Check programs and libraries of the language
     Check(CheckArguments),
-    /// Lay programs and libraries out in the one canonical way
+    /// Format programs and libraries in the standard layout
     Fmt(FormatArguments),
     /// Draw a program as a state machine, or explain an error by its code
     Explain(ExplainArguments),
-    /// Serve an editor: the Language Server Protocol on standard input and output
+    /// Serve an editor by the Language Server Protocol on standard input and output
     Lsp(LspArguments),
-    /// Show what a trace has recorded, in a browser
+    /// Show a recorded run in a browser
     View(ViewArguments),
     /// Run one robot of a real fleet, until it is stopped
     Robot(RobotArguments),
     /// Run a real fleet, ask how it is, stop it, and join what its robots recorded
     Fleet {
-        /// What to do.
+        /// The subcommand.
         #[command(subcommand)]
         command: FleetCommand,
     },
     /// Stand in for robots' hardware: the simulator's models behind the wire protocols of real devices
     Emulate {
-        /// What to emulate.
+        /// The device to emulate.
         #[command(subcommand)]
         what: EmulateArguments,
     },
@@ -78,11 +78,11 @@ pub enum Command {
 pub struct RunArguments {
     /// An example's name (see `starl list`), a scenario file, or a program: a file ending in .starl
     pub target: String,
-    /// What to run a program in: a scenario file or an example's name [default: the program's own
-    /// name with .toml, or else a few robots on an empty floor]
+    /// The scenario for a program: a scenario file or an example's name
+    /// [default: the program's own name with .toml, or else a few robots on an empty floor]
     #[arg(long, value_name = "SCENARIO")]
     pub scenario: Option<String>,
-    /// Another fleet: models with how many of each, e.g. create=2,drone=2
+    /// Another fleet: models with the number of each, e.g. create=2,drone=2
     #[arg(long, value_name = "MODEL=N,...")]
     pub robots: Option<String>,
     /// Decides every random draw [default: the scenario's]
@@ -101,10 +101,10 @@ pub struct RunArguments {
     /// more than 2,000 robots, else 1]
     #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
     pub threads: Option<u32>,
-    /// Write everything that happens to this MCAP file
+    /// Write all events to this MCAP file
     #[arg(long, value_name = "PATH")]
     pub trace: Option<PathBuf>,
-    /// Put into the trace what was done to each robot's software, for `starl replay --robot`
+    /// Record every input of each robot's software in the trace, for `starl replay --robot`
     #[arg(long, requires = "trace")]
     pub inputs: bool,
     /// Draw the robots' paths to this .svg or .png file
@@ -113,27 +113,27 @@ pub struct RunArguments {
     /// Print the summary as one JSON object
     #[arg(long)]
     pub json: bool,
-    /// Print nothing but errors and violations
+    /// Print only errors and violations
     #[arg(long)]
     pub quiet: bool,
     /// Show the run in a browser, and steer it there
     #[arg(long, conflicts_with_all = ["trace", "plot", "json"])]
     pub open: bool,
-    /// The page, with `open`.
+    /// The options of the page, with `open`.
     #[command(flatten)]
     pub page: PageArguments,
 }
 
-/// How the page is served to a browser.
+/// The options of the page's server.
 #[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
 pub struct PageArguments {
-    /// The port on 127.0.0.1 to serve the page at [default: one that is free]
+    /// The port on 127.0.0.1 to serve the page at [default: a free port]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub port: Option<u16>,
-    /// Print the page's address, and open no browser
+    /// Print the page's address without opening a browser
     #[arg(long)]
     pub no_browser: bool,
-    /// Serve the page in this folder in the place of the one that is built in
+    /// Serve the page in this folder instead of the built-in one
     #[arg(long = "page", value_name = "DIR")]
     pub folder: Option<PathBuf>,
 }
@@ -143,7 +143,7 @@ pub struct PageArguments {
 pub struct ViewArguments {
     /// A file that `starl run --trace` wrote
     pub trace: PathBuf,
-    /// The page.
+    /// The options of the page.
     #[command(flatten)]
     pub page: PageArguments,
 }
@@ -162,12 +162,12 @@ pub struct RobotArguments {
     /// Where the robot keeps its trace and its storage [default: the fleet's last run, beside the fleet file]
     #[arg(long, value_name = "DIR")]
     pub folder: Option<PathBuf>,
-    /// Print nothing but errors
+    /// Print only errors
     #[arg(long)]
     pub quiet: bool,
 }
 
-/// What to emulate.
+/// The devices to emulate.
 #[derive(Subcommand, Debug)]
 pub enum EmulateArguments {
     /// All devices that a fleet file names, in the world of its scenario
@@ -199,18 +199,18 @@ pub struct EmulateFleet {
     pub fleet: PathBuf,
 }
 
-/// What to do with a real fleet.
+/// The subcommands for a real fleet.
 #[derive(Subcommand, Debug)]
 pub enum FleetCommand {
-    /// Run all robots on this machine, each in its own process, and judge what they did
+    /// Run all robots on this machine, each in its own process, and judge the run
     Up(FleetUpArguments),
-    /// Show who is alive, where it is, what it does, and how well it hears the others
+    /// Show the robots that are alive, with their positions, states and link qualities
     Status(FleetStatusArguments),
     /// Stop the motors of all robots at once, and then the robots
     Stop(FleetStopArguments),
     /// Join the robots' traces on one time axis
     Merge(FleetMergeArguments),
-    /// Make the fleet's key, without which nobody can take part
+    /// Create the fleet's key, which every member needs
     Key(FleetKeyArguments),
 }
 
@@ -225,13 +225,13 @@ pub struct FleetUpArguments {
     /// Emulate the devices that the fleet file names
     #[arg(long)]
     pub emulate: bool,
-    /// Print what to start on which machine, and start nothing
+    /// Print the processes to start on each machine, without starting them
     #[arg(long)]
     pub print: bool,
     /// Stop after this time [default: the scenario's duration]
     #[arg(long, value_name = "TIME")]
     pub duration: Option<String>,
-    /// Go on with the storage and the time of the last run
+    /// Continue with the storage and the time of the last run
     #[arg(long)]
     pub resume: bool,
     /// Keep the robots running when all have finished
@@ -282,10 +282,10 @@ pub struct FleetKeyArguments {
     pub change: bool,
 }
 
-/// What changes a target that is run many times, or drawn.
+/// Changes of a target that is run many times, or drawn.
 #[derive(Args, Debug, Default)]
 pub struct ChangeArguments {
-    /// What to run a program in, as for `starl run`
+    /// The scenario for a program, as for `starl run`
     #[arg(long, value_name = "SCENARIO")]
     pub scenario: Option<String>,
     /// Another fleet, as for `starl run`
@@ -334,32 +334,32 @@ pub struct TestArguments {
     /// Test every example of `starl list`
     #[arg(long, conflicts_with = "targets")]
     pub all: bool,
-    /// How many seeds each profile is tried with
+    /// The number of seeds for each profile
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = whole(1, u32::MAX))]
     pub seeds: u32,
-    /// The first of them
+    /// The first seed
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole(0, u32::MAX))]
     pub first_seed: u32,
-    /// Kinds of faults: calm, lossy, partitions, crashes, clocks, chaos, corruption, or all; several with
-    /// commas [default: all but corruption]
+    /// Kinds of faults: calm, lossy, partitions, crashes, clocks, chaos, swarm, corruption, or all; several with
+    /// commas [default: all except corruption]
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     pub profile: Vec<String>,
-    /// Take a run that does not reach its goal for a failure also where robots crash or state is corrupted
+    /// Count a run that does not reach its goal as a failure, also if robots crash or state is corrupted
     #[arg(long)]
     pub demand_goal: bool,
     /// Threads to run on [default: all cores]
     #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
     pub threads: Option<u32>,
-    /// Folder for scenarios that fail, and diagrams of them
+    /// Folder for failing scenarios and their diagrams
     #[arg(long, value_name = "DIR", default_value = ".")]
     pub out: PathBuf,
-    /// Smaller scenarios to try for each one that fails; 0 saves it as it is
+    /// Scenarios to try while shrinking each failure; 0 saves it as found
     #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = whole(0, 1_000_000))]
     pub shrink: u32,
     /// Print the summary as one JSON object
     #[arg(long)]
     pub json: bool,
-    /// Print nothing but what went wrong
+    /// Print only failures
     #[arg(long)]
     pub quiet: bool,
     /// Changes of the targets.
@@ -370,15 +370,15 @@ pub struct TestArguments {
 /// Arguments of `starl diagram`.
 #[derive(Args, Debug)]
 pub struct DiagramArguments {
-    /// A trace (a file ending in .mcap), or what `starl run` takes
+    /// A trace (a file ending in .mcap), or a target of `starl run`
     pub target: String,
     /// The drawing: a file ending in .svg or .png
     #[arg(long, value_name = "PATH")]
     pub out: PathBuf,
-    /// How much of the end to draw, e.g. 500ms [default: as much as is easy to read]
+    /// The length of the drawing before its end, e.g. 500ms [default: as much as is easy to read]
     #[arg(long, value_name = "TIME")]
     pub last: Option<String>,
-    /// Where to end, e.g. 12.5s [default: the first violation, or else the end of the run]
+    /// The end of the drawing, e.g. 12.5s [default: the first violation, or else the end of the run]
     #[arg(long, value_name = "TIME")]
     pub until: Option<String>,
     /// Decides every random draw [default: the scenario's]
@@ -397,11 +397,10 @@ pub struct ReplayArguments {
     /// Threads to step robots on [default: as for `starl run`]
     #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
     pub threads: Option<u32>,
-    /// Run only this robot's software again, without the simulator, on what `starl run --inputs` put
-    /// into the trace
+    /// Run only this robot's software, without the simulator, on the inputs that `starl run --inputs` recorded
     #[arg(long, value_name = "NAME", conflicts_with = "threads")]
     pub robot: Option<String>,
-    /// Run this program in the place of the recorded one, and show where it begins to behave differently
+    /// Run this program instead of the recorded one, and show where it begins to behave differently
     #[arg(long, value_name = "FILE", requires = "robot")]
     pub program: Option<PathBuf>,
 }
@@ -409,9 +408,9 @@ pub struct ReplayArguments {
 /// Arguments of `starl verify`.
 #[derive(Args, Debug)]
 pub struct VerifyArguments {
-    /// A trace, whole or cut short
+    /// A trace, complete or not
     pub trace: PathBuf,
-    /// Print the verdicts as one JSON object instead
+    /// Print the verdicts as one JSON object
     #[arg(long)]
     pub json: bool,
 }
@@ -421,44 +420,44 @@ pub struct VerifyArguments {
 pub struct ExploreArguments {
     /// An example's name, a scenario file, or a program, as for `starl run`
     pub target: Option<String>,
-    /// What to explore a program in, as for `starl run`
+    /// The scenario for a program, as for `starl run`
     #[arg(long, value_name = "SCENARIO")]
     pub scenario: Option<String>,
     /// The first N of the scenario's robots [default: 3, or all if there are fewer]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub robots: Option<u16>,
-    /// Decides what robots draw at random, the same on all ways [default: the scenario's]
+    /// Decides the robots' random draws, which are the same on all paths [default: the scenario's]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub seed: Option<String>,
     /// Set a field of the scenario, e.g. parameters.entries=1; may be repeated
     #[arg(long, value_name = "FIELD=VALUE")]
     pub set: Vec<String>,
-    /// Datagrams that get lost, at most
+    /// Maximum number of lost datagrams
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub loss: u8,
-    /// Datagrams that arrive once more, at most
+    /// Maximum number of duplicated datagrams
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub duplicates: u8,
-    /// Let all that was once sent arrive any number of times, or never
+    /// Let every datagram arrive any number of times, or never
     #[arg(long, conflicts_with_all = ["duplicates", "loss"])]
     pub any_copies: bool,
-    /// Crashes, at most; who is down may start again at any time
+    /// Maximum number of crashes; a robot that is down may restart at any time
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub crashes: u8,
-    /// Suspicions by failure detectors, true or false, and ends of suspicions, at most
+    /// Maximum number of suspicions by failure detectors, true or false, and ends of suspicions
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub suspicions: u8,
-    /// Timers that fire, at most, 255 for any number; without --tick they may at any time
+    /// Maximum number of timers that fire, 255 for any number; without --tick they may fire at any time
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub timers: u8,
-    /// Have failure detectors send heartbeats, which makes for many states
+    /// Let failure detectors send heartbeats, which adds many states
     #[arg(long)]
     pub heartbeats: bool,
-    /// Have clocks tick: a tick is this long [default: all clocks show zero]
+    /// Let clocks tick, with ticks of this length [default: all clocks show zero]
     #[arg(long, value_name = "TIME")]
     pub tick: Option<String>,
-    /// Begin when robots have said to each other what they say at their start: all arrives at once and
-    /// in order, no program is activated, and N ticks pass (with --tick)
+    /// Start after the robots' first messages: all of them arrive at once and in order, no program is
+    /// activated, and N ticks pass (with --tick)
     #[arg(long, value_name = "N")]
     pub warm_up: Option<u16>,
     /// With --tick: how long clocks tick, after the warm-up
@@ -467,36 +466,36 @@ pub struct ExploreArguments {
     /// With --tick: by how many ticks a clock may be ahead of another
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub skew: u16,
-    /// With --tick: what has not arrived when it has been under way for more ticks than this is lost
+    /// With --tick: a datagram in transit for more ticks than this is lost
     /// [default: datagrams may take any time]
     #[arg(long, value_name = "N", requires = "tick", conflicts_with = "skew",
         value_parser = clap::value_parser!(u8).range(..=15))]
     pub delay: Option<u8>,
-    /// Go no further than this many steps from the start; exit status 3 if there is more
+    /// Maximum number of steps from the start; exit status 3 if there are more
     #[arg(long, value_name = "N")]
     pub depth: Option<u32>,
-    /// Stop at this many states, some 100 bytes each, with exit status 3
+    /// Maximum number of states, some 40 bytes each; exit status 3 if there are more
     #[arg(long, value_name = "N", default_value_t = 10_000_000)]
     pub most_states: u32,
-    /// Stop after this time on the clock, with exit status 3
+    /// Maximum wall time; exit status 3 if it takes longer
     #[arg(long, value_name = "TIME", default_value = "1min")]
     pub within: String,
-    /// Compare robots that are taken for the same with each other in every input
+    /// Compare robots that reached the same state on different paths, in every input
     #[arg(long)]
     pub doubt: bool,
-    /// Where to keep the way to a violation [default: TARGET-counterexample.json]
+    /// File for the path to a violation [default: TARGET-counterexample.json]
     #[arg(long, value_name = "PATH")]
     pub save: Option<PathBuf>,
-    /// Where to draw the way to a violation as a space-time diagram (.svg)
+    /// File for a space-time diagram of the path to a violation (.svg)
     #[arg(long, value_name = "PATH")]
     pub diagram: Option<PathBuf>,
-    /// Go the way that this file keeps, step by step, and explore nothing
+    /// Follow the path in this file step by step, without exploring
     #[arg(long, value_name = "FILE", conflicts_with_all = ["target", "save"])]
     pub replay: Option<PathBuf>,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
-    /// Print nothing but errors and a violation with the way to it
+    /// Print only errors, and a violation with its path
     #[arg(long)]
     pub quiet: bool,
 }
@@ -507,7 +506,7 @@ pub struct CheckArguments {
     /// Files, or folders of `.starl` files; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// Exit with status 1 where there are warnings too
+    /// Exit with status 1 for warnings too
     #[arg(long)]
     pub deny_warnings: bool,
     /// Print one JSON object
@@ -532,13 +531,13 @@ pub struct ExplainArguments {
     /// An example's name (see `starl list`) or a program: a file ending in .starl; `-` for standard
     /// input. Or the code of an error or a warning, e.g. E0201
     pub program: String,
-    /// The enum variable whose values are the states [default: the one that most actions ask for]
+    /// The enum variable whose values are the states [default: the one that most actions test]
     #[arg(long, value_name = "NAME")]
     pub variable: Option<String>,
     /// The language of the drawing [default: by the file's suffix, else mermaid]
     #[arg(long, value_enum)]
     pub format: Option<Drawing>,
-    /// Write to this file (.mmd, .dot, .gv) rather than to standard output
+    /// Write to this file (.mmd, .dot, .gv) instead of standard output
     #[arg(long, value_name = "PATH")]
     pub output: Option<PathBuf>,
 }
@@ -555,7 +554,7 @@ pub enum Drawing {
 /// Arguments of `starl lsp`.
 #[derive(Args, Debug)]
 pub struct LspArguments {
-    /// Accepted because editors give it; there is no other way
+    /// Accepted without effect, because some editors pass it
     #[arg(long)]
     pub stdio: bool,
 }
@@ -571,7 +570,7 @@ pub struct ListArguments {
 /// Arguments of `starl bench`.
 #[derive(Args, Debug)]
 pub struct BenchArguments {
-    /// What to measure.
+    /// The workload.
     #[command(subcommand)]
     pub workload: Workload,
 }
@@ -583,11 +582,11 @@ pub enum Workload {
     Swarm(SwarmArguments),
     /// Ground robots broadcast at every tick to about eight neighbours
     Radio(RadioArguments),
-    /// Ground robots drive to a far way-point, each running the program of the example Race
+    /// Ground robots drive to a far waypoint, each running the program of the example Race
     Race(RaceArguments),
 }
 
-/// What all workloads have in common.
+/// The common options of all workloads.
 #[derive(Args, Debug)]
 pub struct LoadArguments {
     /// Simulated seconds
@@ -607,10 +606,10 @@ pub struct LoadArguments {
 /// Arguments of `starl bench swarm`.
 #[derive(Args, Debug)]
 pub struct SwarmArguments {
-    /// How many robots
+    /// The number of robots
     #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = whole(1, MOST_ROBOTS))]
     pub robots: u32,
-    /// What all workloads have in common.
+    /// The common options of all workloads.
     #[command(flatten)]
     pub load: LoadArguments,
 }
@@ -618,13 +617,13 @@ pub struct SwarmArguments {
 /// Arguments of `starl bench radio`.
 #[derive(Args, Debug)]
 pub struct RadioArguments {
-    /// How many robots
+    /// The number of robots
     #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = whole(1, MOST_ROBOTS))]
     pub robots: u32,
     /// Bodies block the radio
     #[arg(long)]
     pub occluded: bool,
-    /// What all workloads have in common.
+    /// The common options of all workloads.
     #[command(flatten)]
     pub load: LoadArguments,
 }
@@ -632,13 +631,13 @@ pub struct RadioArguments {
 /// Arguments of `starl bench race`.
 #[derive(Args, Debug)]
 pub struct RaceArguments {
-    /// How many robots
+    /// The number of robots
     #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = whole(1, MOST_ROBOTS))]
     pub robots: u32,
-    /// Run the program that is written in Rust in the place of the one in the StarL language
+    /// Run the program in Rust instead of the one in the StarL language
     #[arg(long)]
     pub native: bool,
-    /// What all workloads have in common.
+    /// The common options of all workloads.
     #[command(flatten)]
     pub load: LoadArguments,
 }

@@ -44,19 +44,19 @@ pub fn read(
 struct Changed<'a> {
     text: String,
     path: &'a Path,
-    /// What the scenario calls the program.
+    /// The name of the program in the scenario.
     key: &'a str,
     inputs: &'a Inputs,
 }
 
 impl Changed<'_> {
-    /// What a file beside the program is called there.
+    /// The name there of a file beside the program.
     fn beside<'p>(&self, path: &'p str) -> Option<&'p str> {
         let folder = self.key.rfind('/').map_or("", |end| &self.key[..=end]);
         path.strip_prefix(folder).filter(|name| !name.contains('/'))
     }
 
-    /// What people call a file.
+    /// The displayed name of a file.
     fn name(&self, path: &str) -> String {
         let name = match self.beside(path) {
             Some(_) if path == self.key => self.path.to_path_buf(),

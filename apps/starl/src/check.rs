@@ -57,7 +57,7 @@ pub struct Examinee {
     checked: CheckedFile,
 }
 
-/// Checks a source, and tells nothing. What else is to be said of the program itself is added.
+/// Checks a source silently, and adds further findings about the program itself.
 pub fn examine(
     source: &Source,
     more: impl Fn(&Checked) -> Vec<Diagnostic>,
@@ -115,7 +115,7 @@ impl Examinee {
     }
 }
 
-/// What was found so far.
+/// The findings so far.
 struct Findings {
     /// The files that are checked by themselves, or were told of; a library that several programs
     /// import is told of once.
@@ -124,7 +124,7 @@ struct Findings {
     files: usize,
     errors: usize,
     warnings: usize,
-    /// What the first problem is of.
+    /// The code of the first problem.
     first: Option<Code>,
     reports: Vec<serde_json::Value>,
 }

@@ -23,7 +23,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// What this command is called: `starl`, or the name of a program that brings the command with programs of its own.
+/// The name of this command: `starl`, or that of a program that contains the command with programs of its own.
 pub fn command() -> String {
     let path = std::env::args_os().next().map(PathBuf::from);
     let name = path.as_deref().and_then(Path::file_stem);

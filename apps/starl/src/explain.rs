@@ -58,7 +58,7 @@ fn by_suffix(path: &Path) -> Option<Drawing> {
     }
 }
 
-/// What the argument means; an example goes before a file.
+/// Resolves the argument; an example takes precedence over a file.
 fn find(program: &str) -> Result<Source, Failure> {
     if let Some(example) = examples::find(program) {
         return sources::of(example).ok_or_else(|| {

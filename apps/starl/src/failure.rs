@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::Path;
 
-/// One message for the person who gave the command: where, what, and how to mend it.
+/// One message for the user of the command: the place, the problem, and a suggested fix.
 #[derive(Debug)]
 pub struct Failure(pub String);
 

@@ -14,11 +14,11 @@ use std::fs::{self, File};
 use std::io::Write;
 use std::path::Path;
 
-/// What became of a source.
+/// The result for a source.
 enum Outcome {
     /// It is laid out as it should be.
     Same,
-    /// It was laid out anew, or would be.
+    /// It was formatted, or would be.
     Changed,
     /// Its text has errors.
     Broken,
@@ -74,7 +74,7 @@ fn replace(path: &Path, content: &[u8]) -> Result<(), Failure> {
     let write = |file: &mut File| {
         file.set_permissions(fs::metadata(path)?.permissions())?;
         file.write_all(content)?;
-        // What is renamed must not be an empty file after the power went.
+        // The renamed file must not be empty after a power failure.
         file.sync_all()
     };
     write(&mut file)

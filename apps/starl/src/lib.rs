@@ -154,7 +154,7 @@ fn refuse(error: &clap::Error) -> ExitCode {
         console::error(&message);
         return ExitCode::from(2);
     }
-    // Where nobody listens any more there is nobody to tell.
+    // Without a reader there is no output.
     let _ = error.print();
     ExitCode::from(error.exit_code() as u8)
 }

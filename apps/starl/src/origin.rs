@@ -86,7 +86,7 @@ impl Origin {
         }
     }
 
-    /// What people call the file that something was found in.
+    /// The displayed name of the file with the findings.
     pub fn name(&self, findings: &Findings) -> String {
         match self.path(&findings.path) {
             Some(path) => path.display().to_string(),

@@ -137,7 +137,7 @@ pub fn identity(path: &Path) -> PathBuf {
     }
 }
 
-/// What went wrong with a file, in words.
+/// The reason of a failure with a file, in words.
 pub fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "there is no such file or folder".to_string(),

@@ -1,4 +1,4 @@
-//! What a run writes besides its summary: a trace and a picture.
+//! The files of a run besides its summary: a trace and a picture.
 
 use crate::args::RunArguments;
 use crate::failure::Failure;

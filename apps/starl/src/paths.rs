@@ -76,7 +76,7 @@ impl Paths {
         }
     }
 
-    /// The picture shows all places where obstacles and way-points were.
+    /// The picture shows all places where obstacles and waypoints were.
     fn steered(&mut self, what: &Intervention) {
         match what {
             Intervention::AddObstacle { obstacle, .. }

@@ -63,7 +63,7 @@ impl Count {
         self.0.inc(more);
     }
 
-    /// What is being done.
+    /// Shows the current activity.
     pub fn say(&self, what: impl Into<std::borrow::Cow<'static, str>>) {
         self.0.set_message(what);
     }

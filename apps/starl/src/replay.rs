@@ -62,13 +62,13 @@ pub fn unreadable(path: &Path, error: &TraceError) -> Failure {
     Failure::file(path, error)
 }
 
-/// What a trace holds.
+/// The content of a trace.
 struct Contents {
     header: Header,
     /// `None` if the end is missing.
     summary: Option<Summary>,
     records: u64,
-    /// What steered the run, and when.
+    /// The interventions of the run, with their times.
     steered: Vec<(Time, Intervention)>,
     /// Why the end is missing.
     cut: Option<TraceError>,
@@ -99,7 +99,7 @@ fn read_through(path: &Path) -> Result<Contents, Failure> {
     })
 }
 
-/// What agreed of a trace whose end is missing.
+/// The result for a trace whose end is missing.
 pub fn as_far_as_it_goes(agreed: &str) -> String {
     format!("identical as far as the trace goes: {agreed}")
 }
@@ -109,7 +109,7 @@ pub fn missing_end(cut: Option<&TraceError>) -> String {
     cut.map_or_else(String::new, |error| format!("\n  {error}"))
 }
 
-/// What the recorded run was started with.
+/// The inputs with which the recorded run was started.
 pub fn inputs(path: &Path, header: &Header, registry: &Registry) -> Result<Application, Failure> {
     let because = |what: String| {
         Failure::file(

@@ -63,7 +63,7 @@ fn robot(path: &Path, header: &Header, name: &str) -> Result<RobotId, Failure> {
     if let Some(found) = header.robots.iter().find(|robot| robot.name == name) {
         return Ok(found.id);
     }
-    /// More names than these help nobody.
+    /// A list of more names would not help.
     const MOST: usize = 20;
     let names: Vec<&str> = header.robots.iter().map(|robot| &*robot.name).collect();
     let more = match names.len() > MOST {
@@ -77,7 +77,7 @@ fn robot(path: &Path, header: &Header, name: &str) -> Result<RobotId, Failure> {
     )))
 }
 
-/// What the robot ran, or is to run.
+/// The recorded program of the robot, or the new one.
 fn program(
     arguments: &ReplayArguments,
     header: &Header,

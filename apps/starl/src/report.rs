@@ -1,4 +1,4 @@
-//! What there is to say of a run that has ended, for people and for programs alike.
+//! The report of a run that has ended, for people and for programs.
 
 use serde::{Serialize, Serializer};
 use starl_catalog::session::{Messages, Progress};
@@ -75,7 +75,7 @@ pub struct Failed {
     pub text: String,
 }
 
-/// What one robot did.
+/// The results of one robot.
 #[derive(Clone, Debug, Serialize)]
 pub struct Robot {
     pub id: u32,
@@ -85,7 +85,7 @@ pub struct Robot {
     pub way_points: u32,
 }
 
-/// What a report holds that the simulation does not know.
+/// The part of a report that the simulation does not know.
 pub struct Circumstances {
     pub target: String,
     pub replay: String,
@@ -121,7 +121,7 @@ impl Serialize for Ending {
 }
 
 impl Report {
-    /// What there is to say of a run.
+    /// The report of a run.
     pub fn of(run: &Run, circumstances: Circumstances) -> Report {
         let simulation = run.simulation();
         let scenario = simulation.scenario();
@@ -192,7 +192,7 @@ fn properties(run: &Run, scenario: &Scenario) -> Vec<Property> {
     run.verdicts().into_iter().map(property).collect()
 }
 
-/// What was excused, for people and programs.
+/// The excuses, for people and programs.
 pub fn excused(excused: &[(Excuse, u64)]) -> Vec<Excused> {
     let counted = excused.iter().map(|(excuse, count)| Excused {
         reason: excuse.text(),
@@ -201,7 +201,7 @@ pub fn excused(excused: &[(Excuse, u64)]) -> Vec<Excused> {
     counted.collect()
 }
 
-/// What was excused, as a remark on a verdict; nothing where nothing was.
+/// The excuses as a remark on a verdict; empty if there are none.
 pub fn remark(excused: &[Excused]) -> String {
     let total: u64 = excused.iter().map(|excused| excused.count).sum();
     let reasons: Vec<String> = excused

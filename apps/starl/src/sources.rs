@@ -11,7 +11,7 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// What a file of the language ends with.
+/// The suffix of a file of the language.
 const SUFFIX: &str = "starl";
 
 /// Where a text comes from.
@@ -26,7 +26,7 @@ pub enum Source {
 }
 
 impl Source {
-    /// What people call it.
+    /// Its displayed name.
     pub fn name(&self) -> String {
         match self {
             Source::Input => "standard input".to_string(),
@@ -182,8 +182,8 @@ pub fn find(arguments: &[PathBuf]) -> (Vec<Source>, Vec<Failure>) {
     (sources, failures)
 }
 
-/// The programs and libraries of a folder. What begins with a point is left out, and so are links to
-/// folders, which may lead back.
+/// The programs and libraries of a folder. Names that begin with a point are omitted, and so are
+/// links to folders, which may lead back.
 fn programs(folder: &Path, files: &mut Vec<PathBuf>, failures: &mut Vec<Failure>) {
     let entries = fs::read_dir(folder).and_then(Iterator::collect::<io::Result<Vec<_>>>);
     let mut entries = match entries {
@@ -196,7 +196,7 @@ fn programs(folder: &Path, files: &mut Vec<PathBuf>, failures: &mut Vec<Failure>
     };
     entries.sort_by_key(fs::DirEntry::file_name);
     for entry in entries {
-        // What is found in `.` is called by its name alone, as it would be if it were given.
+        // Files found in `.` are shown by their names alone, as if they were given.
         let path = match folder == Path::new(".") {
             true => PathBuf::from(entry.file_name()),
             false => entry.path(),

@@ -115,7 +115,7 @@ fn robots(text: &mut String, robots: &[Robot]) -> fmt::Result {
     writeln!(
         text,
         "{:name_width$}  {:12}  {:>10}  {:>10}",
-        "robot", "model", "distance", "way-points"
+        "robot", "model", "distance", "waypoints"
     )?;
     for robot in robots {
         writeln!(
@@ -134,7 +134,7 @@ fn models(text: &mut String, robots: &[Robot]) -> fmt::Result {
     writeln!(
         text,
         "{:12}  {:>10}  {:>30}  {:>10}",
-        "model", "robots", "distance least/mean/greatest", "way-points"
+        "model", "robots", "distance least/mean/greatest", "waypoints"
     )?;
     for name in names {
         let of_kind = || robots.iter().filter(|robot| robot.model == name);
@@ -181,8 +181,8 @@ fn properties(text: &mut String, properties: &[Property]) -> fmt::Result {
     }
     match properties.len() - used().count() {
         0 => Ok(()),
-        1 => writeln!(text, "1 more is about what this run did not use"),
-        unused => writeln!(text, "{unused} more are about what this run did not use"),
+        1 => writeln!(text, "1 more property does not apply (unused primitive)"),
+        unused => writeln!(text, "{unused} more properties do not apply (unused primitives)"),
     }
 }
 

@@ -14,16 +14,16 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// What is run: a scenario, perhaps with another program.
+/// The target: a scenario, perhaps with another program.
 struct Target {
     scenario: Source,
     /// Where the files that it names come from.
     origin: Origin,
-    /// What the scenario's own program is replaced by, as the command line has it.
+    /// The replacement of the scenario's own program, by the command line.
     program: Option<PathBuf>,
 }
 
-/// What was read, and where from.
+/// The target that was read, and its source.
 pub struct Selection {
     /// The scenario and its programs, checked to the last field.
     pub application: Application,
@@ -123,7 +123,7 @@ fn replacing(target: &str, key: &str, scenario: &Source, origin: &Origin) -> Vec
 
 /// Whether some group of the scenario names this program already.
 fn names(scenario: &Source, origin: &Origin, key: &str) -> bool {
-    // What is wrong with the scenario is told when it is read for good.
+    // Errors of the scenario are reported when it is read completely.
     let read = starl_sim::read::scenario(&Request::new(scenario.clone()), origin);
     read.is_ok_and(|read| {
         let mut groups = read.scenario.fleet.groups.iter();

@@ -33,7 +33,7 @@ pub struct TraceOutput {
     now: Time,
 }
 
-/// What the writer gives its bytes to.
+/// The destination of the writer's bytes.
 struct Chunks {
     file: File,
     state: Arc<State>,

@@ -1,7 +1,7 @@
 //! `starl verify`: judges the properties of a run by its trace alone, whichever host wrote it.
 //!
-//! Each record is shown to the checkers that watch every run, in the steps in which a simulator would show them. What
-//! cannot be judged is said to be so, with the reason.
+//! Each record is shown to the checkers of every run, in the steps in which a simulator would show them. Properties
+//! that cannot be judged are reported with the reason.
 
 mod account;
 
@@ -18,7 +18,7 @@ use starl_properties::{Setting, Violation, Watch, checkers};
 use starl_trace::{Header, TraceError};
 use std::path::Path;
 
-/// What was read of a trace, and what the checkers say of it.
+/// The read part of a trace, and the verdicts of the checkers.
 struct Judged {
     header: Header,
     setting: Setting,
@@ -106,8 +106,8 @@ fn violation(record: &Record, property: &Name, text: &str) -> Violation {
     }
 }
 
-/// What to judge by: what the host wrote, what the recorded inputs say, or the robots and obstacles with the bounds
-/// that are usual.
+/// The setting: that of the host, or that of the recorded inputs, or the robots and obstacles with the usual
+/// bounds.
 fn setting(path: &Path, header: &Header, registry: &Registry) -> Result<Setting, Failure> {
     if !header.setting.is_empty() {
         let setting: Setting = serde_json::from_str(&header.setting).map_err(|error| {
@@ -166,7 +166,7 @@ impl Steps {
 
     fn take(&mut self, record: Record) {
         let number = record.at.0 / self.step;
-        // What is dropped in a sender's queue is on record ahead of its time.
+        // Datagrams dropped in a sender's queue are recorded ahead of their time.
         if number > self.number && !matches!(record.event, Event::Dropped { .. }) {
             self.close(Time(number.saturating_mul(self.step)));
             self.number = number;

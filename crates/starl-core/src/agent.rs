@@ -29,7 +29,7 @@ impl Agent {
         Agent { saved, ..self }
     }
 
-    /// What storage held when this software was started; none on a robot without.
+    /// The contents of storage when this software was started; none on a robot without storage.
     pub fn saved(&self) -> Option<&Saved> {
         self.saved.as_deref()
     }

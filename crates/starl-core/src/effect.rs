@@ -1,4 +1,4 @@
-//! What a state machine asks of its host.
+//! Effects: the requests of a state machine to its host.
 
 use crate::event::{Event, Name};
 use crate::{MotionRequest, Payload, Port, RobotId, Save, TimerKey, time::Duration};
@@ -8,7 +8,7 @@ use core::any::Any;
 use core::fmt;
 use serde::{Deserialize, Serialize};
 
-/// To whom a transmission goes.
+/// The receivers of a transmission.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Destination {
     /// Every robot that the network reaches, the sender left out.
@@ -22,7 +22,7 @@ pub enum Destination {
 pub enum Effect {
     /// Hand a datagram to the network, which may lose, delay, duplicate or reorder it.
     Transmit {
-        /// To whom.
+        /// The receivers.
         destination: Destination,
         /// For which endpoint there.
         port: Port,
@@ -62,15 +62,15 @@ pub struct Effects {
     pub list: Vec<Effect>,
     /// Messages that primitives hand up to their own robot's program.
     pub(crate) upcalls: Vec<crate::Message>,
-    /// What a failure detector tells the other primitives of its own robot.
+    /// The verdicts of a failure detector for the other primitives of its robot.
     pub(crate) verdicts: Vec<crate::Input>,
     /// Room for work.
     pub(crate) scratch: Scratch,
 }
 
-/// Working memory that outlives an input, so that a state machine need not make it anew each time. A
-/// host that uses the same [`Effects`] for many robots has it once for all of them: nothing in it may
-/// make a difference to what a state machine does. Copies are empty.
+/// Working memory that outlives an input, so that a state machine need not allocate it for each
+/// input. A host that uses the same [`Effects`] for many robots shares it among them, so its content
+/// must not influence a state machine. Copies are empty.
 #[derive(Default)]
 pub(crate) struct Scratch(Option<Box<dyn Any + Send + Sync>>);
 

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Intervention {
-    /// Something breaks or is mended.
+    /// A fault begins or ends.
     Fault(FaultKind),
     /// The robot's body is moved, as by a hand, as far as nothing is in the way.
     Push {
@@ -45,10 +45,10 @@ pub enum Intervention {
         /// Its index in the world.
         index: u32,
     },
-    /// A way-point appears, or the one of this name moves. Programs hear of it as of an order named
+    /// A waypoint appears, or the one of this name moves. Programs hear of it as of an order named
     /// `way_points`.
     SetWayPoint(WayPoint),
-    /// A way-point vanishes.
+    /// A waypoint vanishes.
     RemoveWayPoint {
         /// Its name.
         name: String,
@@ -69,7 +69,7 @@ pub enum Intervention {
     Tell {
         /// Which robots; all if empty.
         robots: Vec<RobotId>,
-        /// What they are told.
+        /// The order.
         order: Order,
     },
     /// A robot joins the fleet, and gets the next free number.
@@ -227,13 +227,13 @@ fn is_plain(value: &Value) -> bool {
     }
 }
 
-/// What can break, and what mends it.
+/// The kinds of faults, and their ends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FaultKind {
     /// The robots stop computing, receiving and moving, and lose all state.
     Crash(Vec<RobotId>),
-    /// Crashed robots start afresh, their programs from the beginning.
+    /// Crashed robots restart, with their programs from the beginning.
     Restart(Vec<RobotId>),
     /// Robots in different groups do not hear each other; robots in no group form one more.
     Partition(Vec<Vec<RobotId>>),
@@ -274,7 +274,7 @@ pub enum NetworkKnob {
     Range(Option<f64>),
     /// Whether bodies and obstacles stop radio waves.
     LineOfSight(bool),
-    /// What a robot sends at most, bits per second; none is anything.
+    /// The maximum rate at which a robot sends, bits per second; none is unlimited.
     Bandwidth(Option<f64>),
     /// How long a datagram may wait for the radio.
     Queue(Duration),
@@ -334,7 +334,7 @@ pub enum DelayDistribution {
     Exponential,
 }
 
-/// What an operator tells a robot's program.
+/// An order of an operator to a robot's program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Order {
     /// Its name, e.g. `go_home`.
@@ -344,6 +344,6 @@ pub struct Order {
 }
 
 impl Order {
-    /// The name of the order by which programs hear that the way-points have changed.
+    /// The name of the order by which programs hear that the waypoints have changed.
     pub const WAY_POINTS: &'static str = "way_points";
 }

@@ -1,10 +1,10 @@
 //! The contract all StarL layers meet at.
 //!
-//! A robot's program and each of its primitives is a pure state machine: it is handed an input (a
-//! start, a message, a timer, a position estimate, an activation) together with a [`Robot`] handle,
-//! and pushes effects (send, arm a timer, move, record an event) through that handle. Nothing here
-//! knows a clock, socket, thread or file, so the same machine runs in the simulator, in a browser,
-//! under a state explorer and on a real robot.
+//! A robot's program and each of its primitives is a pure state machine. Its host passes it an
+//! input (a start, a message, a timer, a position estimate, an activation) together with a
+//! [`Robot`] handle, and it pushes effects (send, arm a timer, move, record an event) through that
+//! handle. It uses no clock, socket, thread or file, so the same machine runs in the simulator, in
+//! a browser, under a state explorer and on a real robot.
 //!
 //! Units are SI throughout: metres, seconds (or integer nanoseconds, [`Time`]), radians, one common
 //! right-handed world frame with x and y in the floor plane and z up.

@@ -8,7 +8,7 @@ use smallvec::SmallVec;
 /// A message's bytes. Short ones, which are most, are held in place.
 pub type Payload = SmallVec<[u8; 24]>;
 
-/// What travels between robots: bytes for one endpoint.
+/// A message between robots: bytes for one endpoint.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Message {
     /// The sender.

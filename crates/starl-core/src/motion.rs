@@ -1,6 +1,6 @@
 //! The interface between programs and whatever moves the robot (the thesis's RobotMotion).
 //!
-//! A program or primitive asks; the host's motion layer plans, tracks way-points and turns them into
+//! A program or primitive asks; the host's motion layer plans, tracks waypoints and turns them into
 //! commands of the robot's own model.
 
 use crate::geometry::{HeightSpan, Obstacle, Point, Pose, Twist};
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 /// Obstacles shared without copying.
 pub type Obstacles = Arc<[Obstacle]>;
 
-/// Way-points to visit in order, metres.
+/// Waypoints to visit in order, metres.
 pub type Path = Vec<Point>;
 
 /// A command of a robot model. Commands are exclusive: a new one aborts the one before it. Each
@@ -126,7 +126,7 @@ impl Body {
     }
 }
 
-/// What the positioning system says of a robot.
+/// An estimate of the positioning system for a robot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// Estimated pose.
@@ -153,7 +153,7 @@ pub enum Planner {
     RrtStar,
 }
 
-/// What is asked of a planner.
+/// A request to a planner.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlanRequest {
     /// Comes back with the answer, [`crate::Input::Planned`].
@@ -162,7 +162,7 @@ pub struct PlanRequest {
     pub target: Point,
     /// Where the target itself is not free, a point this near to it will do, metres.
     pub vicinity: f64,
-    /// What the body must keep out of.
+    /// The obstacles that the body must avoid.
     pub unsafe_set: Obstacles,
     /// Whether robots in sight count as obstacles where they stand now.
     pub around_robots: bool,
@@ -174,14 +174,14 @@ pub struct PlanRequest {
     pub seed: u64,
 }
 
-/// What is asked of the host's motion layer.
+/// A request to the host's motion layer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum MotionRequest {
     /// Send this command to the model, now and until another comes.
     Drive(Command),
     /// Find a path from the estimated pose; the answer is [`crate::Input::Planned`].
     Plan(PlanRequest),
-    /// Track this way-point in closed loop until told otherwise.
+    /// Track this waypoint in closed loop until told otherwise.
     Track {
         /// Where to go, metres.
         target: Point,

@@ -4,8 +4,8 @@ use crate::motion::Path;
 use crate::{Message, Order, Port, Robot, RobotId, TimerKey};
 use serde::{Deserialize, Serialize};
 
-/// All that can happen to a state machine. What a robot knows at that moment is in its
-/// [`crate::View`], so a recorded sequence of views and inputs is at once a log, a replay and a test.
+/// The inputs of a state machine. The robot's knowledge at that moment is in its [`crate::View`], so
+/// a recorded sequence of views and inputs serves as a log, a replay and a test.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Input {
     /// The robot starts, or starts again after a crash.
@@ -22,7 +22,7 @@ pub enum Input {
     Planned {
         /// The request's.
         ticket: u32,
-        /// Way-points from the robot to the target; none where the planner gave up.
+        /// Waypoints from the robot to the target; none where the planner gave up.
         path: Option<Path>,
     },
     /// The program's failure detector believes that a robot has failed; it may be wrong. A robot that
@@ -31,7 +31,7 @@ pub enum Input {
     Suspected(RobotId),
     /// The program's failure detector trusts a robot again.
     Trusted(RobotId),
-    /// An operator tells the program something, or its way-points have changed
+    /// An operator tells the program something, or its waypoints have changed
     /// ([`Order::WAY_POINTS`]).
     Order(Order),
 }
@@ -39,9 +39,9 @@ pub enum Input {
 /// A building block of programs: a pure state machine that answers inputs with effects.
 ///
 /// A program owns its primitives as fields, calls their methods, and reads their flags. Inputs reach
-/// those that it shows by [`crate::Primitives`]: a message or timer goes to the one primitive whose
-/// port it names, every other input to all of them, before the program itself sees it. What a failure
-/// detector among them finds out reaches all of them next.
+/// the primitives that it shows by [`crate::Primitives`] before the program itself. A message or
+/// timer goes to the one primitive with its port, every other input to all of them. The findings of a
+/// failure detector among them reach all of them next.
 pub trait Primitive {
     /// The endpoint of this instance.
     fn port(&self) -> Port;
@@ -49,8 +49,8 @@ pub trait Primitive {
     /// Takes an input and pushes effects through the handle.
     fn handle(&mut self, robot: &mut Robot<'_>, input: &Input);
 
-    /// Saves what is to outlast a crash ([`Robot::save`]), if it has changed. Called after each input on robots
-    /// with storage, and on no others. What was saved is there at [`Input::Start`].
+    /// Saves the state that must survive a crash ([`Robot::save`]), if it has changed. Called after each input,
+    /// only on robots with storage. [`Input::Start`] contains the saved state.
     fn save(&mut self, robot: &mut Robot<'_>) {
         let _ = robot;
     }

@@ -45,14 +45,15 @@ pub trait Program: Primitives + DynClone + Send + Sync {
         let _ = (robot, key);
     }
 
-    /// Handles what an operator says, and hears that the way-points have changed
+    /// Handles what an operator says, and hears that the waypoints have changed
     /// ([`Order::WAY_POINTS`]).
     fn told(&mut self, robot: &mut Robot<'_>, order: &Order) {
         let _ = (robot, order);
     }
 
-    /// Saves what is to outlast a crash ([`Robot::save`] under [`crate::Port::PROGRAM`]), if it has changed. Called
-    /// after each input on robots with storage, and on no others. What was saved is there at [`Program::start`].
+    /// Saves the state that must survive a crash ([`Robot::save`] under [`crate::Port::PROGRAM`]), if it has
+    /// changed. Called after each input, only on robots with storage. The saved state is available at
+    /// [`Program::start`].
     fn save(&mut self, robot: &mut Robot<'_>) {
         let _ = robot;
     }
@@ -72,8 +73,8 @@ pub trait Program: Primitives + DynClone + Send + Sync {
         false
     }
 
-    /// What the program shows to those who watch a run, e.g. its variables to a monitor of its
-    /// properties. The watcher asks for the type that it knows.
+    /// The state that the program shows to observers of a run, for example its variables to a
+    /// monitor of its properties. The observer asks for the type that it knows.
     fn inspect(&self) -> Option<&dyn Any> {
         None
     }

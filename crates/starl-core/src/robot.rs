@@ -20,18 +20,18 @@ pub struct WayPoint {
     pub name: alloc::string::String,
     /// Where it is, metres.
     pub position: Point,
-    /// A number that groups way-points, e.g. by robot; 0 where none is given.
+    /// A number that groups waypoints, e.g. by robot; 0 where none is given.
     pub group: u32,
 }
 
-/// What a robot knows at one moment. The host fills it before each input.
+/// A robot's knowledge at one moment. The host fills it before each input.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
     /// Which robot this is.
     pub id: RobotId,
     /// The robot's own clock.
     pub now: Time,
-    /// What the positioning system last said.
+    /// The latest estimate of the positioning system.
     pub estimate: Estimate,
     /// The space the robot takes.
     pub body: Body,
@@ -39,7 +39,7 @@ pub struct View<'a> {
     pub sensors: Sensors<'a>,
     /// All robots of the application, this one too, in the order of their numbers.
     pub fleet: &'a [RobotId],
-    /// The application's way-points.
+    /// The application's waypoints.
     pub way_points: &'a [WayPoint],
     /// The obstacles this robot knows.
     pub obstacles: &'a Obstacles,
@@ -124,7 +124,7 @@ impl<'a> Robot<'a> {
         &self.view.sensors
     }
 
-    /// The application's way-points (the thesis's getInput).
+    /// The application's waypoints (the thesis's getInput).
     pub fn way_points(&self) -> &'a [WayPoint] {
         self.view.way_points
     }
@@ -178,7 +178,7 @@ impl<'a> Robot<'a> {
         self.push(Effect::Move(MotionRequest::Plan(request)));
     }
 
-    /// Tracks a way-point: [`MotionRequest::Track`].
+    /// Tracks a waypoint: [`MotionRequest::Track`].
     pub fn track(&mut self, target: Point, next: Option<Point>) {
         self.push(Effect::Move(MotionRequest::Track { target, next }));
     }
@@ -262,7 +262,7 @@ impl<'a> Robot<'a> {
         }
     }
 
-    /// What storage held when this robot's software started; none if it has no storage.
+    /// The contents of storage when this robot's software started; none if it has no storage.
     pub fn saved(&self) -> Option<&'a Saved> {
         self.saved
     }
@@ -291,7 +291,7 @@ impl<'a> Robot<'a> {
         self.effects.list.len()
     }
 
-    /// Runs something whose effects do not take place. What it draws at random is drawn.
+    /// Runs something and discards its effects. Its random draws are kept.
     pub fn rehearse<T>(&mut self, run: impl FnOnce(&mut Robot<'_>) -> T) -> T {
         let mut effects = Effects::default();
         run(&mut Robot {
@@ -302,9 +302,9 @@ impl<'a> Robot<'a> {
         })
     }
 
-    /// Working memory of this type: what was left by [`Robot::return_scratch`], perhaps for another
-    /// robot, or new. It spares making it anew for each input; nothing in it may make a difference to
-    /// what the program does.
+    /// Working memory of this type: the value left by [`Robot::return_scratch`], possibly by another
+    /// robot, or a new one. It saves an allocation for each input. Its content must not influence the
+    /// program.
     pub fn take_scratch<T: Any + Default + Send + Sync>(&mut self) -> Box<T> {
         self.effects.scratch.take().unwrap_or_default()
     }

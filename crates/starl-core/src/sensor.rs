@@ -1,4 +1,4 @@
-//! What a robot senses, behind one typed interface.
+//! A robot's sensor readings, behind one typed interface.
 
 use crate::event::Name;
 use crate::{Point, RobotId};
@@ -40,7 +40,7 @@ pub struct Ray {
 /// Something a detector sees in range and line of sight.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Detection {
-    /// What it is.
+    /// The detected robot or thing.
     pub what: Detected,
     /// Where it is in the world frame, metres.
     pub position: Point,
@@ -59,7 +59,7 @@ pub enum Detected {
 /// as absent: `None`, or an empty list.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sensors<'a> {
-    /// What the body touches now.
+    /// The current contact of the body.
     pub bumper: Option<Contact>,
     /// Proximity rays in the order of their bearings.
     pub proximity: &'a [Ray],

@@ -1,4 +1,4 @@
-//! What a robot keeps over a restart.
+//! A robot's storage, which survives a restart.
 //!
 //! A robot's software saves values under keys ([`crate::Robot::save`]), and finds them again when it starts the
 //! next time ([`crate::Robot::saved`]). A value is written whole or not at all. All that an input brings about,
@@ -18,15 +18,15 @@ use serde::{Deserialize, Serialize};
 /// One value to be written or taken away.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Save {
-    /// Whose it is: the program's, or a primitive's.
+    /// The owner: the program, or a primitive.
     pub port: Port,
     /// Names it among those of its owner.
     pub key: Name,
-    /// What it is from now on; none takes it away.
+    /// The new value; none removes it.
     pub value: Option<Payload>,
 }
 
-/// What storage holds.
+/// The contents of storage.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Saved {
     values: BTreeMap<(Port, Name), Payload>,
@@ -52,8 +52,8 @@ impl Saved {
         }
     }
 
-    /// Whether nothing was ever lost: who finds nothing has never saved anything, so that this is its first
-    /// life, or as good as that.
+    /// Whether nothing was ever lost. If storage is empty then, the robot has never saved anything, so this
+    /// is effectively its first life.
     pub fn is_whole(&self) -> bool {
         self.is_whole
     }

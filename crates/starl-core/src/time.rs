@@ -40,7 +40,7 @@ impl From<Duration> for core::time::Duration {
 }
 
 impl Duration {
-    /// No time at all.
+    /// Zero.
     pub const ZERO: Duration = Duration(0);
 
     /// A span of whole seconds.

@@ -23,7 +23,8 @@ use crate::Port;
 use core::fmt;
 use serde::{Deserialize, Serialize};
 
-/// What a timer is for. Its owner makes it from a [`Timer`] and reads it back; to all others it is opaque.
+/// The purpose of a timer. Its owner makes it from a [`Timer`] and reads it back; to all others it is
+/// opaque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Token {
     kind: u16,
@@ -37,7 +38,7 @@ impl Token {
         Token { kind, number }
     }
 
-    /// What it was made from: `kind` and `number`.
+    /// Its parts: `kind` and `number`.
     pub const fn parts(self) -> (u16, u32) {
         (self.kind, self.number)
     }
@@ -65,7 +66,7 @@ pub trait Timer: Sized {
 pub struct TimerKey {
     /// The owner: a program or a primitive.
     pub port: Port,
-    /// What its owner uses it for.
+    /// The owner's use of it.
     pub token: Token,
 }
 

@@ -4,7 +4,7 @@ use crate::code::Kind;
 use serde::{Deserialize, Serialize};
 use starl_core::Duration;
 
-/// What bounds the behaviours that are explored. Within them all are.
+/// The bounds of an exploration. It visits all behaviours within them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Bounds {
     /// Datagrams that get lost, at most; default 0. To safety a datagram that gets lost is one that
@@ -25,7 +25,7 @@ pub struct Bounds {
     /// Timers that fire, at most, of all robots together, or [`Bounds::ANY_NUMBER`]; default 1. With [`Clocks::Ticking`] timers
     /// are bounded by the time instead.
     pub timers: u8,
-    /// What clocks show.
+    /// The model of clocks.
     pub clocks: Clocks,
     /// States further than this many steps from the start are not explored; default none. A search
     /// that comes upon this bound is not complete.
@@ -35,7 +35,7 @@ pub struct Bounds {
     pub most_states: u32,
 }
 
-/// What time is.
+/// Models of time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Clocks {
     /// All clocks show zero, always, and a timer may fire at any time once it is armed.
@@ -78,7 +78,7 @@ impl Default for Bounds {
     }
 }
 
-/// What is left of bounds on a path.
+/// The remaining bounds on a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Left {
     pub losses: u8,

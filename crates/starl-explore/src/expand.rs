@@ -15,7 +15,7 @@ pub const STUCK: &str = "explore.stuck";
 struct Site {
     number: u32,
     row: Vec<u32>,
-    /// What the checkers remember.
+    /// The state of the checkers.
     watch: u32,
     left: Left,
     /// Whether some step leads to another state.
@@ -116,7 +116,7 @@ impl Search {
         site.moves |= next != Some(site.number);
     }
 
-    /// What is wrong with a state in which nothing can happen any more.
+    /// The violation of a state without a next step, if there is one.
     fn stuck(&self, site: &Site) -> Option<Violation> {
         if !self.robots.surroundings.model.all_finish {
             return None;

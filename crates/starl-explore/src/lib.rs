@@ -2,9 +2,9 @@
 //! losses, duplicates, crashes and restarts, timers and activations at any time they could come.
 //!
 //! It is a host of the same [`starl_core::Agent`] as the simulator, with the same checkers of properties.
-//! A simulation is one behaviour out of many; an exploration is all of them, for fleets so small that it
-//! comes to an end. Robots stand still. What time is here, and what a search that found nothing says, is
-//! told in `docs/explanation/exploration.md`.
+//! A simulation is one behaviour out of many. An exploration is all of them, for fleets that are small
+//! enough. Robots stand still. `docs/explanation/exploration.md` explains the model of time, and the
+//! meaning of a search that found nothing.
 //!
 //! [`Search`] finds the states, and the shortest way to a violation; [`Walk`] goes that way step by step,
 //! without any of the search's shortcuts.
@@ -38,16 +38,16 @@ pub use walk::{Impossible, Moment, Walk};
 use starl_core::{Event, RobotId, Time};
 use starl_properties::{Checker, Violation};
 
-/// What is explored, how far, and what is to hold.
+/// The subject of an exploration, its bounds, and its properties.
 #[derive(Clone)]
 pub struct Setup {
     /// The fleet.
     pub model: Model,
     /// How much may go wrong.
     pub bounds: Bounds,
-    /// What is to hold of behaviours.
+    /// The checkers of behaviours.
     pub checkers: Vec<Box<dyn Checker>>,
-    /// What is to hold of states.
+    /// The invariants of states.
     pub invariants: Vec<Box<dyn Invariant>>,
 }
 

@@ -1,4 +1,4 @@
-//! What is explored: a small fleet of robots that stand still.
+//! The subject of an exploration: a small fleet of robots that stand still.
 
 use starl_core::motion::{Body, Obstacles, Workspace};
 use starl_core::{Point, Port, Pose, Program, RobotId, WayPoint};
@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 pub struct Model {
     /// The robots, by number.
     pub members: Vec<Member>,
-    /// The application's way-points.
+    /// The application's waypoints.
     pub way_points: Vec<WayPoint>,
     /// The obstacles that all know.
     pub obstacles: Obstacles,
@@ -26,7 +26,7 @@ pub struct Model {
 /// One robot.
 #[derive(Clone)]
 pub struct Member {
-    /// What it runs.
+    /// Its program.
     pub program: Box<dyn Program>,
     /// Where it stands.
     pub pose: Pose,

@@ -1,4 +1,4 @@
-//! What can happen next to one robot, whatever the others do.
+//! The possible next events of one robot, independent of the others.
 
 use crate::actors::Actors;
 use crate::bounds::Clocks;
@@ -109,7 +109,7 @@ impl Finder<'_> {
         }
     }
 
-    /// What happens to a robot that runs.
+    /// The possible events of a robot that runs.
     fn turns(&mut self) {
         let state = self.robots.state(self.local);
         let robot = state.robot();

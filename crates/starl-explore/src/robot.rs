@@ -26,7 +26,7 @@ pub(crate) struct Local {
     pub clock: u64,
     /// Counts its starts.
     life: u64,
-    /// What has happened to it in this life, where its program does not write its state.
+    /// The hash of its history in this life, if its program does not write its state.
     history: u128,
 }
 
@@ -43,16 +43,16 @@ pub(crate) enum Happening {
     Trust(RobotId),
 }
 
-/// What comes of it.
+/// The result of a turn.
 pub(crate) struct Turn {
     pub local: Local,
     pub sent: Vec<Datagram>,
     pub events: Vec<Event>,
-    /// How often it asked to move, which nobody does here.
+    /// How often it asked to move. Motion requests are ignored here.
     pub motions: u64,
 }
 
-/// What a robot's turn depends on besides its own state.
+/// The inputs of a robot's turn besides its own state.
 #[derive(Clone)]
 pub(crate) struct Surroundings {
     pub model: Model,
@@ -123,7 +123,7 @@ impl Local {
         local.turn(&Happening::Restart, surroundings)
     }
 
-    /// What becomes of it when something happens.
+    /// The result of an event.
     pub fn turn(&self, happening: &Happening, surroundings: &Surroundings) -> Turn {
         let mut turn = Turn {
             local: self.clone(),

@@ -37,12 +37,12 @@ pub(crate) struct Robots {
     pub doubt: Option<Box<Doubt>>,
 }
 
-/// What comes of a turn.
+/// The result of a turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Outcome {
     /// The robot's state after it.
     pub local: u32,
-    /// What it has to tell checkers.
+    /// The events for the checkers.
     pub batch: u32,
     /// Where the numbers of what it sent are.
     pub sent: (u32, u32),
@@ -120,7 +120,7 @@ impl Robots {
             + self.sent.capacity() * size_of::<u32>()
     }
 
-    /// What becomes of a robot in this state.
+    /// The result of an event for a robot in this state.
     pub fn turn(&mut self, local: u32, code: Code) -> Outcome {
         let (number, is_new) = self.turns.insert(&[local, code.0], &[]);
         if is_new {

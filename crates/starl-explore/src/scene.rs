@@ -1,4 +1,4 @@
-//! What holds of a state by itself.
+//! Properties of single states.
 
 use crate::robot::{Local, Surroundings};
 use starl_core::motion::Obstacles;
@@ -32,7 +32,8 @@ impl<'a> Scene<'a> {
         &self.surroundings.fleet
     }
 
-    /// What a robot's program shows ([`starl_core::Program::inspect`]); none of a robot that is down.
+    /// The inspection of a robot's program ([`starl_core::Program::inspect`]); none for a robot that
+    /// is down.
     pub fn program(&self, robot: RobotId) -> Option<&'a dyn Any> {
         let local = *self.locals.get(robot.index())?;
         local.is_up().then(|| local.node.program().inspect())?
@@ -56,7 +57,7 @@ impl<'a> Scene<'a> {
         Some(member.pose)
     }
 
-    /// The application's way-points.
+    /// The application's waypoints.
     pub fn way_points(&self) -> &'a [WayPoint] {
         &self.surroundings.model.way_points
     }

@@ -29,7 +29,7 @@ pub struct Search {
     invariants: Vec<Box<dyn Invariant>>,
     /// Rows of robots' states that invariants have judged.
     judged: Table,
-    /// What checkers remember, and what is left of the bounds.
+    /// The states of the checkers, and the remaining bounds.
     heads: Rows,
     pub(crate) actors: Actors,
     /// Rows of a head and the actors; with each the state before it, and the step from there.
@@ -66,7 +66,7 @@ pub enum End {
 pub struct Counterexample {
     /// The steps, as few as possible.
     pub steps: Vec<Step>,
-    /// What is violated after them.
+    /// The violation after them.
     pub violation: Violation,
 }
 
@@ -87,7 +87,7 @@ pub struct Report {
     pub robot_states: usize,
     /// States of the checkers.
     pub checker_states: usize,
-    /// How often programs asked to move. Nobody does.
+    /// How often programs asked to move. Motion requests are ignored.
     pub motions: u64,
     /// Turns in which two robots that were taken for the same were compared.
     pub compared: u64,
@@ -213,7 +213,8 @@ impl Search {
         }
     }
 
-    /// What primitives have told of in some behaviour. About what never happens nothing is found out.
+    /// The events of primitives in some behaviour. The exploration says nothing about events that
+    /// never happen.
     pub fn told(&self) -> impl Iterator<Item = &PrimitiveEvent> {
         self.robots.all_events().filter_map(|event| match event {
             Event::Primitive { event, .. } => Some(event),
@@ -250,7 +251,7 @@ impl Search {
         Some(number)
     }
 
-    /// What the checkers remember, and what is left of the bounds.
+    /// The states of the checkers, and the remaining bounds.
     pub(crate) fn head(&self, number: u32) -> (u32, Left) {
         let row = self.heads.row(number);
         (row[0], Left::read(&row[1..]))

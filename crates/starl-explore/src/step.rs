@@ -1,4 +1,4 @@
-//! What can happen next in an exploration, as plain data that can be kept in a file.
+//! The possible next steps of an exploration, as plain data that can be saved in a file.
 
 use serde::{Deserialize, Serialize};
 use starl_core::{Message, Payload, Port, RobotId, TimerKey};

@@ -90,7 +90,7 @@ impl Rows {
         &all_of(&self.chunks, self.width, number)[..self.key]
     }
 
-    /// What is kept with this row; there must be one.
+    /// The data kept with this row, which must exist.
     pub fn kept(&self, number: u32) -> &[u32] {
         &all_of(&self.chunks, self.width, number)[self.key..]
     }

@@ -24,7 +24,7 @@ pub struct Walk {
     pub(crate) bounds: Bounds,
     pub(crate) left: Left,
     pub(crate) locals: Vec<Local>,
-    /// What is on its way.
+    /// The datagrams in transit.
     flight: Vec<Flying>,
     /// Counts each robot's datagrams.
     sent: Vec<u32>,
@@ -43,13 +43,13 @@ struct Flying {
     age: u8,
 }
 
-/// What happens in a step.
+/// The events of a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {
     /// The events, in order, as a trace has them. The time is the number of the step, as seconds: 0 for
     /// the start.
     pub records: Vec<Record>,
-    /// What does not hold after it.
+    /// The properties that are violated after it.
     pub violations: Vec<Violation>,
 }
 
@@ -172,12 +172,12 @@ impl Walk {
         ready.map(|place| timers[place as usize].0).collect()
     }
 
-    /// What is on its way, in the order in which it was sent.
+    /// The datagrams in transit, in the order of sending.
     pub fn flight(&self) -> impl Iterator<Item = &Datagram> {
         self.flight.iter().map(|flying| &flying.datagram)
     }
 
-    /// What is on its way, and for how many ticks it has been.
+    /// The datagrams in transit, each with its age in ticks.
     pub(crate) fn flying(&self) -> impl Iterator<Item = (&Datagram, u8)> {
         self.flight
             .iter()

@@ -16,13 +16,13 @@ impl Walk {
     /// activated, and where clocks stand still no timer fires. Gives the steps, each with what happened.
     ///
     /// # Errors
-    /// Where robots do not come to rest, or clocks cannot tick so often.
+    /// Fails if robots do not become quiet, or clocks cannot tick so often.
     pub fn warm_up(&mut self, ticks: u16) -> Result<Vec<(Step, Moment)>, Impossible> {
         let mut taken = Vec::new();
         let mut left = ticks;
         while let Some(step) = self.next_of_warm_up(&mut left) {
             if taken.len() >= LONGEST {
-                let text = format!("robots have not come to rest after {LONGEST} steps");
+                let text = format!("robots are still active after {LONGEST} steps");
                 return Err(Impossible(text));
             }
             let moment = self.step(&step)?;

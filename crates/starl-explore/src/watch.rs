@@ -1,9 +1,9 @@
 //! The checkers of properties, as one more state machine: it takes in events, and what it remembers is
 //! a part of the state that is explored.
 //!
-//! Two paths that lead robots and network to the same state are one only if the checkers have seen the
-//! same too, as far as it matters to them: all that `Debug` shows of them. So a verdict that depends on
-//! the past, such as that somebody else still holds a lock, is right on every path.
+//! Two paths that lead robots and network to the same state merge only if the checkers have the same
+//! state too, as shown by `Debug`. So a verdict that depends on the past, for example on another robot
+//! that still holds a lock, is correct on every path.
 //!
 //! Checkers are not shown datagrams. They need them only to excuse what came too late, and nothing is
 //! too late here: an exploration has no bounds of time.
@@ -16,10 +16,11 @@ use starl_properties::{Checker, Violation};
 /// A state of all checkers.
 pub(crate) type Checkers = Vec<Box<dyn Checker>>;
 
-/// What some checkers hold back until they have seen all of a step comes to light after this time.
+/// Some checkers delay findings until they have seen all of a step. They report them after this
+/// time.
 const A_WHILE: Duration = Duration::from_seconds(1);
 
-/// What becomes of checkers that are shown events at a time; all violations are returned.
+/// The checkers after they are shown events at a time. All violations are returned.
 pub(crate) fn observe(
     checkers: &Checkers,
     events: &[(RobotId, Event)],
@@ -65,7 +66,7 @@ pub(crate) struct Watches {
     outcomes: Vec<Outcome>,
 }
 
-/// What comes of showing a batch of events.
+/// The result of showing a batch of events.
 #[derive(Clone)]
 pub(crate) struct Outcome {
     /// The state after it.
@@ -105,8 +106,7 @@ impl Watches {
         number
     }
 
-    /// What becomes of a state when it is shown the events with this number, at a time that is given in
-    /// ticks as well.
+    /// The state after it is shown the events with this number, at a time that is also given in ticks.
     pub fn show(
         &mut self,
         watch: u32,

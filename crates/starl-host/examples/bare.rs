@@ -36,7 +36,7 @@ impl Program for Beacon {
     }
 }
 
-/// What the firmware offers.
+/// The interface of the firmware.
 pub trait Board {
     /// Nanoseconds since it was switched on.
     fn now(&self) -> Time;

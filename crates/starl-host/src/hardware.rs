@@ -1,23 +1,23 @@
-//! What a node is told with each call: what the robot is made of, and what it knows at the moment.
+//! The arguments of each call of a node: the robot's hardware, and its current knowledge.
 
 use alloc::sync::Arc;
 use starl_core::motion::{Body, Obstacles};
 use starl_core::{Duration, RobotId, Sensors, WayPoint};
 use starl_motion::{Model, avoidance};
 
-/// What robots of one kind have in common.
+/// The common properties of robots of one kind.
 #[derive(Clone)]
 pub struct Hardware {
     /// The space that the robot takes.
     pub body: Body,
     /// How often the program is activated; never if zero.
     pub control_period: Duration,
-    /// What the motion layer drives; none where the host takes the robot to way-points itself
+    /// The model that the motion layer drives; none if the host takes the robot to waypoints itself
     /// ([`crate::Outlet::request_motion`]).
     pub drive: Option<Drive>,
 }
 
-/// What the node's motion layer drives.
+/// The model that the node's motion layer drives, with its options.
 #[derive(Clone)]
 pub struct Drive {
     /// The robot's dynamics and limits.
@@ -31,16 +31,16 @@ pub struct Drive {
     pub seed: u64,
 }
 
-/// What a robot knows at one moment beyond what its node keeps.
+/// A robot's current knowledge beyond the state that its node keeps.
 #[derive(Clone, Copy)]
 pub struct Snapshot<'a> {
-    /// What the robot is made of.
+    /// The robot's hardware.
     pub hardware: &'a Hardware,
     /// Current readings.
     pub sensors: Sensors<'a>,
     /// All robots of the application, this one too, in the order of their numbers.
     pub fleet: &'a [RobotId],
-    /// The application's way-points.
+    /// The application's waypoints.
     pub way_points: &'a [WayPoint],
     /// The obstacles that this robot knows.
     pub obstacles: &'a Obstacles,

@@ -40,7 +40,7 @@ pub struct Node {
     next_job: u32,
     /// Counts datagrams.
     sequence: u32,
-    /// What waits for storage; none where nothing does.
+    /// The effects that wait for storage; none if there are none.
     waiting: Option<Box<Waiting>>,
     /// Counts writes to storage.
     writes: u32,
@@ -84,7 +84,7 @@ pub enum Happening {
     Planned {
         /// Which one. A job of an earlier life is ignored.
         job: u32,
-        /// Way-points from the robot to the target; none where no path was found.
+        /// Waypoints from the robot to the target; none where no path was found.
         path: Option<Path>,
     },
     /// A [`crate::StoreJob`] is done: what it was to write is on storage for good.

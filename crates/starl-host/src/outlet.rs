@@ -24,7 +24,7 @@ pub struct Datagram {
 pub struct PlanJob {
     /// Names the job among all jobs of this node.
     pub job: u32,
-    /// What the program asked for.
+    /// The request of the program.
     pub request: PlanRequest,
     /// Where the robot is.
     pub estimate: Estimate,
@@ -36,7 +36,7 @@ pub struct PlanJob {
 pub struct StoreJob {
     /// Names the job among all jobs of this node.
     pub job: u32,
-    /// What is to be written, in this order: see [`starl_core::Saved::apply`].
+    /// The values to write, in this order: see [`starl_core::Saved::apply`].
     pub saves: Vec<Save>,
 }
 
@@ -70,13 +70,13 @@ impl PlanJob {
 /// what a node does.
 #[derive(Clone, Debug, Default)]
 pub struct Workspace {
-    /// What the robot's software asks for.
+    /// The effects of the robot's software.
     pub effects: Effects,
     /// Robots near the one that acts.
     pub neighbours: Vec<Neighbour>,
 }
 
-/// What a node asks of its host while it handles something.
+/// The requests of a node to its host while it handles an input.
 pub trait Outlet {
     /// The memory to work in. A node takes it and puts it back.
     fn workspace(&mut self) -> &mut Workspace;
@@ -105,7 +105,8 @@ pub trait Outlet {
         let _ = (at, job);
     }
 
-    /// Takes hold of a thing within the robot's reach, if there is one of this index and nobody holds it.
+    /// Takes hold of a thing within the robot's reach, if there is one of this index and no robot holds
+    /// it.
     fn take(&mut self, at: Time, thing: u32) {
         let _ = (at, thing);
     }

@@ -39,9 +39,9 @@ pub struct Difference {
     pub now: Time,
     /// The input.
     pub input: Input,
-    /// What the software asked for then.
+    /// The recorded effects.
     pub recorded: Vec<Effect>,
-    /// What it asks for now.
+    /// The effects of the replay.
     pub replayed: Vec<Effect>,
 }
 

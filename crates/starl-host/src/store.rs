@@ -8,12 +8,12 @@ use starl_core::{Duration, Saved, Time};
 #[derive(Clone, Debug, Default)]
 pub struct Store {
     saved: Arc<Saved>,
-    /// What is being written, and when it will be there.
+    /// The current write, and the time when it ends.
     writing: Option<(Time, StoreJob)>,
 }
 
 impl Store {
-    /// What it holds now.
+    /// Its current contents.
     pub fn saved(&self) -> Arc<Saved> {
         self.saved.clone()
     }

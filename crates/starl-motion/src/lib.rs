@@ -1,4 +1,4 @@
-//! How robots move: models of their dynamics, way-point tracking, path planning and avoidance.
+//! How robots move: models of their dynamics, waypoint tracking, path planning and avoidance.
 //!
 //! Everything here is pure and deterministic. A host owns a [`State`] per robot, asks a [`Pilot`] for
 //! the command that follows the program's wish, and advances the state through the robot's [`Model`].

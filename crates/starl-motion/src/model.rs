@@ -16,13 +16,13 @@ pub struct State {
     pub pose: Pose,
     /// True velocity.
     pub twist: Twist,
-    /// What the model is about, in its own numbering, e.g. landed, taking off, flying.
+    /// The phase of the model, in its own numbering, for example landed, taking off, flying.
     pub mode: u32,
     /// Quantities of the model's own, e.g. a steering angle; the model documents them.
     pub memory: [f64; 2],
 }
 
-/// What keeps a robot from moving exactly as told, during one step.
+/// The deviations of a robot from its commanded motion, during one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Disturbance {
     /// Velocity of the air, world frame, metres per second; ground robots do not feel it.
@@ -33,7 +33,7 @@ pub struct Disturbance {
     pub turn_error: f64,
 }
 
-/// What stopped a body.
+/// The cause of a stop of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
     /// Unit vector from the robot's centre towards what it met, in the floor plane.
@@ -111,7 +111,7 @@ pub trait Model: Debug + Send + Sync {
         elapsed: Duration,
     ) -> State;
 
-    /// The command that tracks the way-point `goal` from the estimated pose, closed loop, to be
+    /// The command that tracks the waypoint `goal` from the estimated pose, closed loop, to be
     /// driven until the next estimate (the thesis's RobotMotion). `tracking` is what the tracker
     /// remembers from one estimate to the next.
     fn track(&self, tracking: &mut Tracking, estimate: &Estimate, goal: &Goal) -> Command;

@@ -1,6 +1,6 @@
 //! The motion layer of one robot: turns what the program asks for into commands of the model.
 //!
-//! It is called at every new estimate. A way-point that is tracked passes through avoidance, which may
+//! It is called at every new estimate. A waypoint that is tracked passes through avoidance, which may
 //! put a nearer point and a limit of speed in its place; commands that the program drives itself, and
 //! standing still, do not.
 
@@ -24,7 +24,7 @@ pub struct Neighbour {
     pub height: f64,
 }
 
-/// What the program wants of the motion layer now.
+/// The program's current request to the motion layer.
 #[derive(Clone, Debug, Default)]
 enum Wish {
     #[default]

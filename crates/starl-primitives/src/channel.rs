@@ -1,4 +1,4 @@
-//! What Broadcast, Geocast and Unicast share: the protocol, their trace events, their failures.
+//! Shared code of Broadcast, Geocast and Unicast: the protocol, their trace events, their failures.
 
 use crate::reliable::{Arrival, MessageId, Notice, Notices, Options, Reliable};
 use alloc::collections::VecDeque;
@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use starl_core::event::{BroadcastEvent, PrimitiveEvent, TransferEvent, UnicastEvent};
 use starl_core::{Duration, Input, Payload, Port, Robot, RobotId};
 
-/// Failures that nobody asks for are kept up to this number, the latest.
+/// The latest failures are kept up to this number.
 const MOST_FAILURES: usize = 64;
 
 /// A message that some receivers did not acknowledge in time.

@@ -23,7 +23,7 @@ use serde::Serialize;
 use starl_core::event::{GeocastEvent, TransferEvent};
 use starl_core::{Area, Duration, Input, Payload, Port, Primitive, Robot, message};
 
-/// Sends messages to the other robots in an area. What arrives is handed to
+/// Sends messages to the other robots in an area. Received messages are passed to
 /// [`starl_core::Program::receive`] with this primitive's port.
 #[derive(Clone, Debug)]
 pub struct Geocast(Channel);
@@ -34,7 +34,7 @@ impl Geocast {
         Geocast(Channel::new(Carrier::Geocast, name, options))
     }
 
-    /// Sends `content` to every other robot in the area. An area that is not valid holds nobody.
+    /// Sends `content` to every other robot in the area. An invalid area contains no robot.
     pub fn geocast<T: Serialize>(
         &mut self,
         robot: &mut Robot<'_>,
@@ -62,8 +62,8 @@ impl Geocast {
         self.0.reliable.backlog()
     }
 
-    /// The messages that some robot did not acknowledge which has answered this one before, wherever it was,
-    /// since the last call; at most the latest 64. Who was never in reach is not named.
+    /// The messages that a robot did not acknowledge although it has answered this one before, since the
+    /// last call; at most the latest 64. Robots that were never in range are not named.
     pub fn take_failures(&mut self) -> Vec<Failure> {
         self.0.take_failures()
     }

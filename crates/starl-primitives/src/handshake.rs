@@ -1,12 +1,12 @@
 //! Which life of another robot is listened to.
 //!
-//! Nothing that a datagram says of itself tells whether its sender still lives: copies may be of any age. So a
-//! receiver listens to an incarnation only after that incarnation has answered a token which the receiver
-//! drew itself, and draws another token for the next. Then the incarnation was alive after the token was drawn, that is,
-//! after the incarnation before it was listened to. So a receiver goes from each incarnation to later ones only,
-//! and needs to remember no past ones. This is the three-way handshake by which transport protocols tell
-//! connections apart (Tomlinson 1975, "Selecting sequence numbers"; Attiya and Rappoport 1997, "The level of
-//! handshake required for managing a connection").
+//! A datagram does not show whether its sender is still alive: copies may have any age. So a receiver listens to an
+//! incarnation only after that incarnation has answered a token that the receiver drew, and draws another token for
+//! the next. Then the incarnation was alive after the token was drawn, that is, after the receiver listened to the
+//! previous incarnation. So a receiver moves from each incarnation only to later ones, and needs to remember no past
+//! ones. This is the three-way handshake by which transport protocols distinguish connections (Tomlinson 1975,
+//! "Selecting sequence numbers"; Attiya and Rappoport 1997, "The level of handshake required for managing a
+//! connection").
 
 use starl_core::Robot;
 use starl_core::random::hash_key;
@@ -16,7 +16,7 @@ use starl_core::random::hash_key;
 pub(crate) struct Handshake<T> {
     /// The incarnation that is listened to, and what is known of it.
     pub heard: Option<(u32, T)>,
-    /// What the next incarnation has to answer; none where it is not asked for.
+    /// The token that the next incarnation must answer; none if it is not asked.
     token: Option<u32>,
 }
 
@@ -30,7 +30,7 @@ impl<T> Default for Handshake<T> {
 }
 
 impl<T> Handshake<T> {
-    /// Nobody is listened to yet; the first has to answer this token.
+    /// Listens to no incarnation yet; the first must answer this token.
     pub fn asking(token: u32) -> Handshake<T> {
         Handshake {
             heard: None,
@@ -70,13 +70,13 @@ impl<T> Handshake<T> {
         is_fresh
     }
 
-    /// What is known of an incarnation, if it is listened to.
+    /// The state of an incarnation, if it is the current one.
     pub fn of(&mut self, incarnation: u32) -> Option<&mut T> {
         let heard = self.heard.as_mut().filter(|heard| heard.0 == incarnation)?;
         Some(&mut heard.1)
     }
 
-    /// What is known of the incarnation that is listened to.
+    /// The state of the current incarnation.
     pub fn known(&self) -> Option<&T> {
         self.heard.as_ref().map(|(_, known)| known)
     }

@@ -1,14 +1,14 @@
 //! Local broadcast: one datagram to all robots in reach of the radio, without any promise.
 //!
-//! It may be lost, come late or come twice, and nobody says that it has come. It costs one datagram and no memory,
-//! whatever the size of the fleet: for what is said again and again, such as positions and readings, where the next
-//! message makes up for one that was lost. The field knows it as the broadcast of the abstract MAC layer without
-//! acknowledgements (Kuhn, Lynch and Newport 2011), or as a beacon.
+//! A message may be lost, late or duplicated, and is not acknowledged. It costs one datagram and no memory,
+//! whatever the size of the fleet. Use it for values that are sent repeatedly, such as positions and readings,
+//! where the next message replaces a lost one. In the literature it is the broadcast of the abstract MAC layer
+//! without acknowledgements (Kuhn, Lynch and Newport 2011), or a beacon.
 
 use starl_core::{Destination, Input, Payload, Port, Primitive, Robot};
 
-/// Sends messages to whoever is in reach. What arrives is handed to [`starl_core::Program::receive`] with this
-/// primitive's port.
+/// Sends messages to all robots in range. Received messages are passed to [`starl_core::Program::receive`]
+/// with this primitive's port.
 #[derive(Clone, Debug)]
 pub struct LocalBroadcast(Port);
 

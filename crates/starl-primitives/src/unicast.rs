@@ -9,8 +9,8 @@ use serde::Serialize;
 use starl_core::event::{TransferEvent, UnicastEvent};
 use starl_core::{Duration, Input, Port, Primitive, Robot, RobotId};
 
-/// Sends messages to single robots. What arrives is handed to [`starl_core::Program::receive`] with
-/// this primitive's port.
+/// Sends messages to single robots. Received messages are passed to
+/// [`starl_core::Program::receive`] with this primitive's port.
 #[derive(Clone, Debug)]
 pub struct Unicast(Channel);
 

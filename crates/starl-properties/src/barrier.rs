@@ -1,8 +1,9 @@
-//! Barrier: nobody passes before all have come, and all pass when all have come.
+//! Barrier: no robot passes before all have arrived, and all pass when all have arrived.
 //!
-//! A robot that has come reports so, and to which generation once it knows; one that restarts has to ask. It
-//! has come to a generation if it has waited for that or a later one in any of its lives, or if it has come
-//! and does not know yet to which. When all that take part have crashed, generations begin anew.
+//! A robot that has arrived reports this, and the generation once it knows it; one that restarts has to ask.
+//! It has arrived at a generation if it has waited for that or a later one in any of its lives, or if it has
+//! arrived and does not know the generation yet. When all participants have crashed, generations start
+//! again.
 
 use super::disturbance::Disturbance;
 use super::health::{Change, Health, Needs};
@@ -198,7 +199,7 @@ impl Instance {
         found
     }
 
-    /// A robot has lost all it knew. What it said before may still be known to others.
+    /// A robot has lost its state. Others may still know its earlier messages.
     fn crashes(&mut self, robot: RobotId) {
         self.rememberers.remove(&robot);
         if let Some(place) = self.robots.get_mut(&robot) {

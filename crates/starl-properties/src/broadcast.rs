@@ -1,9 +1,10 @@
 //! Broadcast's delivery bound (thesis, section 3.3.1): every process receives a message within d1 of
 //! its broadcast.
 //!
-//! It is owed by every other robot until the bound runs out or the sender reports that it has given
-//! the robot up, whichever is first. What it reports as acknowledged all have been handed. Excused are robots that were down, and all of them where the
-//! sender was; and those to which a partition swallowed a datagram of the sender's meanwhile.
+//! Every other robot must deliver the message until the bound ends or the sender reports that it has given the robot
+//! up, whichever is first. If the sender reports it as acknowledged, all must have delivered it. Excused are robots
+//! that were down, all robots if the sender was down, and robots to which a partition dropped a datagram of the sender
+//! meanwhile.
 
 use super::health::{Health, Needs};
 use super::outstanding::Outstanding;
@@ -30,7 +31,7 @@ struct Message {
     sent: Time,
     /// In causal order robots acknowledge what they still hold back.
     is_causal: bool,
-    /// Who has not delivered it, in the order of their numbers.
+    /// The robots that have not delivered it, in the order of their numbers.
     owed: Vec<RobotId>,
 }
 
@@ -154,7 +155,7 @@ impl Broadcast {
         }
     }
 
-    /// Reports a message that did not get through to those who are still owed it.
+    /// Reports a message that did not reach the robots that must deliver it.
     fn judge(
         &mut self,
         at: Time,
@@ -193,7 +194,7 @@ impl Checker for Broadcast {
     }
 
     fn heeds(&self) -> Kinds {
-        // What is overdue is found at the next record of any kind.
+        // Missed deadlines are found at the next record of any kind.
         match self.outstanding.oldest() {
             None => Kinds::REPORTS | Kinds::DROPPED,
             Some(_) => Kinds::ALL,

@@ -1,5 +1,5 @@
-//! What faults disturb all robots of a primitive alike: when the last one was, whether the network is parted,
-//! and whether what a corruption made up may still be about.
+//! Faults that disturb all robots of a primitive alike: the time of the last one, whether the network is
+//! partitioned, and whether invented state of a corruption may still exist.
 
 use super::health::Change;
 use super::pending::Pending;
@@ -40,7 +40,7 @@ impl Disturbance {
     ) {
         self.last = at;
         let is_corruption = robot.is_some() && change.is_corruption();
-        // What was made up may outlast what keeps robots from each other.
+        // Invented state may outlast a partition.
         if is_corruption || self.is_made_up(at) {
             self.corrupted = Some(at);
         }

@@ -1,4 +1,4 @@
-//! What is not held against anybody, and why.
+//! Excuses: deviations that do not count as violations, with their reasons.
 //!
 //! Properties are promised for robots and networks that work. Where one does not hold, or is not judged, because
 //! of a fault on record, checkers count that here, so that "holds" without a remark means that nothing was excused.
@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Why something is not held against anybody.
+/// The reason of an excuse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Excuse {
     /// A robot that is concerned was down, or had started again since.

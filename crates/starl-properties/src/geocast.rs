@@ -1,10 +1,11 @@
 //! Geocast's exclusion and inclusion (thesis, section 3.3.1), judged by true positions.
 //!
 //! With t0 the time of the geocast and d2 the bound:
-//! - exclusion: whoever delivers the message has been in the area between t0 and that moment, or
-//!   t0 + d2 if that is earlier. This is what the thesis asks for, and its "a robot outside A is
-//!   guaranteed not to receive the message" for those that come in only after they received it;
-//! - inclusion: whoever has been inside throughout [t0, t0 + d2] has delivered it by then.
+//! - exclusion: a robot that delivers the message has been in the area between t0 and that moment,
+//!   or t0 + d2 if that is earlier. The thesis demands this, and its "a robot outside A is
+//!   guaranteed not to receive the message" covers robots that enter the area only after the
+//!   delivery;
+//! - inclusion: a robot that has been inside throughout [t0, t0 + d2] has delivered it by then.
 //!
 //! Besides, a robot takes a message that was sent, and takes it once, inside or outside (integrity).
 //!
@@ -39,7 +40,7 @@ pub(super) struct Geocast {
     /// Messages of which copies may yet come.
     late: Outstanding<Message>,
     taken: Taken,
-    /// Until then nobody is blamed for what a corruption may have made up.
+    /// Until then violations by invented state of a corruption do not count.
     void_until: Time,
     excused: Excused,
 }
@@ -50,7 +51,7 @@ struct Message {
     area: Area,
     /// How long its sender repeats it.
     retry_span: Duration,
-    /// Who has delivered it, in the order of their numbers.
+    /// The robots that have delivered it, in the order of their numbers.
     delivered: Vec<RobotId>,
 }
 
@@ -225,7 +226,7 @@ impl Checker for Geocast {
     }
 
     fn heeds(&self) -> Kinds {
-        // What is overdue is found at the next record of any kind.
+        // Missed deadlines are found at the next record of any kind.
         match self.outstanding.oldest().or(self.late.oldest()) {
             None => Kinds::REPORTS | Kinds::MOVED | Kinds::DROPPED,
             Some(_) => Kinds::ALL,
@@ -287,7 +288,7 @@ fn outside<'a>(
     let mut samples = samples.peekable();
     samples.peek()?;
     if !area.is_valid() {
-        return Some("whose area holds nobody".into());
+        return Some("whose area is invalid".into());
     }
     let mut kept = f64::INFINITY;
     for sample in samples {

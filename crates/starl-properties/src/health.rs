@@ -1,4 +1,4 @@
-//! Who is in a state to keep a promise: which robots and links the faults on record excuse.
+//! The condition of robots and links: those that recorded faults excuse.
 //!
 //! A primitive's properties are promised for robots that work. Faults only ever excuse; they are read
 //! from the trace like everything else. That two robots are in different parts of a partition shows in
@@ -10,7 +10,7 @@ use starl_core::event::{DropReason, Event, Fault};
 use starl_core::{Duration, Intervention, Record, RobotId, Time};
 use std::collections::BTreeMap;
 
-/// What a promise asks of a robot; each asks for what the ones before it do.
+/// The condition that a guarantee demands of a robot; each includes those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Needs {
     /// It is up, its program has not failed, and its variables are its own.
@@ -21,7 +21,7 @@ pub(super) enum Needs {
     Moving,
 }
 
-/// What befalls a robot.
+/// A change of a robot's condition.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Change<'a> {
     /// A fault.
@@ -38,7 +38,7 @@ impl Change<'_> {
         matches!(self, Change::Fault(Fault::Crash) | Change::Failed)
     }
 
-    /// What it excuses; none where it mends something.
+    /// The excuse that it gives; none if it ends a fault.
     pub fn excuse(self) -> Option<Excuse> {
         match self {
             Change::Failed => Some(Excuse::Failed),
@@ -84,7 +84,7 @@ struct Condition {
 }
 
 impl Health {
-    /// All are well. Nobody will ask for cuts that lie back more than `memory`.
+    /// All robots work. Queries about cuts go back at most `memory`.
     pub fn new(robots: usize, needs: Needs, memory: Duration) -> Health {
         Health {
             needs,
@@ -152,7 +152,7 @@ impl Health {
         self.cuts.get(&(from, to)).is_none_or(|&at| at < since)
     }
 
-    /// What excuses that a message did not get from one robot to another from `since` on; none where nothing does.
+    /// The excuse for a message that did not get from one robot to another from `since` on; none if there is none.
     pub fn excuse_of(&self, from: RobotId, to: RobotId, since: Time) -> Option<Excuse> {
         let unwell = [from, to]
             .into_iter()

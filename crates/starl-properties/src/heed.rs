@@ -34,7 +34,8 @@ impl Kinds {
     /// [`Event::Intervention`].
     pub const INTERVENTION: Kinds = Kinds(1 << 9);
 
-    /// What most checkers go by: what primitives report, and what befalls robots.
+    /// The records that most checkers use: reports of primitives, and changes of robots'
+    /// conditions.
     pub const REPORTS: Kinds = Kinds(Kinds::PRIMITIVE.0 | Kinds::FAULT.0 | Kinds::FAILED.0);
 
     /// The kind of one event.

@@ -50,7 +50,7 @@ pub struct Violation {
     pub at: Time,
     /// The robots concerned.
     pub robots: Vec<RobotId>,
-    /// What was seen, in one sentence.
+    /// The observation, in one sentence.
     pub text: String,
 }
 
@@ -70,8 +70,8 @@ impl Violation {
     }
 }
 
-/// Watches one primitive's properties, or one property of the world. What `Debug` shows of it is all
-/// that it goes by, so that an explorer can tell when two have seen the same.
+/// Checks the properties of one primitive, or one property of the world. Its `Debug` shows its whole
+/// state, so that an explorer can compare two checkers.
 pub trait Checker: dyn_clone::DynClone + fmt::Debug + Send + Sync {
     /// The properties it checks.
     fn properties(&self) -> &'static [&'static str];

@@ -29,15 +29,15 @@ pub trait Witness {
     /// The time.
     fn now(&self) -> Time;
 
-    /// How long it is since the start and since the last fault began or was mended; zero while the network is
-    /// parted, a motor is stuck or sensors are frozen. A robot that is down disturbs when it crashes and when it
-    /// starts again, not in between.
+    /// The time since the start or since the last fault began or ended; zero while the network is partitioned, a
+    /// motor is stuck or sensors are frozen. A robot that is down counts when it crashes and when it restarts,
+    /// not in between.
     fn undisturbed(&self) -> Duration;
 
     /// How long it is since the start and since a fault last overwrote the state of robots at random.
     fn uncorrupted(&self) -> Duration;
 
-    /// The application's way-points.
+    /// The application's waypoints.
     fn way_points(&self) -> &[WayPoint];
 
     /// The obstacles that stand and that all robots know of, the walls around the world included.
@@ -46,8 +46,8 @@ pub trait Witness {
     /// All robots, those that are down included.
     fn robots(&self) -> &[RobotId];
 
-    /// What a robot's program shows ([`starl_core::Program::inspect`]); of one that is down what it showed last. None
-    /// if it shows nothing, or there is no such robot.
+    /// The inspection of a robot's program ([`starl_core::Program::inspect`]); for a robot that is down the last one.
+    /// None if it shows nothing, or the robot does not exist.
     fn program(&self, robot: RobotId) -> Option<&dyn Any>;
 
     /// A robot's true pose; none if there is no such robot.

@@ -1,9 +1,9 @@
 //! Bodies never touch: neither each other nor obstacles.
 //!
-//! Two witnesses that know nothing of each other: the collisions that the host reports, and bodies
-//! that overlap in the poses on record. Robots are compared at poses of the same moment only. From the
-//! first touch until the two are [`APART`] it is one collision, reported once. What a robot touches that
-//! has crashed in the air and falls is none.
+//! There are two independent sources: the collisions that the host reports, and bodies that overlap in
+//! the recorded poses. Robots are compared only at poses of the same moment. All contacts from the first
+//! touch until the two are [`APART`] are one collision, reported once. Contacts of a robot that has
+//! crashed in the air and falls do not count.
 
 use super::bodies::{Sweep, gap};
 use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
@@ -25,14 +25,14 @@ const OVERLAP: f64 = 0.001;
 /// stopped stands off what it would have hit.
 const APART: f64 = 0.1;
 
-/// A robot that fell has come to lie when it has come no lower for so long.
+/// A fallen robot lies still when its height has not decreased for this time.
 const LIES_AFTER: Duration = Duration::from_millis(500);
 
 /// One that restarts in its fall has caught itself by then: three times what an AR.Drone's rate of climb takes to
 /// follow.
 const CAUGHT_AFTER: Duration = Duration::from_seconds(1);
 
-/// What the walls around the world are called.
+/// The name of the walls around the world.
 const EDGE: &str = "the edge of the world";
 
 /// Watches all bodies.
@@ -115,7 +115,7 @@ impl NoCollision {
         }
     }
 
-    /// Whether nobody can help what a robot touches now: it has crashed and falls.
+    /// Whether contacts of a robot are excused now, because it has crashed and falls.
     fn falls(&self, robot: RobotId, at: Time) -> bool {
         self.falls.get(&robot).is_some_and(|fall| fall.lasts(at))
     }
@@ -299,7 +299,7 @@ impl NoCollision {
         }
     }
 
-    /// What an obstacle is called.
+    /// The name of an obstacle.
     fn name(&self, index: u32) -> String {
         let index = index as usize;
         let has_appeared = index >= self.edges.end && index < self.expires.len();

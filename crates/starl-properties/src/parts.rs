@@ -1,9 +1,9 @@
 //! Which robots partitions kept apart, and until when, by the trace alone.
 //!
-//! The trace says when a partition sets in and when all are healed, not who was in which part. That two
-//! robots were in the same one shows in the datagrams that came through: those sent after the partition
-//! had set in join their senders and receivers; where robots may hear each other in one direction only, those that
-//! came through in both. Robots that nothing joined may have been apart.
+//! The trace shows when a partition begins and when all are healed, not the parts. Two robots were in the same
+//! part if datagrams came through: those sent after the partition had begun connect their senders and receivers.
+//! Where robots may hear each other in one direction only, datagrams in both directions are needed. Robots without
+//! such a connection may have been separated.
 
 use starl_core::event::{Event, Fault};
 use starl_core::{Duration, Record, RobotId, Time};
@@ -24,12 +24,12 @@ pub(super) struct Parts {
 struct Partition {
     /// When it was healed, or gave way to another one.
     ended: Time,
-    /// What had been sent when it set in.
+    /// The datagrams that had been sent when it began.
     sent_before: Vec<Option<u32>>,
     /// By robot: another one of the same part, or itself. Following these leads to the one by which a
     /// part is known (disjoint sets: Galler and Fischer 1964).
     same_as: Vec<u32>,
-    /// Where robots may hear each other in one direction only: who has heard whom.
+    /// If robots may hear each other in one direction only: which robot has heard which.
     one_way: Option<BTreeSet<(RobotId, RobotId)>>,
 }
 
@@ -112,7 +112,7 @@ impl Partition {
         {
             *same_as = least;
         }
-        // Short ways for those who ask next.
+        // Shortens the paths for later queries.
         for robot in [from, to] {
             let part = self.part(robot);
             if let Some(same_as) = self.same_as.get_mut(robot.index()) {
@@ -164,13 +164,13 @@ mod tests {
     }
 
     #[test]
-    fn who_is_heard_is_in_the_same_part() {
+    fn a_robot_that_is_heard_is_in_the_same_part() {
         assert!(!together_after(Fault::Partition, &[]));
         assert!(together_after(Fault::Partition, &[(0, 1)]));
     }
 
     #[test]
-    fn who_is_heard_and_does_not_hear_may_be_apart() {
+    fn a_robot_that_is_heard_and_does_not_hear_may_be_apart() {
         assert!(!together_after(Fault::OneWay, &[(0, 1)]));
         assert!(together_after(Fault::OneWay, &[(0, 1), (1, 0)]));
     }

@@ -1,4 +1,4 @@
-//! What was found, as long as a fault that excuses it may be on record later.
+//! The violation, as long as a fault that excuses it may still be recorded.
 //!
 //! Faults take effect at the beginning of the step in which they are recorded, so what robots do in a step
 //! may come on record before the fault that it is due to.

@@ -10,7 +10,7 @@ pub(super) struct Report<'a, E> {
     pub at: Time,
     pub robot: RobotId,
     pub port: Port,
-    /// What happened.
+    /// The event.
     pub event: &'a E,
 }
 

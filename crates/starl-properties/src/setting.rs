@@ -1,11 +1,12 @@
-//! What checkers know before the first record: plain data that any host can fill in and write into its trace.
+//! The information of checkers before the first record: plain data that any host can fill in and write into
+//! its trace.
 
 use serde::{Deserialize, Serialize};
 use starl_core::event::Name;
 use starl_core::motion::Body;
 use starl_core::{Duration, Obstacle, RobotId, Time};
 
-/// What a checker knows before the first record.
+/// The information of a checker before the first record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Setting {
@@ -15,7 +16,7 @@ pub struct Setting {
     pub obstacles: Vec<(Obstacle, Time)>,
     /// How many of them, the last, are the walls around the world.
     pub walls: usize,
-    /// What is checked, and within which bounds.
+    /// The checked properties, and their bounds.
     pub properties: Properties,
     /// Properties that were watched on the running programs themselves, by a [`Monitor`](crate::Monitor): records do
     /// not show them.
@@ -56,7 +57,7 @@ impl Default for Setting {
     }
 }
 
-/// What is checked while a run goes on.
+/// The properties that are checked during a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Properties {
@@ -88,19 +89,19 @@ pub struct Properties {
     pub election_bound: Duration,
     /// Mutex's safety, non-interference, progress and growing numbers; default true.
     pub mutex: bool,
-    /// What is free is granted within this time; default 35 s.
+    /// A free resource is granted within this time; default 35 s.
     pub mutex_bound: Duration,
     /// Linearizability of registers; default true.
     pub register: bool,
     /// Registration: agreement, exclusion, soundness, progress and convergence; default true.
     pub registration: bool,
-    /// Robots agree on who takes part within this time, the thesis's d2; default 35 s.
+    /// Robots agree on the participants within this time, the thesis's d2; default 35 s.
     pub registration_bound: Duration,
     /// Barrier: safety and progress; default true.
     pub barrier: bool,
     /// Robots pass within this time of the arrival of the last; default 35 s.
     pub barrier_bound: Duration,
-    /// What programs in the StarL language say of themselves; default true.
+    /// The properties that programs in the StarL language declare; default true.
     pub program: bool,
 }
 

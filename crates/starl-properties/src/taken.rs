@@ -7,10 +7,10 @@ use starl_core::{Port, RobotId};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// So many runs of one stream are kept. What lies before them is not judged.
+/// The number of lives of one stream that are kept. Earlier ones are not judged.
 const MOST_RUNS: usize = 64;
 
-/// What was sent, and what each robot was handed of it in its present life.
+/// The sent messages, and those that each robot has delivered in its present life.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Taken {
     /// The last message of each stream.

@@ -1,8 +1,8 @@
 //! Unicast: what is sent to a robot reaches it in time, and once.
 //!
-//! What a sender reports as acknowledged has arrived. A message is judged when the bound runs out or when its sender
-//! reports that it gives up, whichever is first. A message is excused if its sender or its receiver was down, or if a
-//! partition kept it back.
+//! If a sender reports a message as acknowledged, it must have arrived. A message is judged at the end of the bound
+//! or when its sender reports that it gives up, whichever is first. A message is excused if its sender or its
+//! receiver was down, or if a partition dropped it.
 
 use super::health::{Health, Needs};
 use super::report::{MessageKey, Report};
@@ -26,7 +26,7 @@ pub(super) struct Unicast {
     /// By when each is owed, in this order.
     due: VecDeque<(Time, MessageKey, RobotId)>,
     taken: Taken,
-    /// Until then nobody is blamed for what a corruption may have made up.
+    /// Until then violations by invented state of a corruption do not count.
     void_until: Time,
     excused: Excused,
 }

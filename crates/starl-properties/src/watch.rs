@@ -18,7 +18,7 @@ pub struct Watch {
     seen: Kinds,
 }
 
-/// What is said of one property.
+/// The verdict on one property.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// The property.
@@ -30,7 +30,7 @@ pub struct Verdict {
     /// Whether it has not been violated, but would be if nothing more happened: it demands something
     /// by a time that has not come.
     pub open: bool,
-    /// Whether anything took place that it speaks of: a property of a primitive that nobody used says nothing.
+    /// Whether the property applies: that of an unused primitive does not.
     pub used: bool,
     /// Whether records of all kinds came that it is judged by.
     pub has_evidence: bool,
@@ -91,7 +91,7 @@ impl Watch {
         &self.violations
     }
 
-    /// What monitors watch.
+    /// The monitored properties.
     pub fn monitored(&self) -> impl Iterator<Item = Name> {
         let monitors = self.monitors.iter();
         monitors.flat_map(|monitor| monitor.properties())
@@ -111,7 +111,7 @@ impl Watch {
         counts.collect()
     }
 
-    /// What the checkers and monitors say of each property they watch.
+    /// The verdicts of checkers and monitors on each property.
     pub fn verdicts(&self) -> Vec<Verdict> {
         let checked = self.checkers.iter().flat_map(|checker| {
             let properties = checker.properties().iter();
@@ -141,8 +141,8 @@ impl Watch {
         checked.chain(monitored).collect()
     }
 
-    /// Whether the primitive that a checker's property is called after has been used. What is called after none
-    /// is about the world.
+    /// Whether the primitive in the name of a checker's property has been used. A name without a primitive is
+    /// about the world.
     fn is_used(&self, property: &str) -> bool {
         let primitive = property.split_once('.').map(|(primitive, _)| primitive);
         primitive.is_none_or(|primitive| self.is_known(primitive))
@@ -153,7 +153,7 @@ impl Watch {
         self.used.iter().any(|used| used == primitive)
     }
 
-    /// What violations say of a property.
+    /// The verdict on a property, given its violations.
     fn verdict(&self, property: Name) -> Verdict {
         let mut against = self.violations.iter().filter(|v| v.property == property);
         let first = against.next().cloned();

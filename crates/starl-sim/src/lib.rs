@@ -1,9 +1,9 @@
 //! The deterministic simulator of StarL.
 //!
 //! A discrete-event core with a physics step. Within a step robots are independent of each other:
-//! each takes its inputs in the order of their times and moves; what they send, and whom they run
-//! into, is settled between steps in a fixed order. So the same scenario and seed give the same run
-//! on any number of threads and on any target.
+//! each handles its inputs in the order of their times and moves. Messages and collisions are
+//! settled between steps in a fixed order. So the same scenario and seed give the same run on any
+//! number of threads and on any target.
 
 pub mod engine;
 pub mod profile;

@@ -16,7 +16,7 @@ pub struct Run {
     records: Vec<Record>,
 }
 
-/// What a run has come to.
+/// The outcome of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// The application's goal was reached and no property was violated.
@@ -79,7 +79,7 @@ impl Run {
     /// Steers the simulation: see [`Simulation::apply`].
     ///
     /// # Errors
-    /// What is wrong with the intervention.
+    /// The error of the intervention.
     pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), String> {
         self.simulation.apply(at, what)
     }
@@ -125,12 +125,12 @@ impl Run {
         &self.records
     }
 
-    /// What happened in the last [`Run::step`], violations included.
+    /// The records of the last [`Run::step`], including violations.
     pub fn records(&self) -> &[Record] {
         &self.records
     }
 
-    /// Advances by one physics step for those who do not want to know what happened in it.
+    /// Advances by one physics step without returning its records.
     pub fn advance(&mut self) {
         self.simulation.step();
         let records = self.simulation.records();
@@ -154,7 +154,7 @@ impl Run {
         }
     }
 
-    /// What the run has come to, once it is over.
+    /// The outcome of the run, once it is over.
     pub fn outcome(&self) -> Outcome {
         let progress = self.simulation.progress();
         let scenario = self.simulation.scenario();
@@ -183,7 +183,7 @@ impl Run {
         self.watch.excused()
     }
 
-    /// What the checkers know of the run: what a trace of it holds for others to judge it by.
+    /// The setting of the checkers, which a trace contains so that others can judge it.
     pub fn setting(&self) -> Setting {
         Setting {
             monitored: self.watch.monitored().collect(),
@@ -196,7 +196,7 @@ impl Run {
         &self.failures
     }
 
-    /// What the checkers and monitors say of each property they watch.
+    /// The verdicts of checkers and monitors on each property.
     pub fn verdicts(&self) -> Vec<Verdict> {
         self.watch.verdicts()
     }
@@ -215,7 +215,7 @@ impl Failure {
     }
 }
 
-/// What a scenario says of bodies, obstacles and what is to be checked.
+/// The setting of a scenario: bodies, obstacles and the checks.
 pub fn setting(scenario: &Scenario) -> Setting {
     let groups = &scenario.fleet.groups;
     let body = |group: &Group| vec![group.model.body(); group.starts.len()];

@@ -6,7 +6,7 @@ use starl_core::event::Name;
 use starl_properties::Excuse;
 use std::fmt;
 
-/// What went wrong in a run.
+/// The failure of a run.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Finding {
     /// This property was violated.
@@ -17,14 +17,14 @@ pub enum Finding {
     Unreached,
 }
 
-/// What came of a run.
+/// The result of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
     /// How it ended.
     pub outcome: Outcome,
-    /// What went wrong first.
+    /// The first failure.
     pub finding: Option<Finding>,
-    /// What was seen, in a sentence; empty where nothing went wrong.
+    /// The observation, in a sentence; empty without a failure.
     pub text: String,
     /// When the run ended.
     pub end: Time,

@@ -24,11 +24,11 @@ pub(crate) struct RawRecord<'a> {
 /// Reads records one after the other; holds one chunk at a time.
 pub(crate) struct Container<R> {
     source: R,
-    /// How far reading has come; whoever decodes records counts them here.
+    /// The progress of reading; the decoder of records counts them here.
     pub progress: Progress,
     /// The body of the record outside chunks that was read last.
     body: Vec<u8>,
-    /// What is left of the chunk in `body`, if that is a chunk.
+    /// The rest of the chunk in `body`, if that is a chunk.
     chunk: core::ops::Range<usize>,
     /// Checksum of the section that is being read.
     checksum: crc32fast::Hasher,

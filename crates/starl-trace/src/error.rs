@@ -1,4 +1,4 @@
-//! What can be wrong with a trace, and with writing one.
+//! Errors of reading and writing traces.
 
 use core::fmt;
 use starl_core::{RobotId, Time};
@@ -47,7 +47,7 @@ pub enum TraceError {
     Damaged {
         /// Where.
         progress: Progress,
-        /// What is wrong there.
+        /// The problem.
         what: String,
     },
     /// A message is not what its topic carries.
@@ -58,7 +58,7 @@ pub enum TraceError {
         topic: String,
         /// When, by the message's own time.
         at: Time,
-        /// What is wrong with it.
+        /// The problem.
         what: String,
     },
     /// A chunk is compressed in a way that this reader does not undo.
@@ -79,7 +79,7 @@ pub enum TraceError {
     Input {
         /// Where.
         progress: Progress,
-        /// What the source said.
+        /// The message of the source.
         what: String,
     },
 }
@@ -151,7 +151,7 @@ impl core::error::Error for TraceError {}
 pub enum WriteError {
     /// The output failed, e.g. because the disk is full.
     Output {
-        /// What it said.
+        /// Its message.
         what: String,
     },
     /// An event holds a number that is infinite or not a number where only a finite one makes sense:

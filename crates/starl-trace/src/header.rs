@@ -1,4 +1,4 @@
-//! What stands before the records of a trace: all that is needed to understand and to repeat a run.
+//! The header of a trace: everything needed to understand and to repeat a run.
 
 use crate::json::Json;
 use crate::{decode, encode, wire};
@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// The version of the format that this crate writes, and the only one that it reads.
 pub const FORMAT_VERSION: u32 = 1;
 
-/// What a trace says of the run as a whole.
+/// The description of the run as a whole.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Header {
     /// The version of StarL that made it.
@@ -23,11 +23,12 @@ pub struct Header {
     pub scenario: String,
     /// The texts of files that the scenario names, by the names it has for them.
     pub files: BTreeMap<String, String>,
-    /// What properties of the run are to be judged by, as JSON; empty where the host does not say.
+    /// The setting by which properties of the run are judged, as JSON; empty if the host does not
+    /// give it.
     pub setting: String,
     /// The robots, in the order of their numbers.
     pub robots: Vec<RobotEntry>,
-    /// The application's way-points.
+    /// The application's waypoints.
     pub way_points: Vec<WayPoint>,
     /// The world's obstacles: [`starl_core::event::Hit::Obstacle`] is an index into this list.
     pub obstacles: Vec<Obstacle>,

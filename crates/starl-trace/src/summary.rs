@@ -6,7 +6,7 @@ use serde::Deserialize;
 use starl_core::Time;
 use std::collections::BTreeMap;
 
-/// What whoever ran the robots says at the end.
+/// The result of a run, as its host reports it at the end.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
     /// How it ended, e.g. `finished`.
@@ -20,7 +20,7 @@ pub struct Outcome {
 /// The end of a trace. A trace without one was cut short.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
-    /// What whoever ran the robots said.
+    /// The result that the host reported.
     pub outcome: Outcome,
     /// How many records there are.
     pub records: u64,

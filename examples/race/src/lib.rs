@@ -1,4 +1,4 @@
-//! Race: a fleet runs through shared way-points; the first robot at each sends all on to the next
+//! Race: a fleet runs through shared waypoints; the first robot at each sends all on to the next
 //! (thesis, section 2.2 and figure 2.1).
 //!
 //! This is the example of a program written in Rust. `race.starl` beside it is the same program in the
@@ -7,10 +7,10 @@
 //! The actions stand in the order and under the names of the figure. Where this differs from the
 //! printed listing:
 //! - `wait` there broadcasts the index after counting it up, and `receivedMessage` counts up once more,
-//!   so a told robot would skip a point. Here the message says which way-point was reached;
+//!   so a told robot would skip a point. Here the message says which waypoint was reached;
 //! - there any message sets the index, so one that comes late sends the robot back. Here only a
-//!   message about the present way-point or a later one does something, once the robot knows the
-//!   way-points;
+//!   message about the present waypoint or a later one does something, once the robot knows the
+//!   waypoints;
 //! - the guard of `pick` there also holds once ReachAvoid is done, so the robot would set out for the
 //!   same point again instead of telling the others. Here it holds unless the last command is under
 //!   way to the point or done: a robot that failed, gave up or was sent elsewhere by a fault tries again;
@@ -22,12 +22,12 @@
 use starl_core::{Message, Primitive, Primitives, Program, Random, Robot, WayPoint};
 use starl_primitives::{Broadcast, ReachAvoid, reach_avoid, reliable};
 
-/// What the robot does next.
+/// The state of the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
     /// Start.
     Init,
-    /// Set out for the current way-point.
+    /// Set out for the current waypoint.
     Pick,
     /// Wait until it is there.
     Wait,
@@ -46,7 +46,7 @@ pub struct Options {
 #[derive(Clone, Debug, Primitives)]
 pub struct Race {
     location: Location,
-    /// The way-point to go to, counted from 0; their number when there are no more.
+    /// The waypoint to go to, counted from 0; their number when there are no more.
     current_index: u32,
     reach_avoid: ReachAvoid,
     broadcast: Broadcast,
@@ -69,17 +69,17 @@ impl Race {
         }
     }
 
-    /// What the robot does next.
+    /// The state of the robot.
     pub fn location(&self) -> Location {
         self.location
     }
 
-    /// The way-point it goes to, counted from 0.
+    /// The waypoint it goes to, counted from 0.
     pub fn current_index(&self) -> u32 {
         self.current_index
     }
 
-    /// A fault has overwritten the index with what cannot be: it begins anew.
+    /// A fault has overwritten the index with an impossible value: the program restarts.
     fn recover(&mut self, robot: &mut Robot<'_>) {
         let is_beyond = self.current_index as usize > robot.way_points().len();
         if self.location != Location::Init && is_beyond {
@@ -134,7 +134,7 @@ impl Race {
         }
     }
 
-    /// The way-point to go to; none if all are reached.
+    /// The waypoint to go to; none if all are reached.
     fn target<'a>(&self, robot: &Robot<'a>) -> Option<&'a WayPoint> {
         robot.way_points().get(self.current_index as usize)
     }

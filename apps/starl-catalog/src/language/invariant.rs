@@ -10,8 +10,8 @@ use starl_lang::robot::{Code, RobotProgram};
 use starl_properties::Violation;
 use std::sync::Arc;
 
-/// The `always` properties of one program on the robots that run it. What is to come, or to follow, is
-/// no matter of single states.
+/// The `always` properties of one program on the robots that run it. Properties with deadlines or
+/// responses do not apply to single states.
 #[derive(Clone)]
 pub struct ProgramInvariant {
     judge: Judge,
@@ -21,8 +21,8 @@ pub struct ProgramInvariant {
 }
 
 impl ProgramInvariant {
-    /// The properties of a program that is called `qualifier` and that `robots` run; none if it has
-    /// none that must always hold.
+    /// The properties of a program with the name `qualifier` on `robots`; none if it has no
+    /// property that must always hold.
     pub fn new(qualifier: &str, code: &Code, robots: Vec<RobotId>) -> Option<ProgramInvariant> {
         let judge = Judge::new(code);
         let properties = judge.properties().iter();
@@ -46,7 +46,7 @@ impl Invariant for ProgramInvariant {
             scene,
             robots: &self.robots,
         };
-        // A judge who has seen nothing: states are judged by themselves.
+        // A judge without history: states are judged independently.
         let mut judge = self.judge.clone();
         for mut found in judge.observe(scene.now(), &members) {
             let claim = self.judge.properties().get(found.property);

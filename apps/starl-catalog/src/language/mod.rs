@@ -26,19 +26,19 @@ use starl_sim::read::{Loader, Resolved};
 use starl_sim::scenario::{Fleet, Group};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What a program's file ends with; any other name is that of a program of the catalog.
+/// The suffix of a program's file; any other name is that of a program of the catalog.
 pub const SUFFIX: &str = ".starl";
 
 /// The compiled programs of a scenario, by path.
 #[derive(Clone, Debug, Default)]
 pub struct Programs(BTreeMap<String, Compiled>);
 
-/// What there is to say of the programs of a scenario.
+/// The findings about the programs of a scenario.
 #[derive(Clone, Debug, Default)]
 pub struct Review {
-    /// What is wrong with the files, each with the group that names the program.
+    /// The errors of files, each with the group that names the program.
     pub complaints: Vec<(usize, Complaint)>,
-    /// What the compiler has found, warnings included.
+    /// The findings of the compiler, including warnings.
     pub findings: Vec<Findings>,
 }
 
@@ -80,7 +80,7 @@ impl Programs {
         Some(values::program(&compiled.code, group, fleet))
     }
 
-    /// The monitors of what the programs say of themselves.
+    /// The monitors of the properties that the programs declare.
     pub fn monitors(&self, scenario: &Scenario) -> Vec<Box<dyn Monitor>> {
         let named = self.named(&scenario.fleet);
         let monitors =
@@ -90,7 +90,7 @@ impl Programs {
             .collect()
     }
 
-    /// What the programs say of every state of the first `count` robots.
+    /// The properties of the programs for every state of the first `count` robots.
     pub fn invariants(&self, scenario: &Scenario, count: usize) -> Vec<Box<dyn Invariant>> {
         let named = self.named(&scenario.fleet);
         let invariants = named.filter_map(|(name, code, mut robots)| {
@@ -105,8 +105,8 @@ impl Programs {
     /// The condition over the robots of each program for which it has no errors.
     ///
     /// # Errors
-    /// What is wrong with it for the first program, if it has errors for all; places are bytes of it. Nothing if there
-    /// is no program.
+    /// The errors for the first program, if there are errors for all; positions are bytes of the text. Nothing if
+    /// there is no program.
     pub fn conditions(&self, condition: &str) -> Result<Vec<FleetCondition>, Vec<Diagnostic>> {
         let mut conditions = Vec::new();
         let mut problems = Vec::new();

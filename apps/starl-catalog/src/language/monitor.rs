@@ -1,4 +1,4 @@
-//! Watches what a program says of itself while it is simulated.
+//! Monitors the properties that a program declares during a simulation.
 
 use starl_core::event::Name;
 use starl_core::motion::Obstacles;

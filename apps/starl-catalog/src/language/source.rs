@@ -10,24 +10,24 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// What the compiler has found in a file; errors, warnings or both.
+/// The compiler's findings in a file; errors, warnings or both.
 #[derive(Clone, Debug)]
 pub struct Findings {
     /// The file's path from the scenario's folder.
     pub path: String,
-    /// What people call the file where the loader knows no better name: its path beside that of the
-    /// scenario.
+    /// The displayed name of the file where the loader knows no better one: its path beside that of
+    /// the scenario.
     pub name: String,
     /// Its text.
     pub source: String,
-    /// What there is to say, at least one thing.
+    /// The findings, at least one.
     pub diagnostics: Vec<Diagnostic>,
 }
 
 /// A program that can be run.
 #[derive(Clone)]
 pub struct Compiled {
-    /// What the program calls itself.
+    /// The name in the program.
     pub name: String,
     pub code: Code,
     /// Its text.
@@ -119,7 +119,7 @@ pub fn compile(
     Ok((Some(compiled), findings))
 }
 
-/// What was found in each file, by the names that people have for the files.
+/// The findings in each file, by the displayed names of the files.
 fn findings(checked: &Checked, path: &str, scenario: &str) -> Vec<Findings> {
     let files = checked.files.iter().enumerate();
     let found = files.filter(|(_, file)| !file.diagnostics.is_empty());

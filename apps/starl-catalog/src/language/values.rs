@@ -1,4 +1,4 @@
-//! What a scenario gives as parameters, as values of the types that a program declares.
+//! The parameters of a scenario, as values of the types that a program declares.
 
 use crate::parameters::{Complaint, complaint, describe};
 use starl_core::{Point, Time};
@@ -115,7 +115,7 @@ impl Reader<'_> {
         self.bytecode.types.get(usize::from(number))
     }
 
-    /// What is to be written in the scenario for a value of this type.
+    /// The form of a value of this type in scenarios.
     fn expected(&self, kind: &Type) -> String {
         match kind {
             Type::Bool => "true or false".into(),
@@ -129,7 +129,7 @@ impl Reader<'_> {
             Type::Optional(kind) => self.expected(kind),
             Type::Record(_) => "nothing: a scenario cannot set records".into(),
             Type::Object(number) => match self.object(*number) {
-                Some(ObjectType::Text) => "a text that is no quantity".into(),
+                Some(ObjectType::Text) => "a text that is not a quantity".into(),
                 Some(ObjectType::List(element) | ObjectType::Set(element)) => {
                     format!("a list, each element {}", self.expected(element))
                 }

@@ -5,7 +5,8 @@ use starl_core::{Duration, Payload, Primitives, Program, Random, Robot, Time};
 use starl_primitives::register::{OperationId, Options, Status as Progress};
 use starl_primitives::{FailureDetector, Register, failure_detector};
 
-/// The register that is written, and the one that is claimed to update it: who claims one refuses those who write it.
+/// The register that is written, and the one that is claimed and updated: claims of a register refuse its plain
+/// writes.
 const WRITTEN: &str = "written";
 const UPDATED: &str = "updated";
 
@@ -41,7 +42,7 @@ impl Keeper {
         }
     }
 
-    /// Whether the last operation is over. What was claimed is written at once.
+    /// Whether the last operation is over. A claimed register is written at once.
     fn is_idle(&mut self, robot: &mut Robot<'_>) -> bool {
         let Some(operation) = self.under_way else {
             return true;

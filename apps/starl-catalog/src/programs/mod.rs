@@ -28,9 +28,9 @@ pub struct Registry(Vec<Entry>);
 /// A program with its name.
 #[derive(Clone)]
 pub struct Entry {
-    /// What scenarios call it.
+    /// Its name in scenarios.
     pub name: String,
-    /// What it does, in one line.
+    /// A description, in one line.
     pub summary: String,
     make: Arc<Make>,
 }
@@ -46,7 +46,7 @@ impl fmt::Debug for Entry {
 impl Default for Registry {
     /// The programs that StarL ships with.
     fn default() -> Registry {
-        let race = "run through the way-points; who is first sends all on";
+        let race = "drive through the waypoints; the first to arrive sends all to the next";
         let diffusion = "drive straight, turn away from what the proximity rays see";
         let keeper = "read, write and update registers at random";
         let radio = "drive in circles and broadcast four bytes at every activation";

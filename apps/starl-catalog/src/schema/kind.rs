@@ -1,10 +1,10 @@
-//! What fields hold, as schemas.
+//! The kinds of fields, as schemas.
 
 use super::{Json, Object, table};
 use serde_json::{Value, json};
 use starl_sim::read::schema::{Dimension, Kind, Range, model_names};
 
-/// What a field holds.
+/// The schema of a kind of field.
 pub(super) fn kind(kind: &Kind) -> Object {
     let value = match kind {
         Kind::Text => json!({"type": "string", "pattern": "\\S"}),

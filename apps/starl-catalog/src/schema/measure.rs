@@ -1,10 +1,10 @@
-//! What forms need to know of a field besides.
+//! Additional information about a field for forms.
 
 use super::Object;
 use serde_json::json;
 use starl_sim::read::schema::{Dimension, Kind, LEAST_PERIOD, Range};
 
-/// What a form needs to know besides.
+/// Adds the information for forms.
 pub(super) fn annotate(schema: &mut Object, kind: &Kind) {
     schema.put("x-kind", json!(word(kind)));
     match kind {
@@ -27,7 +27,7 @@ pub(super) fn measure(schema: &mut Object, quantity: String, dimension: Dimensio
     schema.put("x-units", json!(dimension.unit_names().collect::<Vec<_>>()));
 }
 
-/// What a quantity measures: `rate_of_turn`.
+/// The name of a quantity: `rate_of_turn`.
 pub(super) fn quantity_name(dimension: Dimension) -> String {
     let name = dimension.name();
     let name = name.split_once(' ').map_or(name, |(_, name)| name);

@@ -243,7 +243,7 @@ impl Service {
     }
 }
 
-/// What a request comes to.
+/// The answer to a request.
 enum Answer {
     /// A value.
     Json(Value),

@@ -1,4 +1,4 @@
-//! What can be asked of the service, as JSON: an object whose only member is the name of the request.
+//! The requests to the service, as JSON: an object whose only member is the name of the request.
 
 use crate::session::{Breakpoint, Files, Options, Recorded};
 use serde::Deserialize;

@@ -1,4 +1,4 @@
-//! Breakpoints: where a run stops for those who look into it.
+//! Breakpoints: conditions at which a run stops for inspection.
 //!
 //! They belong to the session, not to the run: they make no difference to what happens, and stay when the session goes
 //! back to a moment that was kept.
@@ -51,7 +51,7 @@ pub struct Stopped {
     pub at: f64,
     /// On which robot; none if it is about the fleet.
     pub robot: Option<u32>,
-    /// What happened.
+    /// A description.
     pub text: String,
 }
 
@@ -116,7 +116,8 @@ impl Breakpoints {
         }
     }
 
-    /// What of a step stops the run: the first record that does, else a condition. To be asked after each step.
+    /// The part of a step that stops the run: the first matching record, else a condition. Call it after each
+    /// step.
     pub fn look(&mut self, run: &Run, records: &[Record]) -> Option<Stopped> {
         let simulation = run.simulation();
         let mut stopped = records
@@ -239,7 +240,7 @@ fn message(simulation: &Simulation, robot: RobotId, from: RobotId, sequence: u32
         .message_in(simulation.arrived(from, sequence)?)
 }
 
-/// Whom something is about.
+/// The robots concerned.
 fn of(simulation: &Simulation, robot: Option<RobotId>) -> String {
     robot.map_or(String::new(), |robot| {
         format!("{}: ", simulation.scenario().fleet.name(robot))

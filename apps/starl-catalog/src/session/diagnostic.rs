@@ -58,7 +58,7 @@ pub struct Related {
     pub end_line: u32,
     /// The character after the last.
     pub end_column: u32,
-    /// What is to be seen there.
+    /// The description of the position.
     pub message: String,
 }
 
@@ -73,7 +73,7 @@ pub struct Edit {
     pub end_line: u32,
     /// The character after the last that is replaced.
     pub end_column: u32,
-    /// What stands there instead.
+    /// The new text.
     pub text: String,
 }
 

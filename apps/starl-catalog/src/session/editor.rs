@@ -1,5 +1,5 @@
-//! What an editor shows of programs among files that are held in memory. What there is to know comes from
-//! [`starl_lang::editor`], from which the language server takes it too.
+//! An editor's view of programs among files in memory. The information comes from [`starl_lang::editor`],
+//! like that of the language server.
 
 use super::files::{Beside, Files};
 use crate::language::SUFFIX;
@@ -11,12 +11,12 @@ use starl_lang::editor::{
 };
 use starl_lang::format::format;
 
-/// What to show at a place.
+/// The information at a position.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Hover {
     /// The name that it is about.
     pub range: Utf16Range,
-    /// What to show.
+    /// The text.
     pub markdown: String,
 }
 
@@ -25,17 +25,17 @@ pub struct Hover {
 pub struct Completion {
     /// The word.
     pub label: String,
-    /// What kind of thing it is.
+    /// The kind of completion.
     pub kind: CompletionKind,
     /// How it is declared.
     pub detail: Option<String>,
-    /// What is said of it, in Markdown.
+    /// Its documentation, in Markdown.
     pub documentation: Option<String>,
-    /// What to put in the place of the range.
+    /// The text that replaces the range.
     pub insert: String,
     /// Where the cursor belongs in that: so many UTF-16 units stand before it.
     pub cursor: usize,
-    /// What it replaces: the word that is being typed.
+    /// The range that it replaces: the word being typed.
     pub range: Utf16Range,
 }
 
@@ -53,9 +53,9 @@ pub struct Definition {
 /// A part of a text.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Part {
-    /// What it is called.
+    /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub kind: OutlineKind,
     /// More that is worth seeing, such as its type.
     pub detail: Option<String>,
@@ -96,7 +96,7 @@ impl<'a> Document<'a> {
         })
     }
 
-    /// What to show at a place; none where there is no name.
+    /// The information at a position; none where there is no name.
     pub fn hover(&self, at: Utf16Position) -> Option<Hover> {
         let (span, description) = self.analysis().hover(self.offset(at))?;
         Some(Hover {
@@ -105,7 +105,7 @@ impl<'a> Document<'a> {
         })
     }
 
-    /// What may be typed at a place, the likeliest first.
+    /// The completions at a position, the likeliest first.
     pub fn complete(&self, at: Utf16Position) -> Vec<Completion> {
         let found = editor::completions(self.text, self.offset(at), &self.beside());
         let range = self.range(found.span);

@@ -38,7 +38,7 @@ pub struct RobotReport {
     pub holding: Option<String>,
     /// How far it has come along its path.
     pub distance: f64,
-    /// How many way-points its ReachAvoid has reached.
+    /// How many waypoints its ReachAvoid has reached.
     pub way_points_reached: u32,
     /// Its clock.
     pub clock: ClockReport,

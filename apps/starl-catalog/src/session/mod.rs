@@ -93,7 +93,7 @@ pub struct Batch {
     pub records: Vec<Record>,
     /// How many more there are to be taken.
     pub left: usize,
-    /// How many were dropped since the last call, because nobody took them in time.
+    /// The number of records dropped since the last call, because they were not taken in time.
     pub dropped: u64,
 }
 
@@ -233,7 +233,7 @@ impl Session {
     /// Steers the run: see [`starl_sim::Simulation::apply`].
     ///
     /// # Errors
-    /// What is wrong with the intervention.
+    /// The error of the intervention.
     pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), String> {
         self.live.run.apply(at, what)
     }
@@ -241,7 +241,7 @@ impl Session {
     /// Replaces the breakpoints, see [`Session::advance`].
     ///
     /// # Errors
-    /// What is wrong with one of them; those that there were stay.
+    /// The error of one of them; the previous ones stay.
     pub fn set_breakpoints(&mut self, breakpoints: Vec<Breakpoint>) -> Result<(), Refused> {
         self.breakpoints = Breakpoints::new(breakpoints, &self.application, &self.live.run)?;
         Ok(())
@@ -300,7 +300,7 @@ impl Session {
         write::scenario(&scenario)
     }
 
-    /// What has come of the run so far.
+    /// The report of the run so far.
     pub fn report(&self) -> Report {
         Report::of(&self.live.run)
     }

@@ -11,7 +11,7 @@ use starl_lang::check::{NoLibraries, check};
 use starl_sim::read::{Override, Problem, Request, Source, suggest};
 use std::collections::BTreeMap;
 
-/// What to open, and what to change of it. Each stands for an option of `starl run`.
+/// The target to open, and changes of it. Each corresponds to an option of `starl run`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Options {
@@ -57,7 +57,7 @@ impl From<Problem> for Refused {
     }
 }
 
-/// What was opened.
+/// The opened target.
 pub(crate) struct Opened {
     pub application: Application,
     /// The path that names of files in the scenario start from.
@@ -180,7 +180,7 @@ fn scenario(
     }
 }
 
-/// The only program among the files that is no library.
+/// The only program among the files that is not a library.
 fn only_program(files: &Files) -> Result<String, String> {
     let is_program = |path: &&str| {
         let text = files.text(path).unwrap_or_default();

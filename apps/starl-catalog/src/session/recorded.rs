@@ -12,7 +12,7 @@ use starl_core::{Intervention, Time};
 use starl_trace::{Header, Outcome, ViewOptions, WriteError, Writer};
 use std::collections::BTreeMap;
 
-/// What a trace holds of how its run was started and steered.
+/// The start and the interventions of a run, from its trace.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Recorded {
@@ -54,7 +54,7 @@ impl Session {
     /// The trace of the run up to the present moment, as `starl run --trace` writes it. Takes as long as the run.
     ///
     /// # Errors
-    /// What happened that a trace cannot hold.
+    /// The error of an event that a trace cannot contain.
     pub fn trace(&self) -> Result<Vec<u8>, String> {
         let now = self.run().simulation().now();
         let mut run = self.application.run().map_err(|error| error.message)?;

@@ -1,4 +1,4 @@
-//! What there is to say of a run at any time: how far it is, its verdicts and counts, its fleet and its world.
+//! The report of a run at any time: its progress, its verdicts and counts, its fleet and its world.
 
 use super::breakpoint::Stopped;
 use super::inspect::condition;
@@ -23,7 +23,7 @@ pub struct Status {
     pub stopped: Option<Stopped>,
 }
 
-/// What has come of a run so far.
+/// The report of a run so far.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// The present time, seconds.
@@ -36,7 +36,7 @@ pub struct Report {
     pub digest: String,
     /// How many robots are where.
     pub progress: Progress,
-    /// What became of datagrams.
+    /// The fate of datagrams.
     pub messages: Messages,
     /// How often bodies have come to touch.
     pub collisions: u64,
@@ -61,7 +61,7 @@ pub struct Progress {
     pub failed: usize,
 }
 
-/// What became of datagrams: see [`starl_sim::engine::Tally`].
+/// The fate of datagrams: see [`starl_sim::engine::Tally`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Messages {
     /// Handed to the network.
@@ -108,7 +108,7 @@ pub struct Violation {
     pub at: f64,
     /// The numbers of the robots concerned.
     pub robots: Vec<u32>,
-    /// What was seen.
+    /// The observation.
     pub text: String,
 }
 
@@ -149,7 +149,7 @@ pub struct Member {
 pub struct World {
     /// The obstacles that stand, the walls around the world included.
     pub obstacles: Vec<Standing>,
-    /// The way-points.
+    /// The waypoints.
     pub way_points: Vec<WayPoint>,
     /// The things.
     pub things: Vec<Thing>,
@@ -207,7 +207,7 @@ impl Progress {
 }
 
 impl Messages {
-    /// What has become of the datagrams of a simulation by now.
+    /// The fate of the datagrams of a simulation so far.
     pub fn of(simulation: &Simulation) -> Messages {
         let tally = simulation.tally();
         Messages {
@@ -221,7 +221,7 @@ impl Messages {
 }
 
 impl Report {
-    /// What has come of a run so far. Takes time in proportion to the fleet.
+    /// The report of a run so far. Takes time in proportion to the fleet.
     pub fn of(run: &Run) -> Report {
         let simulation = run.simulation();
         let Status {

@@ -34,7 +34,7 @@ impl Subject {
     /// Runs the application once to see how long it takes.
     ///
     /// # Errors
-    /// None that [`read()`](crate::read()) has not found before.
+    /// Returns only errors that [`read()`](crate::read()) has found before.
     pub fn new(application: &Application, demands_goal: bool) -> Result<Subject, StartError> {
         let mut run = application.run()?;
         let scenario = application.scenario();

@@ -9,8 +9,8 @@ use starl_sim::read::suggest;
 use starl_sim::{Finding, Scenario, Trial, write};
 use std::collections::BTreeMap;
 
-/// Trials of files. What was tried last is kept, so that many trials of the same files read and compile them once, and
-/// shrinking goes on where it was.
+/// Trials of files. The last subject is kept, so that many trials of the same files read and compile them once, and
+/// shrinking continues where it was.
 #[derive(Default)]
 pub struct Trials {
     last: Option<Target>,
@@ -45,7 +45,7 @@ pub struct ProfileReport {
 pub struct Shrunk {
     /// Its file, which belongs into the folder of the scenario that was tried.
     pub scenario: String,
-    /// What comes of it.
+    /// The result.
     pub tried: Tried,
     /// How many scenarios were tried.
     pub trials: u64,

@@ -1,7 +1,7 @@
 //! A run that went wrong, made as small as it can be while it still goes wrong.
 //!
-//! What is shrunk is the text of a scenario's file: every candidate is written, read and run as `starl run` would, so
-//! that the file that is left fails as the run did.
+//! Shrinking changes the text of a scenario's file: every candidate is written, read and run as `starl run` would, so
+//! that the resulting file fails like the run.
 
 use super::Subject;
 use crate::programs::Registry;
@@ -26,7 +26,7 @@ pub struct Shrinking {
 
 /// A scenario that fails, as small as it was found.
 pub struct Smaller {
-    /// What it says.
+    /// The scenario.
     pub scenario: Scenario,
     /// Its file.
     pub text: String,
@@ -34,7 +34,7 @@ pub struct Smaller {
     pub application: Application,
     /// Its run up to the failure.
     pub run: Run,
-    /// What comes of that run.
+    /// The result of that run.
     pub trial: Trial,
     /// How many scenarios were tried.
     pub trials: u64,
@@ -163,7 +163,7 @@ impl Shrinking {
         format!("{}{}", self.head, write::scenario(scenario))
     }
 
-    /// What comes of a scenario that is read from its file, if it fails in the same way.
+    /// The result of a scenario that is read from its file, if it fails in the same way.
     fn trial(&self, scenario: &Scenario, loader: &dyn Loader) -> Option<(Application, Run, Trial)> {
         let source = Source::new("the smaller scenario".to_string(), self.text(scenario));
         let application = read(&Request::new(source), loader, &self.registry).ok()?;

@@ -1,11 +1,11 @@
-//! What there is to say of one trial.
+//! The report of one trial.
 
 use crate::session::{Failure, Messages, Progress, Violation};
 use serde::Serialize;
 use starl_sim::profile::Profile;
 use starl_sim::{Finding, Run, Trial};
 
-/// What came of a run that ended, or was ended by what went wrong.
+/// The result of a run that ended, or was ended by a failure.
 #[derive(Clone, Debug, Serialize)]
 pub struct Tried {
     /// The profile of faults.
@@ -14,9 +14,9 @@ pub struct Tried {
     pub seed: String,
     /// `reached`, `violated`, `timed_out` or `failed`.
     pub outcome: &'static str,
-    /// What is held to be wrong: the property that was violated, `failed` or `unreached`.
+    /// The failure: the violated property, `failed` or `unreached`.
     pub wrong: Option<String>,
-    /// What was seen, in a sentence; empty where nothing is wrong.
+    /// The observation, in a sentence; empty without a failure.
     pub text: String,
     /// When the run ended, seconds.
     pub now: f64,
@@ -24,7 +24,7 @@ pub struct Tried {
     pub digest: String,
     /// How many robots were where at the end.
     pub progress: Progress,
-    /// What became of datagrams.
+    /// The fate of datagrams.
     pub messages: Messages,
     /// How often bodies have come to touch.
     pub collisions: u64,

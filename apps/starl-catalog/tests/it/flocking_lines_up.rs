@@ -3,7 +3,7 @@
 use crate::support::Case;
 use starl_sim::Outcome;
 
-/// Who flies is above its place, and in it.
+/// Flying robots are above their places, and in them.
 #[test]
 fn quadcopters_among_robots_on_the_ground() {
     for seed in 1..=5 {

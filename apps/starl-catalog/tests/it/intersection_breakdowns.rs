@@ -68,8 +68,8 @@ fn where_it_starts_again_its_zone_is_left_to_it_though_it_has_forgotten_it() {
     }
 }
 
-/// None hears another. Robot1's wheels stop when it has left the others out and may drive: Robot2 waits until its own
-/// turn comes, and Robot1 has given way by then, whenever its wheels are mended.
+/// No car hears another. Robot1's wheels stop when it has excluded the others and may drive: Robot2 waits until its
+/// own turn, and Robot1 has given way by then, whenever its wheels are repaired.
 #[test]
 fn cars_that_do_not_hear_each_other_take_turns() {
     for mended in 56..=72 {

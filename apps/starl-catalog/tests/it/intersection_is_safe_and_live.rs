@@ -68,7 +68,7 @@ fn the_network_parted_and_whole_again() {
     with_seeds(&PARTED, all_pass);
 }
 
-/// Who restarts on the intersection asks for what it has not left and drives on.
+/// A car that restarts on the intersection requests the zones that it has not left and drives on.
 #[test]
 fn cars_that_crash_and_restart() {
     with_seeds(&RESTARTS, |traffic, seed| {

@@ -1,5 +1,5 @@
-//! Streams of cars that come at random all get through, under every kind of fault that is mended; and where cars
-//! break down for good nobody runs into them, and who does not get on knows it.
+//! Streams of cars that arrive at random all get through, under every kind of temporary fault. Where cars break
+//! down permanently there are no collisions, and cars that are stuck know it.
 
 use crate::intersection_support::{Traffic, drive};
 use rayon::prelude::*;
@@ -24,7 +24,7 @@ fn all_get_through_in_calm() {
 }
 
 #[test]
-fn all_get_through_with_faults_that_are_mended() {
+fn all_get_through_with_temporary_faults() {
     let profiles: [&[&str]; 3] = [
         &[
             "network.loss=0.2",
@@ -41,7 +41,7 @@ fn all_get_through_with_faults_that_are_mended() {
 }
 
 #[test]
-fn nobody_runs_into_cars_that_break_down() {
+fn no_car_collides_with_a_broken_down_car() {
     (1..=2).into_par_iter().for_each(|seed: u32| {
         let seed = format!("seed={seed}");
         let traffic = stream(&["fault_rates.crash=0.05/min", &seed, "duration=240s"]);

@@ -13,7 +13,7 @@ use starl_sim::read::Request;
 /// How long runs are at the longest.
 const SPAN: Duration = Duration::from_seconds(12);
 
-/// What the robots of a run went through.
+/// The history of the robots of a run.
 #[derive(Debug, Default)]
 struct Account {
     entries: u64,

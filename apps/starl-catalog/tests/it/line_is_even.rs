@@ -1,5 +1,5 @@
-//! The robots of Line come to stand evenly on a line and stay there, from any start and over a bad network;
-//! where one dies the others close the gap, or stand as near to their places as it leaves them room.
+//! The robots of Line end evenly spaced on a line and stay there, from any start and over a bad network.
+//! Where one dies the others close the gap, or stand as near to their places as it leaves room.
 
 use crate::support::Case;
 use rayon::prelude::*;
@@ -64,7 +64,7 @@ fn those_that_are_left_close_the_gap_of_one_that_died() {
 /// The wreck lies 30 cm from where the robot before it is to stand then. One that kept trying to get there would go to
 /// and fro beside it, and its neighbours with it: 24 m in these runs.
 #[test]
-fn who_finds_a_wreck_in_its_place_hardly_moves_any_more() {
+fn a_robot_with_a_wreck_in_its_place_hardly_moves() {
     let crash = "[[fault]]\nat = \"60s\"\nkind = \"crash\"\nrobots = [\"quadcopter0\"]\n";
     let ways = (1..=4).into_par_iter().map(|seed| {
         let mut run = Case {

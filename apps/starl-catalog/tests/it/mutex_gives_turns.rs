@@ -60,7 +60,7 @@ fn with_wrong_clocks() {
     all_have_turns(&clocks, 100);
 }
 
-/// What crashes and restarts, and falls apart and meets again.
+/// Robots crash and restart, and the network is partitioned and heals.
 fn trouble() -> Vec<&'static str> {
     let mut sets = BAD.to_vec();
     sets.extend([
@@ -79,8 +79,8 @@ fn through_crashes_and_partitions() {
     all_have_turns(&trouble(), 20);
 }
 
-/// Whoever crashes begins anew with its turns, so a fleet need not finish in the end; but while nothing breaks
-/// somebody enters every while, as soon as those that restarted have asked all others what they had granted.
+/// A robot that crashes restarts its turns, so a fleet need not finish in the end. But while nothing fails
+/// some robot enters regularly, as soon as those that restarted have asked all others for their grants.
 #[test]
 fn a_quorum_goes_on_after_crashes_and_partitions() {
     (20..28).into_par_iter().for_each(|seed| {
@@ -123,7 +123,7 @@ fn nothing_is_held_twice_a_while_after_a_corruption_of_state() {
 /// Two robots tried other quorums while the network was parted, and what they gave back was not heard: of their old
 /// requests one was granted and the other waited for it.
 #[test]
-fn requests_that_were_given_back_unheard_block_nobody() {
+fn requests_with_lost_releases_block_no_robot() {
     let faults = "
         [[fault]]
         at = \"700ms\"
@@ -144,7 +144,8 @@ fn requests_that_were_given_back_unheard_block_nobody() {
     assert_eq!(run.outcome(), Outcome::Reached, "{:?}", run.violations());
 }
 
-/// Two of five robots die while all want something all the time, and stay dead. What they held is free after its lease.
+/// Two of five robots die while all request something all the time, and stay dead. Their resources are free after
+/// their leases.
 #[test]
 fn leases_go_on_though_a_minority_stays_dead() {
     let sets = [

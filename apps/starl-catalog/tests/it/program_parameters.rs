@@ -1,5 +1,5 @@
-//! A scenario's parameters reach a program in the StarL language with the types that it declares; what
-//! does not fit is refused, with the place in the scenario and what would mend it.
+//! A scenario's parameters reach a program in the StarL language with the types that it declares.
+//! Values that do not match are refused, with the place in the scenario and a suggested fix.
 
 use starl_catalog::{Application, Refusal};
 use starl_core::{Duration, Time};
@@ -120,7 +120,7 @@ fn what_does_not_fit_is_refused_with_its_place() {
         ),
         (
             "name = 4",
-            "parameters.name: 4 does not fit; give a text that is no quantity",
+            "parameters.name: 4 does not fit; give a text that is not a quantity",
         ),
         (
             "span = 4",

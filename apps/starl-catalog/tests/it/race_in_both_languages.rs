@@ -7,7 +7,7 @@ use starl_core::{Event, Record};
 
 const SEEDS: u64 = 100;
 
-/// What the program and the robots did, in the order of time.
+/// The actions of the program and the robots, in the order of time.
 fn history(program: &str, seed: u64, sets: &[&str]) -> Vec<Record> {
     let program = format!("program={program}");
     let sets: Vec<&str> = sets.iter().copied().chain([&*program]).collect();
@@ -45,7 +45,7 @@ fn are_the_same(sets: &[&str]) {
         starl.iter().filter(is_told).count()
     };
     let told: Vec<usize> = (0..SEEDS).into_par_iter().map(compare).collect();
-    // Four way-points are reached by some robot, and each of four robots finishes.
+    // Four waypoints are reached by some robot, and each of four robots finishes.
     assert!(told.iter().all(|&count| count > 20), "{told:?}");
 }
 

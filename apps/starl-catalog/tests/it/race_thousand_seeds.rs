@@ -11,7 +11,7 @@ const BAD_NETWORK: [&str; 2] = ["network.loss=0.2", "network.delay=100ms"];
 const PROGRAMS: [&str; 2] = ["program=race.starl", "program=race"];
 const TWELVE: Option<&str> = Some("create=6,drone=6");
 
-/// What went wrong with a race, ready to be repeated; none if nothing did.
+/// The failure of a race, ready to be repeated; none if there is none.
 fn race(program: &str, seed: u64, fleet: Option<&str>, sets: &[&str]) -> Option<String> {
     let sets: Vec<&str> = sets.iter().copied().chain([program]).collect();
     let run = Case {

@@ -7,10 +7,10 @@ use starl_core::event::{PrimitiveEvent, ReachAvoidEvent};
 use starl_core::{Duration, Event, Point, RobotId, Time, Value};
 use std::collections::BTreeMap;
 
-/// Nobody sees the item, so that all rooms are searched.
+/// No robot sees the item, so all rooms are searched.
 const BLIND: &[&str] = &["robots.0.sensors.detector.range=1mm"];
 
-/// What a robot did about a room.
+/// A robot's action on a room.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Deed {
     Enters,
@@ -18,17 +18,17 @@ enum Deed {
     Leaves,
 }
 
-/// What came of a run.
+/// The result of a run.
 #[derive(Debug, Default)]
 struct Story {
-    /// When who did what about which room.
+    /// The actions of robots on rooms, with their times.
     deeds: Vec<(Time, RobotId, Deed, i64)>,
     /// The paths that were planned.
     paths: Vec<(RobotId, Vec<Point>)>,
 }
 
 impl Story {
-    /// What comes of a case that goes well.
+    /// The result of a case without failures.
     fn of(case: Case) -> Story {
         let mut run = case.start();
         let mut story = Story::default();
@@ -71,7 +71,7 @@ impl Story {
         self.deeds.iter().filter(searched).count()
     }
 
-    /// Who enters a room that another is in, or was given and has not left, after a time.
+    /// Robots that enter a room in which another is, or that was assigned to another, after a time.
     fn intruders(&self, after: Time) -> Vec<(Time, RobotId, i64)> {
         let mut inside: BTreeMap<RobotId, i64> = BTreeMap::new();
         let mut intruders = Vec::new();
@@ -131,7 +131,7 @@ fn what_a_robot_searched_before_a_crash_is_not_searched_again() {
 
 /// The lobby is 20 m long, and the rooms that are given out first are the nearest to it.
 #[test]
-fn nobody_goes_round_the_building() {
+fn no_robot_drives_round_the_building() {
     (1..=4).into_par_iter().for_each(|seed| {
         let story = Story::of(Case::new("search-building", &["duration=4s"], seed));
         assert!(story.paths.len() >= 10, "{seed}: {}", story.paths.len());

@@ -1,5 +1,5 @@
-//! In the examples `register` and `memory` all robots come to their end, in calm and over a bad network, and no
-//! property is violated: no ticket is drawn twice, nobody sees that a round is done without its result.
+//! In the examples `register` and `memory` all robots finish, with and without a bad network, and no property
+//! is violated: no ticket is drawn twice, and no robot sees a finished round without its result.
 
 use crate::support::Case;
 use rayon::prelude::*;

@@ -6,7 +6,7 @@ use starl_catalog::service::Service;
 use starl_core::Random;
 
 #[test]
-fn bytes_that_are_no_request_are_refused() {
+fn bytes_that_are_not_a_request_are_refused() {
     let mut host = Service::default();
     let cases: [&[u8]; 7] = [
         b"",

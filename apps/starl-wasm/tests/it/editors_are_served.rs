@@ -1,4 +1,4 @@
-//! What an editor shows of programs that are held in memory.
+//! An editor's view of programs in memory.
 
 use crate::support::ask;
 use serde_json::{Value, json};

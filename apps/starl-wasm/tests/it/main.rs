@@ -1,4 +1,4 @@
-//! What JavaScript asks of the simulator, asked natively.
+//! The requests of JavaScript to the simulator, made natively.
 
 mod bad_requests_are_answered;
 mod digests_are_those_of_the_command;

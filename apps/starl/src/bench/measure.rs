@@ -16,7 +16,7 @@ use std::fmt::Write;
 use std::fs;
 use std::time::Instant;
 
-/// What was measured. A robot-tick is one robot taken through one tick of 100 ms.
+/// The measurements. A robot-tick is one robot advanced by one tick of 100 ms.
 #[derive(Debug, Serialize)]
 pub struct Figures {
     pub workload: &'static str,

@@ -5,7 +5,7 @@ use crate::args::{LoadArguments, RaceArguments, RadioArguments, SwarmArguments};
 
 /// A scenario to measure.
 pub struct Workload {
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
     /// The scenario file.
     pub scenario: String,
@@ -47,7 +47,7 @@ pub fn radio(arguments: &RadioArguments) -> Workload {
     }
 }
 
-/// The same robots, driving to a way-point that none of them reaches in the first seconds.
+/// The same robots, driving to a waypoint that none of them reaches in the first seconds.
 pub fn race(arguments: &RaceArguments) -> Workload {
     let RaceArguments {
         robots,

@@ -1,4 +1,4 @@
-//! `starl diagram`: who said what to whom, and when (a space-time diagram: Lamport 1978, figure 1).
+//! `starl diagram`: the messages of a run as a space-time diagram (Lamport 1978, figure 1).
 //!
 //! A line for each robot, time to the right; messages are arrows from line to line, lost ones end in a
 //! cross; what primitives and programs report are marks; robots that are down, and partitions, are shaded.

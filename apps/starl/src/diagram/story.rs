@@ -1,6 +1,6 @@
-//! What a space-time diagram tells, gathered from the records of a run.
+//! The content of a space-time diagram, gathered from the records of a run.
 //!
-//! The trace does not say who is in which part of a partition; the scenario does.
+//! The trace does not contain the parts of a partition; the scenario does.
 
 use super::Extent;
 use starl_core::event::{DropReason, Event, Fault, ValueRef, borrowed};
@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, VecDeque};
 /// More messages and marks than these are not kept; the first go. No drawing shows as many.
 const MOST: usize = 50_000;
 
-/// What happened, in the order of time.
+/// The events, in the order of time.
 #[derive(Default)]
 pub struct Story {
     pub title: String,
@@ -21,13 +21,13 @@ pub struct Story {
     pub robots: Vec<String>,
     pub messages: VecDeque<Message>,
     pub marks: VecDeque<Mark>,
-    /// Who was down, from when, and until when.
+    /// The robots that were down, from when, and until when.
     pub outages: Vec<(RobotId, Time, Time)>,
     pub partitions: Vec<Partition>,
     pub violations: Vec<Violation>,
     /// The last that was heard of the run.
     pub end: Time,
-    /// What primitives call themselves, by port.
+    /// The names of primitives, by port.
     pub ports: BTreeMap<Port, String>,
     /// When datagrams that are under way were sent, and for which port.
     under_way: BTreeMap<(RobotId, u32), (Time, Port)>,
@@ -60,7 +60,7 @@ pub struct Mark {
     pub kind: MarkKind,
 }
 
-/// What kind of thing a robot did.
+/// The kind of a robot's action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MarkKind {
     /// A primitive reported something.
@@ -265,7 +265,7 @@ impl Story {
     }
 }
 
-/// What an event is called, with the values that fit on a label.
+/// The name of an event, with the values that fit on a label.
 fn with_fields(name: &str, fields: &[(&str, ValueRef<'_>)]) -> String {
     let shown = fields.iter().filter_map(|(_, value)| short(*value));
     let words: Vec<String> = std::iter::once(name.to_string()).chain(shown).collect();

@@ -1,4 +1,4 @@
-//! What a diagram must show, whatever happened.
+//! Required parts of a diagram, whatever happened.
 
 use super::story::Story;
 use super::*;

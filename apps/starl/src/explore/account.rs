@@ -1,5 +1,5 @@
-//! What came of an exploration, for people and as JSON. The keys are described in
-//! `docs/reference/command.md`.
+//! The report of an exploration, for people and as JSON. `docs/reference/command.md` describes the
+//! keys.
 
 use super::record::Recording;
 use crate::console::{counted, grouped, rounded};
@@ -8,7 +8,7 @@ use starl_core::Duration;
 use starl_explore::{Bounds, Clocks, End, Report};
 use std::fmt::Write;
 
-/// What there is to tell.
+/// The report.
 #[derive(Debug, Serialize)]
 pub struct Account {
     target: String,
@@ -29,7 +29,7 @@ pub struct Account {
     pub seconds: f64,
     /// The time that it was given, where that was up before all was explored.
     within: Option<String>,
-    /// What may have been meant otherwise.
+    /// Suggestions for other explorations.
     pub hints: Vec<String>,
     violation: Option<Violation>,
     /// The way to the violation, line by line.
@@ -182,7 +182,7 @@ impl Account {
         text
     }
 
-    /// What is known where a search was not complete. It goes breadth first.
+    /// The covered steps of an incomplete search. It is breadth first.
     fn covered(&self) -> String {
         format!(
             "nothing is violated within {} from the start. Allow more, or bound more: fewer robots (--robots 2), \

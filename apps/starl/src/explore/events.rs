@@ -3,7 +3,7 @@
 use starl_core::event::{ValueRef, borrowed};
 use starl_core::{Event, Record};
 
-/// One line about what happened; none of what matters to nobody here.
+/// One line for a record; none for irrelevant ones.
 pub fn line(record: &Record) -> Option<String> {
     let robot = record.robot?;
     let what = match &record.event {

@@ -1,5 +1,5 @@
-//! What the one who asked may not have noticed: that something was waited for and came in no behaviour, so that
-//! nothing was found out about it.
+//! Notes about unnoticed gaps: robots waited for something that came in no behaviour, so the exploration says
+//! nothing about it.
 //!
 //! A tick of 981 ms suits the primitives' leases of 2 s and 3 s: what a robot believes to hold ends a hundredth
 //! earlier for each clock, and so a tick before what others have granted it.
@@ -10,7 +10,7 @@ use starl_core::event::{
 use starl_explore::{Bounds, Clocks};
 use std::collections::BTreeSet;
 
-/// What robots ask primitives for, and how it is put that they get it in no behaviour.
+/// The requests of robots to primitives, and the note if none of them is granted in any behaviour.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Wish {
     Leader,
@@ -43,10 +43,10 @@ impl Wish {
 
     fn in_vain(self) -> &'static str {
         match self {
-            Wish::Leader => "nobody is ever elected",
-            Wish::Resource => "nobody ever gets a resource",
-            Wish::List => "nobody is ever agreed on",
-            Wish::Passage => "nobody ever passes the barrier",
+            Wish::Leader => "no robot is ever elected",
+            Wish::Resource => "no robot ever gets a resource",
+            Wish::List => "no list is ever agreed on",
+            Wish::Passage => "no robot ever passes the barrier",
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::console::grouped;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use starl_explore::Report;
 
-/// Shows the number of states. Nobody knows how many there will be.
+/// Shows the number of states. The total is unknown.
 pub struct Progress(ProgressBar);
 
 impl Progress {

@@ -12,7 +12,7 @@ use starl_properties::Violation;
 use starl_sim::read::Inputs;
 use std::path::Path;
 
-/// What was explored of a scenario.
+/// The explored part of a scenario.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Recording {
     /// The first so many of its robots.
@@ -28,12 +28,12 @@ pub struct Recording {
 /// The layout of the file; another number is another layout.
 const LAYOUT: u32 = 1;
 
-/// What the file holds.
+/// The content of the file.
 #[derive(Serialize, Deserialize)]
 pub struct Kept {
     counterexample_layout: u32,
     starl_version: String,
-    /// What is violated, and how.
+    /// The violated property.
     pub property: String,
     pub text: String,
     #[serde(flatten)]
@@ -45,7 +45,7 @@ pub struct Kept {
 }
 
 impl Recording {
-    /// What to explore.
+    /// The setup of the exploration.
     pub fn setup(&self, application: &Application) -> Result<Setup, Failure> {
         application
             .exploration(self.robots, self.bounds, self.heartbeats)

@@ -1,4 +1,4 @@
-//! Connects a robot's process to its hardware, and to whoever tells where it is.
+//! Connects a robot's process to its hardware, and to the source of positions.
 
 use super::file::{Device, Fleet, Member, Positions, Up};
 use crate::failure::Failure;

@@ -137,13 +137,13 @@ struct Safety {
 struct Robot {
     /// Where others reach it; default on this machine.
     address: Option<SocketAddr>,
-    /// What it drives; default a simulated body.
+    /// The device that it drives; default a simulated body.
     device: Option<Device>,
-    /// What it is called by whoever tells positions; default its name.
+    /// Its name at the source of positions; default its name.
     body: Option<String>,
 }
 
-/// What a robot drives.
+/// The device of a robot.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Device {
@@ -168,7 +168,7 @@ pub enum Device {
     },
 }
 
-/// Who tells robots where they are. Without it they have their odometry alone, from where the scenario starts them.
+/// The source of positions. Without it robots have only their odometry, from the scenario's starts.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Positions {
@@ -209,7 +209,7 @@ pub struct Fleet {
     pub key: Option<PathBuf>,
     /// How robots reach each other.
     pub network: Network,
-    /// Who tells robots where they are.
+    /// The source of positions.
     pub positions: Option<Positions>,
     /// A robot's trace ends when it has so many bytes.
     pub trace_limit: u64,
@@ -224,9 +224,9 @@ pub struct Member {
     pub name: String,
     /// Where others reach it.
     pub address: SocketAddr,
-    /// What it drives.
+    /// The device that it drives.
     pub device: Device,
-    /// What it is called by whoever tells positions.
+    /// Its name at the source of positions.
     pub body: String,
 }
 

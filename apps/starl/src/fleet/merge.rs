@@ -39,7 +39,7 @@ pub fn run(arguments: &FleetMergeArguments, registry: &Registry) -> Result<bool,
     Ok(true)
 }
 
-/// What came of a merge.
+/// The result of a merge.
 pub struct Merged {
     records: u64,
     /// How far each robot's clock was ahead of the first one's, and how exact that is, seconds.
@@ -215,7 +215,7 @@ struct Life {
     begun: bool,
 }
 
-/// What a life consists of.
+/// A part of a life.
 enum Piece {
     Record(Event),
     Inputs(Vec<u8>),
@@ -233,7 +233,7 @@ impl Life {
         })
     }
 
-    /// What is next, and when it was by the robot's clock. A life that was cut short ends where it was cut.
+    /// The next part, and its time by the robot's clock. A life that was cut short ends at the cut.
     fn next(&mut self) -> Result<Option<(Time, Piece)>, Failure> {
         let next = match self.reader.next_item() {
             None => return Ok(None),

@@ -1,4 +1,5 @@
-//! `starl fleet status`: who is alive, where it is, what it does, and how well it hears the others.
+//! `starl fleet status`: the robots that are alive, with their positions, states and link
+//! qualities.
 
 use super::connect::connect;
 use super::file::Fleet;

@@ -81,7 +81,7 @@ pub fn up(arguments: &FleetUpArguments, registry: &Registry) -> Result<bool, Fai
     Ok(judged && (is_reached || !ends_when_finished))
 }
 
-/// What to start where.
+/// Prints the processes to start, with their machines.
 fn print(arguments: &FleetUpArguments, fleet: &Fleet) -> Result<bool, Failure> {
     let mut text = String::new();
     for robot in &fleet.robots {

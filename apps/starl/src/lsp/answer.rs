@@ -19,7 +19,7 @@ use std::rc::Rc;
 /// The request for a text that is part of the command.
 const LIBRARY: &str = "starl/library";
 
-/// What an answer is made of.
+/// The parts of an answer.
 pub struct Answers<'a> {
     pub documents: &'a Documents,
     pub client: Client,

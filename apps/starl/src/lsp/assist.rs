@@ -1,4 +1,4 @@
-//! What is shown at a name, and what may be typed.
+//! Hover and completion.
 
 use super::convert::Text;
 use super::documents::{Checked, Documents};
@@ -9,7 +9,7 @@ use lsp_types::{
 };
 use starl_lang::editor::{self, Completion, CompletionKind, Insertion};
 
-/// What is shown at a place.
+/// The information at a position.
 pub fn hover(checked: &Checked, position: Position) -> Option<Hover> {
     let text = Text::new(checked.analysis.text());
     let (span, description) = checked.analysis.hover(text.offset(position))?;
@@ -26,7 +26,7 @@ fn markdown(value: String) -> MarkupContent {
     }
 }
 
-/// What the call takes whose arguments are being typed.
+/// The parameters of the call whose arguments are being typed.
 pub fn signature(checked: &Checked, position: Position) -> Option<SignatureHelp> {
     let text = Text::new(checked.analysis.text());
     let help = checked.analysis.call_help(text.offset(position))?;
@@ -54,8 +54,8 @@ pub fn signature(checked: &Checked, position: Position) -> Option<SignatureHelp>
     })
 }
 
-/// What may be typed at a place of a text; `snippets` says whether the editor can put the cursor between
-/// brackets.
+/// The completions at a position of a text; `snippets` says whether the editor can put the cursor
+/// between brackets.
 pub fn completions(
     documents: &Documents,
     checked: &Checked,

@@ -1,4 +1,4 @@
-//! What the server can do, and what it may ask of the editor.
+//! The capabilities of the server, and its requests to the editor.
 
 use super::show::{token_modifiers, token_types};
 use lsp_types::{
@@ -10,7 +10,7 @@ use lsp_types::{
     WorkDoneProgressOptions,
 };
 
-/// What the editor can do, as far as it matters.
+/// The relevant capabilities of the editor.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Client {
     /// It puts the cursor where a snippet says.
@@ -22,7 +22,7 @@ pub struct Client {
 }
 
 impl Client {
-    /// What the editor says of itself.
+    /// The editor's own description.
     pub fn new(params: &InitializeParams) -> Client {
         let text = params.capabilities.text_document.as_ref();
         let snippets = text
@@ -45,7 +45,7 @@ impl Client {
     }
 }
 
-/// What the server can do.
+/// The capabilities of the server.
 pub fn capabilities() -> ServerCapabilities {
     ServerCapabilities {
         text_document_sync: Some(TextDocumentSyncCapability::Options(

@@ -1,4 +1,4 @@
-//! What is wrong with a text, and what would put it right.
+//! The problems of a text, and their fixes.
 
 use super::convert::Text;
 use super::documents::Checked;
@@ -9,7 +9,7 @@ use lsp_types::{
 use starl_lang::diagnostic::{self, Severity, Span};
 use std::collections::HashMap;
 
-/// What is wrong with a text, by rising place.
+/// The problems of a text, by ascending position.
 pub fn diagnostics(checked: &Checked) -> Vec<Diagnostic> {
     let text = Text::new(checked.analysis.text());
     let problems = checked.analysis.diagnostics().iter();
@@ -52,7 +52,7 @@ fn message(problem: &diagnostic::Diagnostic) -> String {
     lines.join("\n")
 }
 
-/// What would put right the problems in a part of a text.
+/// The fixes of the problems in a part of a text.
 pub fn mends(checked: &Checked, range: Range) -> Vec<CodeAction> {
     let text = Text::new(checked.analysis.text());
     let asked = text.span(range);

@@ -11,7 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-/// What a file of the language ends with.
+/// The suffix of a file of the language.
 const SUFFIX: &str = "starl";
 
 /// How many files of a folder are looked at for other uses of what a library declares.
@@ -24,7 +24,7 @@ struct Document {
     path: Option<PathBuf>,
     version: i32,
     text: Rc<str>,
-    /// What is known of it; none if it, or what it imports, may have changed.
+    /// The analysis; none if it, or an imported library, may have changed.
     checked: RefCell<Option<Rc<Checked>>>,
     /// Whether the editor has been told what is wrong with it.
     is_told: bool,
@@ -39,7 +39,7 @@ struct Found {
 
 /// A text that was checked.
 pub struct Checked {
-    /// What is known of it.
+    /// The analysis.
     pub analysis: Analysis,
     /// Where it is.
     pub uri: Uri,
@@ -135,7 +135,7 @@ impl Documents {
         }
     }
 
-    /// What is known of a text that is open.
+    /// The analysis of an open text.
     pub fn checked(&self, uri: &Uri) -> Option<Rc<Checked>> {
         let document = self.open.get(uri.as_str())?;
         let mut known = document.checked.borrow_mut();
@@ -282,7 +282,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// The text of a file; none if there is none that can be read.
+/// The text of a file; none if it cannot be read.
 fn file_text(path: &Path) -> Option<String> {
     let size = fs::metadata(path).ok().filter(fs::Metadata::is_file)?.len();
     if size > MAX_LENGTH as u64 {

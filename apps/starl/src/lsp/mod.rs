@@ -1,10 +1,10 @@
 //! `starl lsp`: what an editor needs to know of programs, over the Language Server Protocol 3.17 on
 //! standard input and output.
 //!
-//! What there is to know comes from [`starl_lang::editor`]; here are only the protocol, the texts that are
-//! open, and the files beside them. A text is checked when its check is asked for, and after every change
-//! once no message is waiting, so that problems show as one types. Nothing that an editor sends ends the
-//! server but `exit` and the end of its input: what cannot be understood is answered with an error.
+//! The information comes from [`starl_lang::editor`]; this module contains only the protocol, the open
+//! texts, and the files beside them. A text is checked when its check is requested, and after every change
+//! once no message is waiting, so that problems appear as you type. Only `exit` and the end of the input
+//! end the server: messages that cannot be understood are answered with an error.
 
 mod answer;
 mod assist;

@@ -16,7 +16,8 @@ pub fn name_at(checked: &Checked, position: Position) -> Option<Occurrence> {
     checked.analysis.occurrence(text.offset(position))
 }
 
-/// A place as the editor knows it. What is part of the command is known to those who ask for it.
+/// A position in the editor's form. Libraries of the command are shown to editors that ask for
+/// them.
 fn location(checked: &Checked, site: Site, knows_built_in: bool) -> Option<Location> {
     let file = checked.analysis.checked.files.get(site.file as usize)?;
     let built_in = || {
@@ -89,7 +90,7 @@ pub fn users(
     users
 }
 
-/// What a text calls that which is declared at a place of a file.
+/// The name in a text of a declaration at a position of a file.
 fn symbol_at(checked: &Checked, path: &PathBuf, site: Site) -> Option<Symbol> {
     let files = 0..checked.analysis.checked.files.len() as u32;
     let mut own = files.filter(|file| checked.path_of(*file).as_ref() == Some(path));

@@ -18,7 +18,7 @@ pub fn prepare(checked: &Checked, position: Position) -> Result<PrepareRenameRes
     })
 }
 
-/// What is declared in the standard library is nobody's to change.
+/// Declarations of the standard library cannot be changed.
 fn check_place(checked: &Checked, symbol: starl_lang::check::Symbol) -> Result<(), String> {
     let site = checked.analysis.definition(symbol);
     match site {

@@ -26,7 +26,7 @@ enum Phase {
     ShutDown,
 }
 
-/// What to do after a message.
+/// The next step after a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
     /// Take the next one.

@@ -8,7 +8,7 @@ use lsp_types::{
 };
 use starl_lang::editor::{self, OutlineEntry, OutlineKind, TokenKind, TokenModifiers};
 
-/// What a text is made of.
+/// The outline of a text.
 pub fn outline(checked: &Checked) -> Vec<DocumentSymbol> {
     let text = Text::new(checked.analysis.text());
     let entries = editor::outline(&checked.analysis.checked.files[0].parse);
@@ -93,7 +93,7 @@ pub fn token_types() -> Vec<SemanticTokenType> {
     KINDS.iter().map(|(_, kind)| kind.clone()).collect()
 }
 
-/// What is said of words besides, in the order of the bits.
+/// The modifiers of tokens, in the order of the bits.
 pub fn token_modifiers() -> Vec<SemanticTokenModifier> {
     vec![
         SemanticTokenModifier::DECLARATION,

@@ -1,8 +1,8 @@
 //! Messages as bytes: JSON-RPC 2.0 with a header that says how long each message is (protocol 3.17, "Base
 //! Protocol").
 //!
-//! Written here rather than taken from `lsp-server`, whose reader ends at the first message that is no
-//! JSON and makes room for as many bytes as a header says.
+//! Written here rather than taken from `lsp-server`, whose reader ends at the first message that is
+//! not JSON and allocates as many bytes as a header says.
 
 use serde_json::{Value, json};
 use std::io::{self, BufRead, Read, Write};
@@ -20,7 +20,7 @@ const MOST_WAITING: usize = 64;
 pub enum Fault {
     /// The message is no JSON.
     Parse = -32700,
-    /// The message is no request, or none that can be made now.
+    /// The message is not a request, or not one that is possible now.
     InvalidRequest = -32600,
     /// There is no such request.
     MethodNotFound = -32601,
@@ -34,7 +34,7 @@ pub enum Fault {
     Failed = -32803,
 }
 
-/// What came.
+/// An incoming message.
 #[derive(Debug)]
 pub enum Incoming {
     /// A message.

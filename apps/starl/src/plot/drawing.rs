@@ -12,7 +12,7 @@ pub type Spot = (f64, f64);
 pub struct Drawing {
     /// Width and height.
     pub size: (f64, f64),
-    /// What is drawn, from the back to the front.
+    /// The shapes, from the back to the front.
     pub shapes: Vec<Shape>,
 }
 
@@ -102,7 +102,7 @@ pub enum Shape {
         at: Spot,
         /// Which end that is.
         anchor: Anchor,
-        /// What it says.
+        /// The text.
         text: String,
         /// Height of a line.
         size: f64,

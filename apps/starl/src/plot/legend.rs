@@ -84,7 +84,7 @@ pub fn draw(drawing: &mut Drawing, data: &PlotData, looks: &Looks, (left, top): 
             None,
             Stroke::solid(WAY_POINT, 2.2),
             6.0,
-            "way-point",
+            "waypoint",
         );
     }
     if !data.obstacles.is_empty() {

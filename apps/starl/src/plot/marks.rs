@@ -1,4 +1,4 @@
-//! What programs draw, in the colour of their robot and stronger than its path.
+//! Drawings of programs, in the colour of their robot and stronger than its path.
 
 use super::RobotPath;
 use super::drawing::{Anchor, Drawing, Fill, Shape, Spot, Stroke};
@@ -43,7 +43,7 @@ pub fn draw(drawing: &mut Drawing, frame: &Frame, robot: &RobotPath, stroke: Str
                 color: stroke.color,
                 rim: true,
             }),
-            // What is not in the world cannot be shown.
+            // Anything that is not in the world cannot be shown.
             _ => {}
         }
     }

@@ -1,4 +1,4 @@
-//! Pictures of a run from above, as in figure 2.2 of the thesis: obstacles grey, way-points as red
+//! Pictures of a run from above, as in figure 2.2 of the thesis: obstacles grey, waypoints as red
 //! circles, each robot's path in its own colour, one scale in metres for both axes.
 //!
 //! A picture is first a list of shapes ([`drawing`]), made by [`scene`]; [`svg`] and [`png`] write the
@@ -23,7 +23,7 @@ use starl_core::event::MarkShape;
 use starl_core::{Obstacle, Point, WayPoint};
 use std::collections::BTreeMap;
 
-/// What a picture shows. Coordinates that are not finite are left out.
+/// The content of a picture. Coordinates that are not finite are omitted.
 #[derive(Clone, Debug, Default)]
 pub struct PlotData {
     /// First line of the heading, e.g. the example's name.
@@ -34,7 +34,7 @@ pub struct PlotData {
     pub arena: Option<(Point, Point)>,
     /// The world's obstacles.
     pub obstacles: Vec<Obstacle>,
-    /// The application's way-points.
+    /// The application's waypoints.
     pub way_points: Vec<WayPoint>,
     /// The robots, in the order in which they get their colours.
     pub robots: Vec<RobotPath>,
@@ -55,7 +55,7 @@ pub struct RobotPath {
     pub flies: bool,
     /// Its true positions in the order of time, metres.
     pub path: Vec<Point>,
-    /// What its program has drawn and not taken away, by label.
+    /// Its program's current drawings, by label.
     pub marks: BTreeMap<String, MarkShape>,
 }
 

@@ -12,11 +12,11 @@ pub const GRID: Color = [232, 232, 232];
 pub const OBSTACLE: Color = [176, 176, 176];
 /// Outlines of obstacles.
 pub const OBSTACLE_EDGE: Color = [110, 110, 110];
-/// Way-points; no robot has it.
+/// Waypoints; no robot has it.
 pub const WAY_POINT: Color = [214, 20, 20];
 
 /// Okabe and Ito (2008), "Color Universal Design", without black, and without its vermilion, which
-/// would be mistaken for a way-point; the yellow is darker, to stand out on white.
+/// would be mistaken for a waypoint; the yellow is darker, to stand out on white.
 const EIGHT: [Color; 8] = [
     [0, 114, 178],
     [230, 159, 0],

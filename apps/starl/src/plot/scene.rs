@@ -1,5 +1,5 @@
-//! What a picture shows, from the back to the front: floor, obstacles, paths, marks, bodies, collisions,
-//! way-points, heading, legend.
+//! The content of a picture, from the back to the front: floor, obstacles, paths, marks, bodies,
+//! collisions, waypoints, heading, legend.
 
 use super::drawing::{Anchor, Drawing, Fill, Shape as Drawn, Spot, Stroke};
 use super::frame::Frame;
@@ -8,7 +8,7 @@ use super::{PlotData, RobotPath};
 use super::{legend, marks};
 use starl_core::{Obstacle, Point, Shape};
 
-/// Larger fleets are coloured by model: nobody tells more colours apart.
+/// Larger fleets are coloured by model: more colours cannot be distinguished.
 pub const MOST_COLORS: usize = 24;
 
 /// Points of a path nearer to each other than this are drawn as one.
@@ -224,7 +224,7 @@ pub fn body_look(stroke: Stroke) -> (Fill, Stroke) {
     )
 }
 
-/// With more way-points than this they are dots without names: a drawing or a map, not places to go to.
+/// With more waypoints than this they are dots without names: a drawing or a map, not places to go to.
 const MOST_NAMES: usize = 24;
 
 fn draw_way_points(drawing: &mut Drawing, frame: &Frame, data: &PlotData) {

@@ -1,4 +1,4 @@
-//! What a picture must show, whatever it is given.
+//! Required parts of a picture, for any input.
 
 use super::*;
 use starl_core::ConvexPolygon;

@@ -3,7 +3,7 @@
 use super::drawing::{Anchor, Color, Drawing, Fill, Shape, Spot, Stroke};
 use core::fmt::Write;
 
-/// What viewers have that looks like the font of the PNG.
+/// Fonts of viewers that look like the font of the PNG.
 const FONTS: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif";
 
 /// The whole file.

@@ -24,7 +24,7 @@ pub struct Counterexample {
     pub diagram: Option<PathBuf>,
     /// Before and after.
     pub sizes: [Size; 2],
-    /// What is seen in the smallest.
+    /// The observation in the smallest one.
     pub text: String,
     /// How many scenarios were tried; none if someone stopped it before.
     pub trials: u64,
@@ -94,7 +94,7 @@ fn describe(scenario: &Scenario) -> String {
     format!("smaller ones: {robots} robots, {faults} faults, {duration};")
 }
 
-/// What the file begins with.
+/// The head of the file.
 fn head(subject: &Subject, case: &Case, arguments: &TestArguments) -> String {
     format!(
         "# Here {} goes wrong: {}.\n# Found by: {}\n\n",
@@ -142,7 +142,7 @@ fn again(subject: &Subject, case: &Case, arguments: &TestArguments) -> String {
     words.join(" ")
 }
 
-/// What the files of a run are called, without their endings.
+/// The name of a run's files, without their suffixes.
 fn name(subject: &Subject, case: &Case) -> String {
     let stem = Path::new(&subject.target).file_stem().unwrap_or_default();
     let name = format!(
@@ -160,7 +160,7 @@ fn name(subject: &Subject, case: &Case) -> String {
 fn free_path(folder: &Path, name: &str) -> PathBuf {
     let numbers = (2..).map(|number| format!("{name}-{number}"));
     let names = std::iter::once(name.to_string()).chain(numbers);
-    // What is in the working folder is called by its name alone.
+    // Files in the working folder are shown by their names alone.
     let folder = if folder == Path::new(".") {
         Path::new("")
     } else {

@@ -1,4 +1,4 @@
-//! What there is to say of a search, for people and for programs alike.
+//! The report of a search, for people and for programs.
 
 use super::counterexample::Counterexample;
 use super::search::{Case, Found, Search};
@@ -31,7 +31,7 @@ pub struct Target {
     pub profiles: Vec<Row>,
 }
 
-/// What came of the runs with one profile.
+/// The results of the runs with one profile.
 #[derive(Debug, Serialize)]
 pub struct Row {
     pub profile: &'static str,
@@ -101,7 +101,7 @@ impl Finding {
 }
 
 impl Report {
-    /// What there is to say.
+    /// The report.
     pub fn of(
         search: &Search,
         found: &Found,
@@ -134,7 +134,7 @@ impl Report {
         !self.interrupted && rows.all(|row| row.wrong == 0)
     }
 
-    /// What people read; only what went wrong, if `quiet`.
+    /// The text for people; only failures if `quiet`.
     pub fn text(&self, quiet: bool) -> String {
         let mut text = String::new();
         // Writing to a string does not fail.
@@ -192,7 +192,7 @@ impl Report {
 }
 
 impl Row {
-    /// What was excused, by reason.
+    /// The excuses, by reason.
     fn write_excused(&self, text: &mut String) -> std::fmt::Result {
         let mut reasons: BTreeMap<&str, u64> = BTreeMap::new();
         for Excused { reason, count, .. } in &self.excused {

@@ -1,5 +1,5 @@
-//! All runs, on several threads. What comes of them does not depend on how many: runs are told apart by
-//! their places in the whole list, and of those that fail alike the first counts.
+//! All runs, on several threads. The results do not depend on their number: runs are identified by
+//! their places in the whole list, and of equal failures the first counts.
 
 use super::subject::Subject;
 use crate::progress::Count;
@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// What is to be run: every subject with every profile and every seed.
+/// The runs to do: every subject with every profile and every seed.
 pub struct Search {
     pub subjects: Vec<Subject>,
     pub profiles: Vec<Profile>,
@@ -44,7 +44,7 @@ pub struct Tally {
     pub excused: BTreeMap<(Name, Excuse), u64>,
 }
 
-/// What came of the runs.
+/// The results of the runs.
 #[derive(Default)]
 pub struct Found {
     /// By subject and profile.
@@ -171,7 +171,7 @@ impl Found {
         }
     }
 
-    /// What went wrong, each kind once, with how often it did.
+    /// The failures, each kind once, with its count.
     pub fn findings(&self) -> Vec<(Case, u64)> {
         let mut cases: Vec<_> = self.first.values().collect();
         cases.sort_by_key(|(place, ..)| *place);

@@ -1,4 +1,4 @@
-//! What is tested: a target that was read and compiled once, however often it runs.
+//! A subject of tests: a target that was read and compiled once, however often it runs.
 
 use crate::args::TestArguments;
 use crate::failure::Failure;

@@ -1,4 +1,4 @@
-//! What there is to say of a trace that was judged, for people and for programs alike.
+//! The report of a judged trace, for people and for programs.
 
 use super::Judged;
 use crate::console::{counted, grouped};
@@ -89,7 +89,7 @@ impl Account {
         }
     }
 
-    /// What people read.
+    /// The text for people.
     pub fn text(&self) -> String {
         let mut text = String::new();
         // Writing to a string does not fail.
@@ -137,8 +137,8 @@ impl Account {
         }
         match self.properties.len() - used().count() {
             0 => {}
-            1 => writeln!(text, "1 more is about what this trace does not use")?,
-            many => writeln!(text, "{many} more are about what this trace does not use")?,
+            1 => writeln!(text, "1 more property does not apply (unused primitive)")?,
+            many => writeln!(text, "{many} more properties do not apply (unused primitives)")?,
         }
         for Property {
             property, first, ..

@@ -1,8 +1,8 @@
 //! The simulations of a page that shows a run: requests and answers over a WebSocket.
 //!
-//! Each connection has simulations of its own, and starts with a copy of the run at its start. So pages do not get in
-//! each other's way, and a page that is loaded again begins anew. Requests are carried out one after the other, in a
-//! thread beside the server's. A client that goes away ends what it has asked for.
+//! Each connection has its own simulations, and starts with a copy of the run at its start. So pages do not disturb
+//! each other, and a reloaded page starts again. Requests are handled one after the other, in a thread beside the
+//! server's. When a client disconnects, its requests are cancelled.
 //!
 //! A text message `{"id": 1, "request": {...}}` is answered by `{"id": 1, "ok": ...}` or `{"id": 1, "error": {...}}`.
 //! `{"id": 2, "poses": 0}` and `{"id": 3, "frames": 0}` are answered by a binary message, little-endian: the id in 4
@@ -88,7 +88,7 @@ pub fn connect(origin: &Origin, upgrade: WebSocketUpgrade) -> Response {
         .on_upgrade(move |mut socket| async move {
             if let Some((code, reason)) = talk(&mut socket, engine).await {
                 let reason = reason.into();
-                // Where nobody listens any more there is nobody to tell.
+                // Without a listener there is no answer.
                 let _ = socket
                     .send(Message::Close(Some(CloseFrame { code, reason })))
                     .await;
@@ -160,7 +160,7 @@ async fn talk(socket: &mut WebSocket, mut engine: Engine) -> Option<Reason> {
             Err(panic) => {
                 let message = format!(
                     "the simulator has failed, which is a fault of StarL or of a program in Rust: {}; load the page \
-                     again to start anew",
+                     again to restart",
                     text_of(panic)
                 );
                 socket.send(refusal(id, &message)).await.ok()?;

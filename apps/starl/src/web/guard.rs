@@ -45,7 +45,7 @@ pub struct Guard {
 }
 
 impl Guard {
-    /// A guard of the server at this port of 127.0.0.1, with a token that nobody can guess.
+    /// A guard of the server at this port of 127.0.0.1, with a token that cannot be guessed.
     pub fn new(port: u16) -> Result<Guard, Failure> {
         let mut random = [0; 32];
         getrandom::fill(&mut random)

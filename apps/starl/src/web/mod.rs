@@ -78,7 +78,7 @@ pub fn serve_run(arguments: &RunArguments, registry: &Registry) -> Result<bool, 
 pub fn serve_trace(arguments: &ViewArguments) -> Result<bool, Failure> {
     let page = Page::of(arguments.page.folder.as_deref())?;
     let path = &arguments.trace;
-    // The page reads the rest of it; a file that is no trace is told here and now.
+    // The page reads the rest of it; a file that is not a trace is reported immediately.
     replay::open(path)?;
     if !path.is_file() {
         return Err(Failure::file(

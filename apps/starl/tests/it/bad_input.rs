@@ -106,7 +106,7 @@ fn impossible_worlds_are_refused() {
         ("circle = { center = [9, 9] }", &["bad.toml:23", "radius"]),
     ];
     for (shape, expected) in cases {
-        // The table of way-points stands inside `world`, so that one more can be added to it.
+        // The table of waypoints stands inside `world`, so that one more can be added to it.
         file(&folder, "bad.toml", &obstacle(shape));
         refused(&folder, &["run", "bad.toml"], expected);
     }

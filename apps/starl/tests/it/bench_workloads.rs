@@ -54,7 +54,7 @@ fn the_swarm_is_taken_through_every_tick() {
 fn each_radio_hears_some_eight_neighbours() {
     let heard = |arguments: &[&str]| {
         let figures = figures("bench_neighbours", arguments);
-        // What is sent in the last tick would arrive after the end.
+        // Messages sent in the last tick would arrive after the end.
         let receptions = figures["robot_ticks"].as_f64().unwrap_or(0.0) - 500.0;
         figures["messages_delivered"].as_f64().unwrap_or(0.0) / receptions
     };

@@ -134,7 +134,7 @@ fn what_cannot_be_read_is_told_and_the_rest_checked() {
 }
 
 #[test]
-fn as_json_it_tells_code_place_and_mend() {
+fn json_output_has_code_position_and_fix() {
     let folder = folder("check_json");
     let text = "program Mend\n\ntarget: Point\n\nstep()\n    eff log(\"{}\", tarjet)\n";
     file(&folder, "mend.starl", text);

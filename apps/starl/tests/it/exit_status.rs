@@ -78,7 +78,7 @@ fn the_summary_fits_80_columns() {
             &["run", "race", "--robots", robots, "--duration", "2s"],
         );
         assert!(
-            stdout(&output).contains("way-points"),
+            stdout(&output).contains("waypoints"),
             "{}{}",
             stdout(&output),
             stderr(&output)

@@ -175,7 +175,7 @@ fn what_never_comes_is_noted() {
     let output = explore(&folder, &["election"]);
     assert_eq!(status(&output), 0, "{}", stderr(&output));
     let text = stdout(&output);
-    assert!(text.contains("nobody is ever elected"), "{text}");
+    assert!(text.contains("no robot is ever elected"), "{text}");
     assert!(text.contains("--tick"), "{text}");
     let ballots = [
         "election",
@@ -188,7 +188,7 @@ fn what_never_comes_is_noted() {
     ];
     let output = explore(&folder, &ballots);
     let text = stdout(&output);
-    assert!(!text.contains("nobody is ever elected"), "{text}");
+    assert!(!text.contains("no robot is ever elected"), "{text}");
 }
 
 #[test]
@@ -226,7 +226,7 @@ fn a_way_that_cannot_be_gone_any_more_is_told() {
     let output = explore(&folder, &[&target, "--save", "way.json", "--quiet"]);
     assert_eq!(status(&output), 1);
     let text = std::fs::read_to_string(folder.join("way.json")).expect("it is there");
-    // Somebody has mended the program.
+    // The program has been fixed.
     let mended = text.replace("asked < time", "asked <= time");
     assert_ne!(text, mended);
     file(&folder, "way.json", &mended);

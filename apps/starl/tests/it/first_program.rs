@@ -2,8 +2,8 @@
 //! folder, and what the command prints is what the page shows, but for how long it took.
 //!
 //! A block of `starl` is written to the page's program, one of `toml` to its faults; a block of `text`
-//! holds commands, each with what it prints. `BLESS=1 cargo test -p starl --test it first_program` writes
-//! what they print, and the plots that the page shows, anew.
+//! contains commands, each with its output. `BLESS=1 cargo test -p starl --test it first_program`
+//! rewrites the outputs, and the plots of the page.
 
 use crate::support::*;
 use std::fs;
@@ -14,7 +14,7 @@ fn page() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/tutorial/first-program.md")
 }
 
-/// What a command prints, as a terminal shows it: first what is said of the run, then the result.
+/// The output of a command, as a terminal shows it: first the error stream, then the result.
 fn shown(output: &Output) -> String {
     let text = stderr(output) + &stdout(output);
     let lines = text

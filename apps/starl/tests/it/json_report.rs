@@ -72,7 +72,7 @@ fn it_tells_what_came_of_the_run() {
     for used in ["no_collision", "reach_avoid.goal", "broadcast.delivery"] {
         assert_eq!(verdict(used), "holds", "{used}");
     }
-    // Race tells its way-points in no order, and has no mutex.
+    // Race tells its waypoints in no order, and has no mutex.
     for unused in ["broadcast.total_order", "mutex.safety"] {
         assert_eq!(verdict(unused), "unused", "{unused}");
     }

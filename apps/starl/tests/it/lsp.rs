@@ -110,7 +110,7 @@ fn problems_change_as_one_types() {
 }
 
 #[test]
-fn a_problem_comes_with_its_mend() {
+fn a_problem_comes_with_its_fix() {
     let text = RACE.replace("loc = pick\n", "loc = pack\n");
     let mut editor = opened(&text);
     let problems = editor.problems(URI, 1);

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 const REFERENCE: &str = include_str!("../../../../docs/reference/command.md");
 
-/// What the command prints.
+/// The output of the command.
 fn printed(arguments: &[&str]) -> String {
     let output = starl(&folder("reference_of_the_command"), arguments);
     assert!(output.status.success(), "{arguments:?}");

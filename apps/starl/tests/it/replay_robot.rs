@@ -152,7 +152,7 @@ fn a_changed_program_shows_where_it_begins_to_differ() {
     assert_ne!(changed, race());
     file(&folder, "changed.starl", &changed);
     let outputs = ROBOTS.map(|robot| replay(&folder, &[robot, "--program", "changed.starl"]));
-    // Whoever arrived first somewhere said so.
+    // The first robot to arrive anywhere announced it.
     let different: Vec<&Output> = outputs
         .iter()
         .filter(|output| status(output) == 1)

@@ -66,7 +66,7 @@ fn so_is_that_of_an_example_with_another_fleet_and_faults() {
     assert_eq!(status(&output), 0, "{}{}", stdout(&output), stderr(&output));
 }
 
-/// Writes a trace anew with one pose moved by a hair, and gives the time of that record.
+/// Rewrites a trace with one pose slightly changed, and returns the time of that record.
 fn tamper(from: &Path, to: &Path) -> f64 {
     let mut reader = Reader::new(fs::File::open(from).expect("it is there")).expect("it is whole");
     let file = fs::File::create(to).expect("the folder can be written to");

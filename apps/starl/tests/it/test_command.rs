@@ -118,7 +118,7 @@ fn a_goal_that_is_not_reached_is_saved_and_can_be_run_again() {
     let again = starl(&folder, &["run", saved, "--json"]);
     assert_eq!(status(&again), 1, "{}", stderr(&again));
     assert_eq!(json(&again)["outcome"], "timed_out");
-    // What is there stays.
+    // Existing files stay.
     let before = fs::read(folder.join(saved)).expect("it is there");
     starl(&folder, &arguments);
     assert_eq!(fs::read(folder.join(saved)).expect("it is there"), before);

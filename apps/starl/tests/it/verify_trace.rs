@@ -1,4 +1,5 @@
-//! `starl verify` judges a trace by its records alone, whoever wrote it and even where it ends early.
+//! `starl verify` judges a trace by its records alone, whichever host wrote it and even if it is
+//! incomplete.
 
 use crate::support::*;
 use starl_core::event::{Fault, MutexEvent};
@@ -150,7 +151,7 @@ fn a_violation_is_shown_with_its_place_and_makes_the_status_1() {
     let safety = entry(&account, "mutex.safety");
     assert_eq!(safety["verdict"], "violated");
     assert_eq!(safety["first"]["at_seconds"], 3.25);
-    // Without poses nobody can say what touched what.
+    // Without poses contacts are unknown.
     assert_eq!(entry(&account, "no_collision")["reason"], "missing_records");
 }
 

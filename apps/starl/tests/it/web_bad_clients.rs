@@ -9,7 +9,7 @@ use std::path::Path;
 #[cfg(target_os = "linux")]
 use std::time::{Duration, Instant};
 
-/// A run that nobody can wait for.
+/// A run that is too long to wait for.
 fn endless(folder: &Path) {
     let text = SMALL.replacen("\"30s\"", "\"1000000000s\"\ngoal = \"duration\"", 1);
     file(folder, "endless.toml", &text);

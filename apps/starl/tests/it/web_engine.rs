@@ -63,7 +63,7 @@ fn the_page_is_told_what_is_run_and_from_which_files() {
     let program = files.iter().find(|(name, _)| name.ends_with(".starl"));
     let (_, text) = program.expect("the program is there");
     assert!(text.as_str().is_some_and(|text| text.contains("program")));
-    // What is written of the run names the program as it can be named anywhere.
+    // The written run names the program so that it can be found from anywhere.
     let written = server
         .engine()
         .ok(&json!({ "scenario": { "simulation": 0 } }));

@@ -1,5 +1,5 @@
-//! The server of the page answers nobody but the pages that it has sent itself, in the browser that was shown the
-//! token.
+//! The server of the page answers only pages that it has served itself, in the browser that opened the address
+//! with the token.
 
 use crate::support::*;
 use crate::web_support::*;

@@ -71,7 +71,7 @@ fn a_trace_that_is_cut_short_can_be_viewed() {
 }
 
 #[test]
-fn a_file_that_is_no_trace_is_refused() {
+fn a_file_that_is_not_a_trace_is_refused() {
     let folder = folder("view_bad");
     page(&folder);
     file(&folder, "notes.mcap", "Dear diary");

@@ -13,7 +13,7 @@ group! {
     ListId {
         /// When it was computed, by its coordinator's clock.
         time: Time,
-        /// Who computed it.
+        /// The robot that computed it.
         coordinator: RobotId,
         /// The coordinator's incarnation.
         incarnation: u32,
@@ -21,7 +21,7 @@ group! {
 }
 
 events! {
-    /// What a Registration was told, and what comes of it.
+    /// Commands to a Registration, and their results.
     RegistrationEvent {
         /// The robot takes part from now on.
         Register = "register" {
@@ -36,7 +36,7 @@ events! {
         Propose = "propose" {
             /// Which.
             list: ListId,
-            /// Who is on it.
+            /// The robots in it.
             members: Vec<RobotId>,
         },
         /// It accepts a list that another robot proposes.
@@ -48,7 +48,7 @@ events! {
         Agree = "agree" {
             /// Which.
             list: ListId,
-            /// Who is on it.
+            /// The robots in it.
             members: Vec<RobotId>,
         },
         /// It shows no list from now on.
@@ -73,13 +73,13 @@ words! {
 }
 
 events! {
-    /// What a LeaderElection was told, and what comes of it.
+    /// Commands to a LeaderElection, and their results.
     ElectionEvent {
         /// The election begins on this robot.
         Start = "start" {
             /// How it goes.
             algorithm: Algorithm,
-            /// Who takes part.
+            /// The participants.
             participants: Vec<RobotId>,
         },
         /// The robot stands for election.
@@ -88,12 +88,12 @@ events! {
         Resign = "resign",
         /// It votes from now on.
         Vote = "vote" {
-            /// Whether it had nobody to learn from what was promised before.
+            /// Whether no robot could tell it the earlier promises.
             anew: bool,
         },
         /// It shows a leader from now on.
         Leader = "leader" {
-            /// Whom.
+            /// The robot.
             leader: RobotId,
             /// In which epoch, if the algorithm has epochs.
             epoch: Option<u64>,
@@ -106,7 +106,7 @@ events! {
 }
 
 events! {
-    /// What a Mutex was told, and what comes of it; an event for each resource.
+    /// Commands to a Mutex, and their results; one event for each resource.
     MutexEvent {
         /// The robot asks for a resource.
         Acquire = "acquire" {
@@ -124,7 +124,7 @@ events! {
             resource: Arc<str>,
             /// With leases: greater each time that the resource is granted.
             fencing: Option<u64>,
-            /// With leases: as long as clocks are wrong by no more than this share, nobody else holds it.
+            /// With leases: as long as clocks are wrong by at most this share, no other robot holds it.
             drift: Option<f64>,
         },
         /// It gives a resource back.
@@ -143,14 +143,14 @@ events! {
             participants: u32,
             /// How many of them have to be ready for a request to be granted.
             needed: u32,
-            /// With leases: nobody can know the last number, as a majority has forgotten it or there was none.
+            /// With leases: the last number is unknown, because a majority has forgotten it or there was none.
             anew: bool,
         },
     }
 }
 
 events! {
-    /// What a Barrier was told, and what comes of it.
+    /// Commands to a Barrier, and their results.
     BarrierEvent {
         /// The robot has come.
         Arrive = "arrive" {
@@ -183,7 +183,7 @@ words! {
 }
 
 events! {
-    /// What a failure detector finds.
+    /// Findings of a failure detector.
     FailureDetectorEvent {
         /// A robot is believed to have failed.
         Suspect = "suspect" {

@@ -24,7 +24,7 @@ macro_rules! events {
         }
 
         impl $name {
-            /// What traces call it.
+            /// Its name in traces.
             pub fn name(&self) -> &'static str {
                 match self {
                     $($name::$variant { .. } => $word,)*
@@ -119,7 +119,7 @@ macro_rules! words {
         }
 
         impl $name {
-            /// What traces call it.
+            /// Its name in traces.
             pub fn name(self) -> &'static str {
                 match self {
                     $($name::$variant => $word,)*

@@ -52,7 +52,7 @@ impl Fault {
         matches!(self, Fault::Partition | Fault::OneWay)
     }
 
-    /// What traces call it.
+    /// Its name in traces.
     pub fn name(&self) -> &str {
         match self {
             Fault::Crash => "crash",

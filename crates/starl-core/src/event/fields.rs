@@ -10,7 +10,7 @@ use alloc::boxed::Box;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-/// What fields of typed events can be.
+/// Types of the fields of typed events.
 pub trait Field: Sized {
     /// Adds the field's value; of a group of fields the values of all.
     fn show<'a>(&'a self, name: &'static str, shown: &mut ValueRefs<'a>);

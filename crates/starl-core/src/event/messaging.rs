@@ -20,7 +20,7 @@ words! {
 words! {
     /// Why a robot gave up its group in total order.
     LeaveReason {
-        /// What it knew was made up.
+        /// Its state was corrupted.
         Corrupt = "corrupt",
         /// There is a later group.
         Obsolete = "obsolete",
@@ -41,13 +41,13 @@ group! {
 }
 
 events! {
-    /// What becomes of a message, whichever primitive has sent it.
+    /// Outcomes of a message, for every primitive that sends messages.
     TransferEvent {
         /// The sender sends it again to a robot that has not acknowledged it.
         Retransmit = "retransmit" {
             /// Which message of this robot.
             message: MessageNumber,
-            /// To whom.
+            /// The receiver.
             to: RobotId,
         },
         /// All have acknowledged it, as the sender knows.
@@ -75,23 +75,23 @@ events! {
 }
 
 events! {
-    /// What a Unicast was told, and what comes of it.
-    UnicastEvent + #[doc = "What becomes of a message."] Transfer(TransferEvent) {
+    /// Commands to a Unicast, and their results.
+    UnicastEvent + #[doc = "An outcome of a message."] Transfer(TransferEvent) {
         /// The program sends a message.
         Send = "send" {
             /// Which message of this robot.
             message: MessageNumber,
             /// For so long it is sent again.
             retry_span: Duration,
-            /// To whom.
+            /// The receiver.
             to: RobotId,
         },
     }
 }
 
 events! {
-    /// What a Broadcast was told, and what comes of it.
-    BroadcastEvent + #[doc = "What becomes of a message."] Transfer(TransferEvent) {
+    /// Commands to a Broadcast, and their results.
+    BroadcastEvent + #[doc = "An outcome of a message."] Transfer(TransferEvent) {
         /// The program sends a message to all.
         Broadcast = "broadcast" {
             /// Which message of this robot.
@@ -140,8 +140,8 @@ events! {
 }
 
 events! {
-    /// What a Geocast was told, and what comes of it.
-    GeocastEvent + #[doc = "What becomes of a message."] Transfer(TransferEvent) {
+    /// Commands to a Geocast, and their results.
+    GeocastEvent + #[doc = "An outcome of a message."] Transfer(TransferEvent) {
         /// The program sends a message to all in an area.
         Geocast = "geocast" {
             /// Which message of this robot.

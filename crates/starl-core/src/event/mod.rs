@@ -1,4 +1,4 @@
-//! What a trace is made of: every host writes the same events.
+//! The events of a trace: every host writes the same events.
 
 mod fault;
 mod fields;
@@ -34,7 +34,7 @@ pub struct Record {
     pub at: Time,
     /// On which robot; none where the event is the world's.
     pub robot: Option<RobotId>,
-    /// What happened.
+    /// The event.
     pub event: Event,
 }
 
@@ -50,7 +50,7 @@ pub enum Event {
     Sent {
         /// Counts this robot's datagrams.
         sequence: u32,
-        /// To whom.
+        /// The receivers.
         destination: Destination,
         /// For which endpoint.
         port: Port,
@@ -68,7 +68,7 @@ pub enum Event {
     Dropped {
         /// Its sender.
         from: RobotId,
-        /// The robot that does not receive it; none where nobody does.
+        /// The robot that does not receive it; none if there is no receiver.
         to: Option<RobotId>,
         /// The sender's number for it.
         sequence: u32,
@@ -77,7 +77,7 @@ pub enum Event {
     },
     /// The body met something and was stopped.
     Collided {
-        /// What it met.
+        /// The body or obstacle.
         with: Hit,
     },
     /// A guarded action of the program fired.
@@ -94,7 +94,7 @@ pub enum Event {
     Primitive {
         /// Which instance.
         port: Port,
-        /// What happened.
+        /// The event.
         event: PrimitiveEvent,
     },
     /// The program's log.
@@ -153,7 +153,7 @@ pub enum DropReason {
     Size,
 }
 
-/// What a body met.
+/// The body or obstacle that a body touched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Hit {
@@ -167,7 +167,7 @@ pub enum Hit {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Level {
-    /// For whoever debugs the program.
+    /// For debugging the program.
     Debug,
     /// Worth knowing.
     Info,
@@ -183,11 +183,11 @@ pub enum Level {
 pub struct Mark {
     /// Identifies the mark on its robot.
     pub label: Name,
-    /// What to draw.
+    /// The shape.
     pub shape: MarkShape,
 }
 
-/// What can be drawn.
+/// Shapes that programs can draw.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MarkShape {

@@ -22,7 +22,7 @@ words! {
 }
 
 events! {
-    /// What a ReachAvoid was told, and what comes of it.
+    /// Commands to a ReachAvoid, and their results.
     ReachAvoidEvent {
         /// A command was given. One that was under way is dropped.
         Start = "start" {
@@ -30,7 +30,7 @@ events! {
             target: Point,
             /// Metres; from there on it counts as reached.
             vicinity: f64,
-            /// What to keep out of.
+            /// The set to keep out of.
             unsafe_set: Obstacles,
         },
         /// The robot sets out on a path.

@@ -9,7 +9,7 @@ use alloc::boxed::Box;
 
 macro_rules! primitives {
     ($($(#[$about:meta])* $variant:ident($events:ident) = $word:literal),* $(,)?) => {
-        /// What happened at a primitive.
+        /// An event of a primitive.
         #[derive(Clone, Debug, PartialEq)]
         pub enum PrimitiveEvent {
             $($(#[$about])* $variant($events),)*
@@ -26,7 +26,7 @@ macro_rules! primitives {
                 }
             }
 
-            /// What happened, e.g. `done`.
+            /// The name of the event, for example `done`.
             pub fn name(&self) -> &str {
                 match self {
                     $(PrimitiveEvent::$variant(event) => event.name(),)*
@@ -112,14 +112,14 @@ primitives! {
 pub struct OtherEvent {
     /// The primitive's type.
     pub primitive: Name,
-    /// What happened.
+    /// The name of the event.
     pub name: Name,
     /// Its details.
     pub fields: Fields,
 }
 
 impl PrimitiveEvent {
-    /// What becomes of a message, if that is what it tells.
+    /// The outcome of a message, if this event is one.
     pub fn transfer(&self) -> Option<&TransferEvent> {
         match self {
             PrimitiveEvent::Unicast(UnicastEvent::Transfer(event))

@@ -4,7 +4,7 @@ use crate::{RobotId, Time};
 use alloc::sync::Arc;
 
 group! {
-    /// What was written to an element of a shared memory.
+    /// A write to an element of a shared memory.
     Written {
         /// The element's variable.
         variable: Arc<str>,
@@ -14,7 +14,7 @@ group! {
         time: Time,
         /// Counts the writes of this time.
         count: u32,
-        /// Who wrote it.
+        /// The robot that wrote it.
         writer: RobotId,
         /// In which of the writer's lives.
         incarnation: u32,
@@ -24,7 +24,7 @@ group! {
 }
 
 events! {
-    /// What a SharedMemory was told, and what comes of it.
+    /// Commands to a SharedMemory, and their results.
     SharedMemoryEvent {
         /// The memory begins, empty.
         Start = "start",
@@ -44,17 +44,17 @@ events! {
         },
         /// This robot writes an element.
         Write = "write" {
-            /// What it writes.
+            /// The write.
             written: Written,
         },
         /// This robot writes what it shows once more, since a write of an earlier life of its own has come.
         WriteAgain = "write_again" {
-            /// What it writes.
+            /// The write.
             written: Written,
         },
         /// This robot comes to show what another one wrote.
         Update = "update" {
-            /// What that one wrote.
+            /// The write of that robot.
             written: Written,
         },
     }
@@ -71,7 +71,7 @@ group! {
 }
 
 events! {
-    /// What a Register was told, and what comes of it.
+    /// Commands to a Register, and their results.
     RegisterEvent {
         /// This robot answers others from now on.
         Up = "up" {

@@ -2,7 +2,7 @@
 //!
 //! Every obstacle is a convex base in the floor plane times a vertical interval, so distances split
 //! into a planar and a vertical part. A base without a height reaches from below the floor to the sky.
-//! What can be asked about a path or a ray is in `obstacle_path.rs`.
+//! Queries about paths and rays are in `obstacle_path.rs`.
 
 use super::segment::{greater, lesser, nearest_on_segment, outside_both, rectangle_distance};
 use super::{Area, Bounds, ConvexPolygon, HeightSpan, Point};
@@ -46,7 +46,7 @@ pub enum Shape {
 }
 
 impl From<Area> for Obstacle {
-    /// What takes all of the area, from the floor to the sky unless it is a box.
+    /// An obstacle that covers the whole area, from the floor to the sky unless it is a box.
     fn from(area: Area) -> Obstacle {
         match area {
             Area::Polygon(base) => Obstacle::polygon(base),
@@ -182,8 +182,8 @@ impl Obstacle {
     /// one reaches into the other; elsewhere the distance in space, never negative.
     ///
     /// A body standing exactly on top of an obstacle does not overlap it in height, so a floor slab
-    /// stops nobody; a body whose top touches it from below does, and so does one whose base is at
-    /// the height of an obstacle of no thickness.
+    /// stops no robot. A body whose top touches it from below does, and so does one whose base is
+    /// at the height of an obstacle without thickness.
     pub fn body_gap(&self, position: Point, radius: f64, body_height: f64) -> f64 {
         let planar = self.planar_distance(position) - radius;
         let top = position.z + body_height;

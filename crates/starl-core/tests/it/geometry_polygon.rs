@@ -1,4 +1,4 @@
-//! What counts as a convex polygon, and distances to one.
+//! The definition of a convex polygon, and distances to one.
 
 use crate::geometry_cases::Cases;
 use starl_core::geometry::{ConvexPolygon, Point, PolygonError};
@@ -78,7 +78,7 @@ fn rounding_does_not_make_an_edge_hollow() {
 }
 
 #[test]
-fn lists_that_are_no_convex_polygon_are_refused() {
+fn lists_that_are_not_convex_polygons_are_refused() {
     use PolygonError::*;
     assert_eq!(polygon(&[]), Err(TooFew));
     assert_eq!(polygon(&[(1.0, 1.0)]), Err(TooFew));

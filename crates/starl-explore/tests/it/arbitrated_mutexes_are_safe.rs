@@ -1,4 +1,4 @@
-//! The mutexes by quorums and by leases in all their behaviours after a warm-up. What checkers see to: no
+//! All behaviours of the mutexes by quorums and by leases after a warm-up. The checkers verify that no
 //! resource is held by two robots.
 
 use crate::support::locker::{Exclusion, Locker};
@@ -8,7 +8,7 @@ use starl_explore::{Bounds, Clocks, Setup};
 use starl_primitives::mutex::{Algorithm, Options};
 
 const ALL: [&[&str]; 3] = [&["a"], &["a"], &["a"]];
-/// Ticks before anybody asks for anything: all arbiters are ready then.
+/// Ticks before the first request: all arbiters are ready then.
 const WARM_UP: u16 = 1;
 /// The third only grants.
 const TWO: [&[&str]; 3] = [&["a"], &["a"], &[]];
@@ -38,8 +38,8 @@ fn lease(robots: usize, wishes: &[&[&'static str]], ticks: u16, crashes: u8) -> 
     all_is_well(leases(robots, wishes, ticks, crashes), WARM_UP)
 }
 
-/// A lease ends for its holder when two ticks have passed, and for those who granted it at the next. Nobody repeats
-/// himself before three ticks have passed.
+/// A lease ends for its holder after two ticks, and for the robots that granted it at the next. No robot repeats a
+/// message within three ticks.
 fn leases(robots: usize, wishes: &[&[&'static str]], ticks: u16, crashes: u8) -> Setup {
     let options = Options {
         algorithm: Algorithm::Lease,

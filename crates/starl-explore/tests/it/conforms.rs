@@ -11,7 +11,7 @@ struct Explorer {
     now: u64,
     /// When robots have started last.
     started: Vec<u64>,
-    /// What is on its way, in the order in which it is due.
+    /// The datagrams in transit, in the order of their arrival times.
     flying: Vec<(u64, Datagram)>,
     records: Vec<Record>,
 }

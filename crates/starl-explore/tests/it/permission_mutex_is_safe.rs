@@ -1,6 +1,6 @@
-//! The permission mutex in all its behaviours: no resource is held by two robots, and nobody waits for
-//! what will never come. The sizes are pinned: another number is another protocol or another exploration, so checkers
-//! that may come to remember more are left out of what is counted.
+//! All behaviours of the permission mutex: no resource is held by two robots, and no robot waits for something that
+//! never happens. The sizes are pinned: another number means another protocol or another exploration. Checkers whose
+//! state may grow are therefore excluded from the count.
 
 use crate::support::locker::{Exclusion, Locker};
 use crate::support::{search, setup, size, watched};

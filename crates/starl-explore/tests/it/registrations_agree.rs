@@ -1,5 +1,5 @@
-//! Registration of three robots in all its behaviours: lists of one name are equal, and who shows a list with
-//! another robot shows what that one shows, or that one shows none.
+//! All behaviours of the registration of three robots: lists of one name are equal, and of two robots that
+//! list each other both show the same list or one shows none.
 
 use crate::support::registrar::{Agreement, Registrar};
 use crate::support::{all_is_well, happens, seconds, setup};

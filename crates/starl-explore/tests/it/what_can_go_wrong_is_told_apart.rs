@@ -8,7 +8,7 @@ use starl_core::{
 use starl_explore::{Bounds, Clocks, End, FAILED, STUCK, Step};
 use std::fmt::Write;
 
-/// Robot 0 greets robot 1 once; whoever has greeted or was greeted finishes.
+/// Robot 0 greets robot 1 once; a robot that has greeted or was greeted finishes.
 #[derive(Clone, Debug, Default, Primitives)]
 struct Greeter {
     /// Greets again when this fires.
@@ -74,7 +74,7 @@ fn all_is_explored() {
 }
 
 #[test]
-fn who_waits_for_what_was_lost_is_stuck() {
+fn a_robot_that_waits_for_a_lost_message_is_stuck() {
     let bounds = Bounds {
         losses: 1,
         ..Bounds::default()
@@ -89,13 +89,13 @@ fn who_waits_for_what_was_lost_is_stuck() {
         }
         other => panic!("{other:?}"),
     }
-    // With goals of another kind nobody needs to finish.
+    // With other goals the robots need not finish.
     setup.model.all_finish = false;
     assert_eq!(search(setup).run(), &End::Complete);
 }
 
 #[test]
-fn who_repeats_it_is_not_stuck() {
+fn a_robot_that_retransmits_is_not_stuck() {
     for timers in [0, 1, 2] {
         let greeter = Greeter {
             patience: Some(Duration::from_millis(100)),

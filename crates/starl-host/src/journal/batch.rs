@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 use starl_core::{RobotId, Time};
 
-/// What was taken down in some span of time.
+/// The entries of some time span.
 #[derive(Clone, Debug, Default)]
 pub struct Batch {
     /// Lists that the entries name, encoded, by their hashes.
@@ -21,7 +21,7 @@ pub struct Noted {
     pub at: Time,
     /// On which robot.
     pub robot: RobotId,
-    /// What was done, encoded.
+    /// The entry, encoded.
     pub entry: Vec<u8>,
 }
 

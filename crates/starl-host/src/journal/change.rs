@@ -1,4 +1,4 @@
-//! What has changed of what a robot knows since its entry before.
+//! The difference between a robot's knowledge and that of its previous entry.
 
 use super::Damaged;
 use super::delta::Delta;
@@ -10,7 +10,7 @@ use starl_core::motion::{Body, Workspace};
 use starl_core::sensor::{Contact, Detection};
 use starl_core::{Estimate, RobotId, Sensors, Time, View, WayPoint};
 
-/// What is absent is as it was.
+/// Absent members have not changed.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Change<'a> {
     /// The robot's clock less the host's, nanoseconds, modulo 2^64.
@@ -38,7 +38,7 @@ struct NewSensors<'a> {
     thing_names: Option<Cow<'a, [Name]>>,
 }
 
-/// What seldom changes. Lists are named by their hashes.
+/// The parts that rarely change. Lists are named by their hashes.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Surroundings {
     pub body: Option<Body>,
@@ -48,7 +48,7 @@ pub struct Surroundings {
 }
 
 impl<'a> Change<'a> {
-    /// What leads from `known` to `view`, but for [`Change::surroundings`].
+    /// The change from `known` to `view`, except [`Change::surroundings`].
     pub fn between(known: &Knowledge, at: Time, view: &View<'a>) -> Change<'a> {
         let ahead = view.now.0.wrapping_sub(at.0);
         Change {
@@ -59,8 +59,8 @@ impl<'a> Change<'a> {
         }
     }
 
-    /// Takes what has changed from the view itself, but for the lists of [`Change::surroundings`]: what
-    /// [`Change::apply`] comes to, in less time.
+    /// Updates from the view itself, except the lists of [`Change::surroundings`]. The result is that
+    /// of [`Change::apply`], in less time.
     pub fn note(&self, known: &mut Knowledge, at: Time, view: &View<'_>) {
         known.ahead = view.now.0.wrapping_sub(at.0);
         known.estimate = view.estimate;
@@ -85,7 +85,7 @@ impl<'a> Change<'a> {
         }
     }
 
-    /// Puts the change into effect, but for the lists of [`Change::surroundings`].
+    /// Applies the change, except the lists of [`Change::surroundings`].
     pub fn apply(&self, known: &mut Knowledge, at: Time) -> Result<(), Damaged> {
         if let Some(ahead) = self.ahead {
             known.ahead = ahead.cast_unsigned();
@@ -173,7 +173,7 @@ fn same_detections(a: &[Detection], b: &[Detection]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(same)
 }
 
-/// Whether two lists of way-points are the same to the last bit.
+/// Whether two lists of waypoints are the same to the last bit.
 pub fn same_places(a: &[WayPoint], b: &[WayPoint]) -> bool {
     let same = |(a, b): (&WayPoint, &WayPoint)| {
         (a.group, &a.name) == (b.group, &b.name) && same_point(a.position, b.position)

@@ -18,7 +18,7 @@ pub struct Delta {
 const WORD: usize = size_of::<u64>();
 
 impl Delta {
-    /// What leads from `old` to `new`; `None` if they are the same.
+    /// The change from `old` to `new`; `None` if they are equal.
     pub fn between(
         old: impl ExactSizeIterator<Item = u64>,
         new: impl ExactSizeIterator<Item = u64>,

@@ -1,4 +1,4 @@
-//! What a robot knew last: a view that owns what it shows.
+//! A robot's latest knowledge: a view that owns its data.
 
 use alloc::sync::Arc;
 use alloc::vec::Vec;
@@ -7,8 +7,8 @@ use starl_core::motion::{Body, Obstacles, Workspace};
 use starl_core::sensor::{Contact, Detection, Ray};
 use starl_core::{Estimate, Point, Pose, RobotId, Sensors, Time, Twist, View, WayPoint};
 
-/// Everything in a [`View`] but the robot's number and the moment. The one who writes a journal and the
-/// one who reads it keep the same.
+/// Everything in a [`View`] except the robot's number and the time. The writer and the reader of a
+/// journal keep the same knowledge.
 #[derive(Clone, Debug)]
 pub struct Knowledge {
     /// How far the robot's clock is ahead of the host's, nanoseconds, modulo 2^64.
@@ -30,7 +30,7 @@ pub struct Knowledge {
 }
 
 impl Default for Knowledge {
-    /// What a robot knows before its first entry.
+    /// A robot's knowledge before its first entry.
     fn default() -> Knowledge {
         Knowledge {
             ahead: 0,

@@ -3,7 +3,7 @@
 //!
 //! A [`Journal`] takes down what nodes show to [`crate::Outlet::observe`], a [`Reader`] gives it back, and a
 //! [`crate::Replayer`] repeats it with no host at all. Of what a robot knows, an entry holds only what has
-//! changed since the robot's entry before; lists that many robots share (the fleet, way-points, obstacles)
+//! changed since the robot's entry before; lists that many robots share (the fleet, waypoints, obstacles)
 //! are kept once, under the hash of their content. Everything comes back to the last bit.
 //!
 //! The encoding is postcard's. `docs/reference/trace.md` describes it.
@@ -39,7 +39,7 @@ pub enum Observed<'a> {
     Started {
         /// The stream that the software draws from.
         random: &'a Random,
-        /// What its storage holds; none if the robot has none.
+        /// The contents of its storage; none if the robot has none.
         saved: Option<&'a Saved>,
     },
     /// The program's state is overwritten at random: [`starl_core::Program::corrupt`].
@@ -51,9 +51,9 @@ pub enum Observed<'a> {
     Input {
         /// The input.
         input: &'a Input,
-        /// What the robot knew.
+        /// The robot's knowledge.
         view: &'a View<'a>,
-        /// What the software asked for.
+        /// The effects of the software.
         effects: &'a [Effect],
     },
 }

@@ -22,7 +22,7 @@ pub struct Journal {
     entries: Vec<Noted>,
 }
 
-/// What the journal of one robot goes by.
+/// The state that the writer of one robot's journal keeps.
 #[derive(Clone, Debug, Default)]
 struct Writer {
     known: Knowledge,
@@ -82,7 +82,7 @@ impl Journal {
 }
 
 impl Writer {
-    /// What has changed of what seldom changes. Lists are put into effect at once.
+    /// The changes of the parts that rarely change. Lists are applied at once.
     fn surroundings(&mut self, view: &View<'_>, lists: &mut Lists) -> Option<Surroundings> {
         let known = &mut self.known;
         let mut changed = Surroundings {
@@ -98,7 +98,7 @@ impl Writer {
         }
         if self.obstacles.is_none() || !Arc::ptr_eq(&known.obstacles, view.obstacles) {
             let hash = lists.share(List::Obstacles(view.obstacles.clone()), known);
-            // The very list that was shown, so that next time this takes no time at all.
+            // Keeping the same list makes the next comparison free.
             known.obstacles = view.obstacles.clone();
             let is_new = self.obstacles.replace(hash) != Some(hash);
             changed.obstacles = is_new.then_some(hash);

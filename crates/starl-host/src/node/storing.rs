@@ -1,8 +1,8 @@
 //! How the node waits for storage before it does what its software asks for.
 //!
-//! One write is under way at a time. What is saved meanwhile goes into the next one, so that a robot is not
-//! slowed down by many small writes. Effects keep their order: those of an input wait for the last write that
-//! this input, or one before it, has caused.
+//! One write is in progress at a time. Values saved meanwhile become part of the next one, so that many small
+//! writes do not slow a robot down. Effects keep their order: those of an input wait for the last write that
+//! this input, or an earlier one, has caused.
 
 use super::Node;
 use crate::{Outlet, Snapshot, StoreJob};
@@ -11,7 +11,7 @@ use alloc::vec::Vec;
 use core::mem;
 use starl_core::{Effect, Save, Time};
 
-/// What waits while a write is under way.
+/// The effects that wait during a write.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Waiting {
     /// The write that is under way.

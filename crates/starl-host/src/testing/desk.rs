@@ -1,4 +1,4 @@
-//! What a node of the test host has to do with while it handles something.
+//! The environment of a node of the test host while it handles an input.
 
 use super::unit::Travel;
 use super::wire::{Mail, Wire};

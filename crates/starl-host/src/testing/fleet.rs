@@ -14,13 +14,13 @@ use starl_core::{Agent, Duration, Event, Input, Point, Random, RobotId, Sensors,
 /// Robots in virtual time. A clone goes on exactly as the original would.
 #[derive(Clone)]
 pub struct Fleet {
-    /// What time it is.
+    /// The current time.
     pub now: Time,
-    /// What the network does.
+    /// The network.
     pub wire: Wire,
     /// The robots, by number.
     pub robots: Vec<Unit>,
-    /// The application's way-points.
+    /// The application's waypoints.
     pub way_points: Vec<WayPoint>,
     /// The names of the things, by number.
     pub thing_names: Vec<Name>,
@@ -43,7 +43,7 @@ pub struct Fleet {
     workspace: Workspace,
 }
 
-/// What happens next; of what happens at one moment, what is less happens first.
+/// The next event. Of events at the same moment, the lesser happens first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Due {
     Start(usize),
@@ -193,7 +193,7 @@ impl Fleet {
         }
     }
 
-    /// What is due next, and when.
+    /// The next event, and its time.
     fn next(&self) -> (Time, Due) {
         let plan = self.plans.first_key_value();
         let plan = plan.map_or(Time::NEVER, |((at, ..), _)| *at);

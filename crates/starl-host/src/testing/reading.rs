@@ -1,4 +1,4 @@
-//! What the records of a fleet say.
+//! The records of a fleet.
 
 use super::Fleet;
 use alloc::collections::BTreeMap;

@@ -15,11 +15,11 @@ pub struct Unit {
     pub hardware: Hardware,
     /// Where it is and where it goes.
     pub travel: Travel,
-    /// What it measures with each activation.
+    /// Its readings at each activation.
     pub rays: Vec<Ray>,
-    /// What it sees.
+    /// Its detections.
     pub detections: Vec<Detection>,
-    /// What it touches.
+    /// Its contact.
     pub bumper: Option<Contact>,
     /// The thing that it holds. It takes whatever it is told to take, unless it holds something.
     pub holding: Option<u32>,

@@ -1,4 +1,4 @@
-//! What the network of the test host does to datagrams.
+//! The effects of the test host's network on datagrams.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
@@ -74,7 +74,7 @@ impl Wire {
     }
 }
 
-/// What is on its way, by the time of its arrival; of datagrams that arrive together, those sent first come first.
+/// The datagrams in transit, by arrival time; of simultaneous arrivals, those sent first come first.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Mail {
     flying: BTreeMap<(Time, u64), (RobotId, Datagram)>,

@@ -102,7 +102,8 @@ fn deeds() -> Vec<(Time, Deed)> {
     deeds
 }
 
-/// Who changes a type that a journal holds comes by here: journals of before mean something else then.
+/// A change of a type that a journal contains fails here, because older journals would have another
+/// meaning then.
 #[test]
 fn the_bytes_are_those_of_this_version() {
     let messages = messages(&deeds(), 3);

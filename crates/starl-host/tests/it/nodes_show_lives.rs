@@ -76,7 +76,7 @@ fn starts_corruption_and_restarts() {
     handle(&mut node, &mut host, 0, Happening::Timeout);
     node.corrupt(Time(5), &mut stream(2), &mut host);
     node.crash();
-    // What is down has no state that could be corrupted.
+    // A robot that is down has no state that could be corrupted.
     node.corrupt(Time(6), &mut stream(3), &mut host);
     node.restart(Time(7), agent(4));
     // It is corrupted before it has started.

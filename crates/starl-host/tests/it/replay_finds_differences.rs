@@ -109,7 +109,7 @@ fn so_are_an_effect_more_or_less_and_another_state() {
     }
 }
 
-/// What a program draws when it is corrupted decides what it does afterwards.
+/// The random draws of a corruption decide the program's later behaviour.
 #[test]
 fn corruption_is_done_again() {
     let counts = |random: &Random| random.clone().below(10);

@@ -12,7 +12,7 @@ use starl_host::journal::{Batch, Damaged, Journal, Packer, Reader};
 
 pub const ROBOT: RobotId = RobotId(7);
 
-/// What a robot knows, all of it owned.
+/// A robot's knowledge, owned.
 #[derive(Clone, Debug)]
 pub struct World {
     pub now: Time,
@@ -209,7 +209,7 @@ pub fn messages(deeds: &[(Time, Deed)], size: usize) -> Vec<(Time, Vec<u8>)> {
     deeds.chunks(size).map(pack).collect()
 }
 
-/// What a reader of these messages is shown.
+/// The view of a reader of these messages.
 pub fn read(messages: &[(Time, Vec<u8>)]) -> Result<Vec<String>, Damaged> {
     let mut reader = Reader::new(ROBOT);
     let mut seen = Vec::new();

@@ -47,7 +47,7 @@ pub fn race(seeds: u64) {
         (2.517, 2.734),
         (0.800, 1.650),
     ];
-    println!("\nRace: microseconds a call of `plan`, median and worst, and way-points");
+    println!("\nRace: microseconds a call of `plan`, median and worst, and waypoints");
     println!(
         "{:<12} {:<14} {:>8} {:>8} {:>8} {:>8}",
         "robot", "planner", "leg", "median", "worst", "points"

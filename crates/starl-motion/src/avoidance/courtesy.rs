@@ -1,10 +1,10 @@
-//! Making way at a way-point that several robots want.
+//! Making way at a waypoint that several robots want.
 //!
-//! A robot whose target is taken by a neighbour that is nearer to it waits in front of it, farther out
-//! the more neighbours are nearer, and so leaves the nearest one the room to get there and the next
-//! one the room to back out. Robots need not tell each other what they want: if the neighbour only
-//! passes by, the wait is short. As the neighbour may stand there for good, a robot waits no longer
-//! than a random time before it presses on for another.
+//! If a neighbour that is nearer occupies a robot's target, the robot waits in front of it, farther
+//! out if more neighbours are nearer. So the nearest one has room to get there, and the next one has
+//! room to back out. Robots need not communicate their targets: if the neighbour only passes by, the
+//! wait is short. Because the neighbour may stay there permanently, a robot waits only for a random
+//! time before it drives on for another.
 
 use super::plane::larger;
 use crate::pilot::Neighbour;

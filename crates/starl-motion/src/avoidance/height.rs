@@ -1,4 +1,5 @@
-//! Robots above one another: who need not be avoided in the plane, and how far one may climb or sink.
+//! Robots above one another: which of them need no avoidance in the plane, and how far a robot may
+//! climb or descend.
 //!
 //! Two bodies are avoided in the plane as soon as the free height between them is below a clearance,
 //! which both judge alike. A robot does not climb or sink into that clearance, each taking half of

@@ -1,20 +1,20 @@
 //! Reciprocal avoidance: keeps robots from colliding with each other and with obstacles, and from
 //! blocking each other for ever.
 //!
-//! Each robot, at each position estimate, confines the point where it can stop to its own buffered
+//! At each position estimate, each robot confines the point where it can stop to its own buffered
 //! Voronoi cell (Zhou, Wang, Bandyopadhyay and Schwager 2017, "Fast, on-line collision avoidance for
-//! dynamic vehicles using buffered Voronoi cells"), from nothing but what it perceives of its
-//! neighbours: no messages, no agreement, no order among robots.
+//! dynamic vehicles using buffered Voronoi cells"). It uses only its perception of its neighbours:
+//! no messages, no agreement, no order among robots.
 //!
 //! Where ours differs: borders lie between the segments in which robots can stop, not between points,
 //! so robots with inertia are covered, and obstacles are borders too (`surroundings.rs`); borders
 //! split the gap between two bodies, not the distance of their centres; the nearest velocity replaces
 //! the paper's receding-horizon programme (`cell.rs`); robots on wheels and cars are limited by where
 //! they are heading (`drive.rs`); heights count (`height.rs`). Against deadlock, robots pass on the
-//! right (`passing.rs`), make way at a contested way-point (`courtesy.rs`), and yield at random when
+//! right (`passing.rs`), make way at a contested waypoint (`courtesy.rs`), and yield at random when
 //! they get no farther (`yielding.rs`), instead of the paper's fixed right-hand rule.
 //!
-//! What is guaranteed, and under which assumptions, is in `docs/explanation/avoidance.md`.
+//! `docs/explanation/avoidance.md` states the guarantees and their assumptions.
 
 mod cell;
 mod courtesy;

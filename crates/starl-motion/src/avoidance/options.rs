@@ -1,4 +1,4 @@
-//! What can be chosen about avoidance, with units and defaults.
+//! The options of avoidance, with units and defaults.
 
 use serde::{Deserialize, Serialize};
 

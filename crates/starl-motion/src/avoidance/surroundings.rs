@@ -21,8 +21,9 @@ pub(crate) const OBSTACLE_MARGIN: f64 = 0.02;
 /// A target that is nearer to an obstacle than that leaves so much room to get there, metres.
 const PLAY: f64 = 0.003;
 
-/// Towards obstacles robots are taken to coast so many times farther than they do, and a period besides:
-/// overshooting is worse there, as nobody on the other side makes room. Measured with the AR.Drone.
+/// Towards obstacles robots are assumed to coast by this factor farther than they do, and for an
+/// additional period: overshooting is worse there, because an obstacle does not make room. Measured with
+/// the AR.Drone.
 const OBSTACLE_COAST: f64 = 1.25;
 
 /// More than what rounding adds to a gap, metres.
@@ -77,7 +78,7 @@ impl Surroundings<'_> {
         if offset.length_squared() > near * near {
             return None;
         }
-        // What is known of the neighbour may be a period old.
+        // The knowledge of the neighbour may be a period old.
         let its_way = velocity * (pace.braking_time + self.period);
         let apart = between_segments(own_way, offset, its_way);
         let normal = match (apart.normalized(), offset.normalized()) {
@@ -94,8 +95,8 @@ impl Surroundings<'_> {
         })
     }
 
-    /// The border towards an obstacle, which nobody shares; none if it does not matter at cruise speed.
-    /// A target nearer to the obstacle than the usual margin stays within reach.
+    /// The border towards an obstacle, on the robot's side only; none if it does not matter at cruise
+    /// speed. A target nearer to the obstacle than the usual margin stays within reach.
     fn obstacle_border(&self, obstacle: &Obstacle, own_way: Point) -> Option<Border> {
         let Body { radius, height, .. } = *self.body;
         let position = self.estimate.pose.position;

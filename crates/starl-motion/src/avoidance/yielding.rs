@@ -1,7 +1,7 @@
 //! Getting out of each other's way: what a robot does when its neighbours leave it no progress.
 //!
 //! Cells alone keep robots apart but let them block each other: two that meet head-on, or a crowd
-//! around one way-point, stop at the borders between them. A robot that has made no progress for its
+//! around one waypoint, stop at the borders between them. A robot that has made no progress for its
 //! patience while a neighbour was in the way leaves its course for a while: to the right, or backwards;
 //! a car, which gets nowhere else without shunting, straight on or straight back. Direction and time
 //! are drawn at random, so robots in the same situation do different things, and the times grow with
@@ -36,7 +36,7 @@ const OTHERS_YIELD: f64 = 0.75;
 /// After this many vain attempts times grow no further.
 const MOST_LEVELS: u32 = 4;
 
-/// What a robot sees when it judges its progress.
+/// The surroundings by which a robot judges its progress.
 pub(super) struct Scene<'a> {
     pub body: &'a Body,
     pub pace: &'a Pace,
@@ -117,7 +117,7 @@ impl Yielding {
         self.detour.is_none() || self.target != Some(target)
     }
 
-    /// Nobody is near.
+    /// No robot is near.
     pub fn unhindered(&mut self) {
         self.stuck = 0.0;
     }

@@ -19,7 +19,7 @@ use starl_core::{Command, Duration, Pose};
 pub(super) const NAME: &str = "create";
 
 parameters! {
-    /// What can be set of a [`Create`].
+    /// The parameters of a [`Create`].
     pub struct CreateParameters {
         /// Radius of the body.
         radius: "m" = 0.165, 0.01 => 10.0;
@@ -31,9 +31,9 @@ parameters! {
         wheel_speed: "m/s" = 0.5, 0.001 => 100.0;
         /// Speed of travel while tracking.
         cruise_speed: "m/s" = 0.25, 0.001 => 100.0;
-        /// Speed of travel while tracking near the way-point.
+        /// Speed of travel while tracking near the waypoint.
         slow_speed: "m/s" = 0.175, 0.001 => 100.0;
-        /// Distance from the way-point within which tracking drives slowly.
+        /// Distance from the waypoint within which tracking drives slowly.
         slow_distance: "m" = 0.7, 0.0 => 100.0;
         /// Rate of turn while tracking.
         cruise_turn: "degrees/s" = 50.0, 1.0 => 10000.0;

@@ -18,7 +18,7 @@ use starl_core::{Command, Duration, Pose};
 pub(super) const NAME: &str = "differential";
 
 parameters! {
-    /// What can be set of a [`Differential`].
+    /// The parameters of a [`Differential`].
     pub struct DifferentialParameters {
         /// Radius of the body.
         radius: "m" = 0.085, 0.01 => 10.0;

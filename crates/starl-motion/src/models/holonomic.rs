@@ -16,7 +16,7 @@ use starl_core::{Command, Duration, Point, Pose, Twist};
 pub(super) const NAME: &str = "holonomic";
 
 parameters! {
-    /// What can be set of a [`Holonomic`].
+    /// The parameters of a [`Holonomic`].
     pub struct HolonomicParameters {
         /// Radius of the body.
         radius: "m" = 0.15, 0.01 => 10.0;

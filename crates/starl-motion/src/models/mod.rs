@@ -37,7 +37,7 @@ type Make = fn(&'static str, &[(String, f64)]) -> Result<Arc<dyn Model>, Paramet
 pub struct Kind {
     /// The model's name, as scenarios spell it.
     pub name: &'static str,
-    /// What it is, in one line.
+    /// A description, in one line.
     pub summary: &'static str,
     /// Its parameters.
     pub fields: &'static [Field],

@@ -1,11 +1,11 @@
 //! Which boxes does a segment meet: a tree whose nodes have eight children side by side.
 //!
-//! The boxes of a node's children are kept coordinate by coordinate, so that one pass of plain
-//! arithmetic clips a segment against all eight. Up to eight boxes are one node; leaves are full but
-//! for the last, so a list of forty boxes is looked through in six steps. After Dammertz, Hanika and
-//! Keller 2008, "Shallow bounding volume hierarchies for fast SIMD ray tracing of incoherent rays";
-//! the partition here is by medians along the widest side rather than by surface area, which is
-//! quicker to build: many trees answer only a handful of questions.
+//! The boxes of a node's children are stored coordinate by coordinate, so that one pass of plain
+//! arithmetic clips a segment against all eight. Up to eight boxes form one node; all leaves except
+//! the last are full, so a list of forty boxes is searched in six steps. After Dammertz, Hanika and
+//! Keller 2008, "Shallow bounding volume hierarchies for fast SIMD ray tracing of incoherent rays".
+//! The partition here is by medians along the widest side rather than by surface area, which is
+//! quicker to build: many trees answer only a handful of queries.
 //!
 //! Invariant: a box is visited if the segment meets it, boundary included.
 
@@ -124,9 +124,9 @@ impl<const D: usize> BoxTree<D> {
         number as u32
     }
 
-    /// Calls `visit` for every box the segment meets up to `limit`, a fraction of its length, with
-    /// the box's number and where the segment enters and leaves it. What `visit` answers is the
-    /// limit from then on; below zero it ends the search.
+    /// Calls `visit` for every box that the segment meets up to `limit`, a fraction of its length,
+    /// with the box's number and the points where the segment enters and leaves it. The return
+    /// value of `visit` becomes the new limit; below zero it ends the search.
     #[inline]
     pub fn cast(
         &self,

@@ -1,4 +1,4 @@
-//! A tree of places that knows the length of the path to each and can be hung anew.
+//! A tree of places that knows the length of the path to each and can be rewired.
 
 use super::nearest::Nearest;
 use super::vector::{Vector, distance};
@@ -17,7 +17,7 @@ pub struct CostTree<const D: usize> {
     links: Vec<Links>,
     costs: Vec<f64>,
     nearest: Nearest<D>,
-    /// Emptied after use: nodes whose costs are yet to be computed anew.
+    /// Emptied after use: nodes whose costs must be recomputed.
     waiting: Vec<u32>,
 }
 

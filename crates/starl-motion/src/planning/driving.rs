@@ -1,9 +1,9 @@
 //! Going to a place as a robot of a given model does: tracked in closed loop, simulated step by step.
 //!
 //! This is what a tree of the thesis is grown by. A robot that follows a path goes on to the next
-//! way-point without stopping, from [`PASS`] metres if that way is free, so from there the straight way
-//! on must be clear; it must be clear from the way-point itself, too, which is what is seen of a path
-//! from outside. Since any way-point may be the last the robot is simulated until it is [`NEAR`].
+//! waypoint without stopping, from [`PASS`] metres if that way is free, so from there the straight way
+//! on must be clear; it must be clear from the waypoint itself, too, which is what is seen of a path
+//! from outside. Since any waypoint may be the last the robot is simulated until it is [`NEAR`].
 //! Between two estimates the body moves along a short arc; its chord is what is tested, exactly, and the
 //! margin of the grown obstacles covers the height of the arc.
 
@@ -17,10 +17,10 @@ use alloc::vec::Vec;
 use starl_core::motion::Estimate;
 use starl_core::{Duration, Time, math};
 
-/// How near to a way-point the robot goes on to the next if that way is free, metres.
+/// How near to a waypoint the robot goes on to the next if that way is free, metres.
 const PASS: f64 = 0.15;
 
-/// How near to the last way-point the robot comes, metres.
+/// How near to the last waypoint the robot comes, metres.
 const NEAR: f64 = 0.06;
 
 /// Nearer places are not worth driving to, metres: they are as good as passed.
@@ -97,7 +97,7 @@ impl<const D: usize> Driving<'_, D> {
         self.drive(from, to, |_, _| true).unwrap_or(*from)
     }
 
-    /// Whether all the way-points can be driven to in order, from the first, where the robot is.
+    /// Whether all the waypoints can be driven to in order, from the first, where the robot is.
     fn follows(&self, from: &State, mut path: impl Iterator<Item = Vector<D>>) -> bool {
         let Some(mut at) = path.next() else {
             return true;
@@ -112,7 +112,7 @@ impl<const D: usize> Driving<'_, D> {
         true
     }
 
-    /// Leaves out way-points, the earliest first, wherever the rest can then still be driven. The
+    /// Leaves out waypoints, the earliest first, wherever the rest can then still be driven. The
     /// first is where the robot is and stays.
     pub fn leave_out(&self, from: &State, path: &mut Vec<Vector<D>>) {
         let mut at = 1;

@@ -17,7 +17,7 @@ pub struct FreeSpace<const D: usize> {
 }
 
 impl<const D: usize> FreeSpace<D> {
-    /// What is free between these corners.
+    /// The free space between these corners.
     pub fn new(low: Vector<D>, high: Vector<D>, grown: GrownList<D>) -> Self {
         let tree = BoxTree::new(grown.all().iter().map(|grown| (grown.low, grown.high)));
         FreeSpace {

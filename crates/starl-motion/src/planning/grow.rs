@@ -14,7 +14,7 @@ pub struct Mover {
     pub body: Body,
     /// Metres; in the air also above and below.
     pub margin: f64,
-    /// What is kept of the margin near an end that has so much, metres.
+    /// The rest of the margin near an end with this clearance, metres.
     pub least: f64,
     /// Where it yields to an end that has less than the least.
     pub yields: Yields,
@@ -30,8 +30,8 @@ pub enum Yields {
     Along,
 }
 
-/// What is kept of the gap at an end that has less than the least margin. Below one, so that a robot can
-/// leave a passage that it just fits into.
+/// The share of the gap that remains at an end with less than the least margin. Below one, so that a
+/// robot can leave a passage that it just fits into.
 const KEPT: f64 = 0.9;
 
 impl Mover {
@@ -136,7 +136,7 @@ impl Mover {
         least
     }
 
-    /// What the robot's base centre must keep out of on a path between these ends.
+    /// The obstacles for the robot's base centre on a path between these ends.
     pub fn grow<const D: usize>(
         &self,
         obstacles: &[Obstacle],

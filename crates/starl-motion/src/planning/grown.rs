@@ -13,8 +13,8 @@ use super::vector::Vector;
 use alloc::vec::Vec;
 use starl_core::math;
 
-/// What a point must keep out of, boundary included: a convex outline in the first two coordinates,
-/// an interval in the third where there is one.
+/// An obstacle for a point, boundary included: a convex outline in the first two coordinates, and
+/// an interval in the third if there is one.
 #[derive(Clone, Copy, Debug)]
 pub struct Grown<const D: usize> {
     /// The smallest box around it.

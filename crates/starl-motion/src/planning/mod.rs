@@ -1,9 +1,9 @@
 //! Finding a way: from where a robot is to where it should be, clear of everything unsafe.
 //!
-//! [`plan`] is what hosts call. It grows the obstacles by the robot's body, looks whether the
-//! straight way is free (most often it is, and nothing else is done), and otherwise lets one of the
-//! planners search: [`rrt`], [`rrt_connect`] or [`rrt_star`], in the plane for robots on the floor and
-//! in space for those in the air. Paths are then made taut ([`shorten`]).
+//! Hosts call [`plan`]. It grows the obstacles by the robot's body and checks whether the straight
+//! line is free, which is the most frequent case. Otherwise one of the planners searches: [`rrt`],
+//! [`rrt_connect`] or [`rrt_star`], in the plane for robots on the floor and in space for those in the
+//! air. Paths are then shortened ([`shorten`]).
 //!
 //! The planners know nothing of robots: they search a [`space::Space`]. Everything is exact, no path
 //! is tested at sample points, and the same request gives the same path on every machine.
@@ -48,7 +48,7 @@ use crate::{Model, Neighbour};
 use starl_core::motion::{Estimate, Path, PlanRequest};
 use task::Task;
 
-/// What a host may change about planning.
+/// The options of planning that a host may change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// How far paths stay away from things beyond the body's own radius, as a part of that radius; see
@@ -86,19 +86,19 @@ impl Default for Options {
     }
 }
 
-/// Way-points from the estimated pose to where the request is fulfilled; none if the planner gave up.
+/// Waypoints from the estimated pose to where the request is fulfilled; none if the planner gave up.
 ///
-/// - The last way-point is the target if the body can be there. If not, it is the place nearest to it
+/// - The last waypoint is the target if the body can be there. If not, it is the place nearest to it
 ///   where the body has the margin, or half of the room that the request's vicinity leaves; there is
 ///   no path if that is none.
 /// - The body keeps out of the unsafe set all along the way, `margin_radii` further off than it must.
 ///   Where there is no way with such a margin, a half, a quarter and an eighth of it are tried, each with
 ///   half of the nodes that are left, but none below `least_margin`: through a passage narrower than
 ///   that there is no path.
-/// - Where start or end are within the margin of something, half of the gap that is there takes its
-///   place, or `least_margin` if that is more, or nine tenths of the gap if that is less than
-///   `least_margin`, twice as far about that end as the margin lacks.
-/// - If the body touches something at the start, the first way-point is the nearest place with the
+/// - If the start or end is within the margin of an obstacle, a smaller margin applies around that
+///   end, within twice the missing distance. It is half of the gap, or `least_margin` if that is
+///   more, or nine tenths of the gap if that is less than `least_margin`.
+/// - If the body touches something at the start, the first waypoint is the nearest place with the
 ///   margin that can be reached by moving away from it. A robot whose centre is inside an obstacle
 ///   gets no path.
 /// - A robot in the air that is below its lowest height of travel is taken to have risen there.

@@ -22,7 +22,7 @@ pub trait Steering<const D: usize> {
     /// All that decides how the robot goes on from where it is.
     type State;
 
-    /// The state in which the robot arrives if, at the way-point `from` in this state, it sets out for
+    /// The state in which the robot arrives if, at the waypoint `from` in this state, it sets out for
     /// another; none if something is in the way or it does not arrive.
     fn go(&self, from: &Vector<D>, state: &Self::State, to: &Vector<D>) -> Option<Self::State>;
 }
@@ -36,7 +36,7 @@ pub struct Options {
     pub threshold: f64,
 }
 
-/// Way-points from `start`, itself included, to `target`; `state` is that of the robot at `start`.
+/// Waypoints from `start`, itself included, to `target`; `state` is that of the robot at `start`.
 pub fn rrt<const D: usize, S: Steering<D>>(
     space: &impl Space<D>,
     steering: &S,

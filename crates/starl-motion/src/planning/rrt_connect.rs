@@ -5,9 +5,10 @@
 //! towards what was added. Where we differ:
 //! - The paper walks in small steps and tests each. The space here tells exactly how far a straight
 //!   way is free, so a tree grows by that in one go; only `longest_step` limits it.
-//! - What is in the way is slid along, as far as that leads nearer to the place: the rest of the way
-//!   less its part across the surface. A step that would have been lost against a wall then finds the
-//!   wall's end. In boxes of side 100 among obstacles this saves all but a twentieth of the steps.
+//! - A step slides along obstacles, as far as that leads nearer to the place: the direction is the
+//!   rest of the way less its part across the surface. A step that would have ended at a wall then
+//!   finds the wall's end. In boxes of side 100 among obstacles this saves all but a twentieth of the
+//!   steps.
 //! - The smaller tree grows first.
 
 use super::space::Space;
@@ -94,7 +95,7 @@ fn connect<const D: usize>(
     }
 }
 
-/// What a step led to.
+/// The result of a step.
 struct Added {
     node: u32,
     /// Whether nothing was in the way.

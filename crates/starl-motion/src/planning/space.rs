@@ -1,4 +1,4 @@
-//! What a planner must know of the world.
+//! A planner's interface to the world.
 
 use super::vector::Vector;
 use starl_core::Random;

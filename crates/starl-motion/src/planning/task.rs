@@ -37,7 +37,7 @@ pub struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// The way-points, or none; in two coordinates on the floor, three in the air.
+    /// The waypoints, or none; in two coordinates on the floor, three in the air.
     pub fn solve<const D: usize>(&self) -> Option<Path> {
         let mut mover = Mover {
             body: self.model.body(),
@@ -58,8 +58,8 @@ impl Task<'_> {
         None
     }
 
-    /// What to try where there is no way with this: half the margin, down to the least; and for a robot that
-    /// already is in a narrower place, or is to go to one, the way along that.
+    /// The next attempt if there is no path with this margin: half the margin, down to the least. For a
+    /// robot that is in a narrower place, or whose target is, it is the margin there.
     fn next<const D: usize>(&self, mover: Mover, turn: u32) -> Option<Mover> {
         let least = self.options.least_margin;
         if turn < MARGINS && mover.margin > least {
@@ -97,7 +97,7 @@ impl Task<'_> {
             true => self.drive(&space, &root, &target, nodes)?,
             false => self.search(&space, &root, &target, nodes)?,
         };
-        // The root is the first way-point only where it is not where the robot is.
+        // The root is the first waypoint only where it is not where the robot is.
         let path = found.iter().skip(usize::from(root == from));
         Some(path.map(Mover::to_world).collect())
     }
@@ -213,7 +213,7 @@ impl Task<'_> {
         SHORTEST_STEP * self.model.body().radius
     }
 
-    /// Way-points that the robot follows in its own manner, the root included.
+    /// Waypoints that the robot follows in its own manner, the root included.
     fn drive<const D: usize>(
         &self,
         space: &FreeSpace<D>,
@@ -233,7 +233,7 @@ impl Task<'_> {
             ..self.start.pose
         };
         if *root != Mover::to_space(self.from) {
-            // The robot is taken to stand at the first way-point, as it came there.
+            // The robot is taken to stand at the first waypoint, as it came there.
             let turned = driving.force(&self.model.at_rest(pose), root).pose;
             pose = Pose {
                 position: Mover::to_world(root),

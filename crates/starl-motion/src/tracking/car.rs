@@ -1,9 +1,9 @@
-//! Tracking for a car: pursue the way-point along arcs, forwards or backwards, and shunt where it lies
+//! Tracking for a car: pursue the waypoint along arcs, forwards or backwards, and shunt where it lies
 //! inside the turning circle.
 //!
 //! Pure pursuit (Coulter 1992) seen from the rear axle, which moves along the heading: the circle that
 //! touches the heading there and passes through a point at distance d, y to the left, has curvature
-//! 2 y / d^2. The point pursued is the way-point or, when that is far, the point a look-ahead on the
+//! 2 y / d^2. The point pursued is the waypoint or, when that is far, the point a look-ahead on the
 //! straight line to it. The body's centre is half a wheelbase ahead of the rear axle, so d stays away
 //! from zero when the centre arrives.
 //!
@@ -18,7 +18,7 @@ use starl_core::math::{atan, fabs, hypot, sincos, sqrt, tan};
 use starl_core::motion::Estimate;
 use starl_core::{Command, Point};
 
-/// What the car is like, for its tracker.
+/// The car's constants for its tracker.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gains {
     /// Metres.
@@ -62,7 +62,7 @@ const PART_PER_ESTIMATE: f64 = 0.4;
 /// Part of the distance left that is driven per second, at most.
 const PART_PER_SECOND: f64 = 2.0;
 
-/// Where the way-point is.
+/// Where the waypoint is.
 struct Sight {
     /// From the rear axle, metres ahead and to the left.
     ahead: f64,

@@ -1,18 +1,18 @@
 //! Tracking for a quadcopter: take off, then fly by tilting, in cascaded loops.
 //!
-//! Position to velocity is proportional and limited to the speed of travel; velocity to acceleration
-//! is proportional; acceleration to tilt is geometry. What pushes the drone besides its own tilt and
-//! drag in still air, such as wind, is estimated by a disturbance observer (Luenberger 1971, "An
-//! introduction to observers") and held against. Unlike the integral of a PID loop it does not wind up
-//! while the drone speeds up and brakes, which would make it overshoot. Vertically the drone's own
-//! speed loop does the rest. The thesis names such a controller (section 4.3) but gives none.
+//! Position to velocity is proportional and limited to the cruise speed; velocity to acceleration is
+//! proportional; acceleration to tilt is geometry. A disturbance observer (Luenberger 1971, "An
+//! introduction to observers") estimates other forces on the drone than its own tilt and drag in still
+//! air, such as wind, and compensates them. Unlike the integral of a PID loop it does not wind up
+//! while the drone accelerates and brakes, which would make it overshoot. The drone's own speed loop
+//! controls the vertical motion. The thesis names such a controller (section 4.3) but gives none.
 
 use super::{Goal, Tracking};
 use starl_core::math::{exp, sincos, tan};
 use starl_core::motion::Estimate;
 use starl_core::{Command, Point, Pose};
 
-/// What the drone is like, for its tracker.
+/// The drone's constants for its tracker.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gains {
     /// Lowest height of travel, metres.
@@ -53,7 +53,8 @@ impl Gains {
         (0.52 * speed).max(0.35 * speed + speed * speed / (2.0 * brake))
     }
 
-    /// See [`crate::Model::braking_way`]. What the present tilt still adds to the velocity counts.
+    /// See [`crate::Model::braking_way`]. It includes the velocity that the present tilt still
+    /// adds.
     pub fn braking_way(&self, estimate: &Estimate) -> Point {
         let velocity = estimate.twist.linear.at_height(0.0);
         let gain = self.own_acceleration(estimate) * self.tilt_lag;
@@ -81,7 +82,7 @@ impl Gains {
                 previous: tracking.previous,
                 ..Tracking::default()
             };
-            // A way-point that low tells it to stay down.
+            // A waypoint that low tells it to stay down.
             let stay = goal.target.z < self.lowest;
             return if stay {
                 Command::Stop

@@ -1,4 +1,4 @@
-//! Tracking for the ideal robot: straight at the way-point, slower with the distance left.
+//! Tracking for the ideal robot: straight at the waypoint, slower with the distance left.
 
 use super::arrival::{Tolerance, at_rest};
 use super::{Goal, Tracking};

@@ -1,4 +1,4 @@
-//! Way-point tracking: closed loop from estimates to commands of the robot's own model (the thesis's
+//! Waypoint tracking: closed loop from estimates to commands of the robot's own model (the thesis's
 //! RobotMotion and MotionAutomation), one file per family of models.
 //!
 //! A tracker is a pure function of the estimate, the goal and a small [`Tracking`] memory that has the
@@ -18,10 +18,10 @@ use starl_core::{Point, Time};
 /// Where to go now, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goal {
-    /// The way-point, metres. Ground robots leave the height out; a quadcopter on the floor stays
+    /// The waypoint, metres. Ground robots leave the height out; a quadcopter on the floor stays
     /// there while the height is less than its lowest height of travel.
     pub target: Point,
-    /// The way-point after that, metres: the robot may flow through `target` towards it. None where
+    /// The waypoint after that, metres: the robot may flow through `target` towards it. None where
     /// the robot is to come to a stop at `target`.
     pub next: Option<Point>,
     /// Greatest speed in the floor plane, metres per second; infinite if there is none to observe.
@@ -52,12 +52,12 @@ impl Goal {
     }
 }
 
-/// What a tracker remembers from one estimate to the next.
+/// The state of a tracker between two estimates.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tracking {
     /// When the estimate before this one was taken.
     previous: Option<Time>,
-    /// What the robot is about, in its tracker's own numbering; 0 at first.
+    /// The phase of the robot, in its tracker's own numbering; 0 at first.
     phase: u32,
     /// Set while the robot stands at its goal.
     rest: Option<Rest>,

@@ -1,8 +1,8 @@
-//! Tracking for robots on two wheels: turn towards the way-point on the spot, then drive to it.
+//! Tracking for robots on two wheels: turn towards the waypoint on the spot, then drive to it.
 //!
 //! The rules of the original's MotionAutomation (fast far away, slowly near; turn fast, then slowly),
-//! with two differences. It drives arcs through the way-point instead of straight lines that it has to
-//! correct on the spot (pure pursuit, Coulter 1992, with the way-point as the point pursued). And
+//! with two differences. It drives arcs through the waypoint instead of straight lines that it has to
+//! correct on the spot (pure pursuit, Coulter 1992, with the waypoint as the point pursued). And
 //! speeds fall with the distance left, and rates of turn with the angle left, so that no estimate
 //! comes too late, however far apart they are.
 
@@ -17,9 +17,9 @@ use starl_core::motion::Estimate;
 pub(crate) struct Gains {
     /// Metres per second.
     pub cruise_speed: f64,
-    /// Metres per second, near the way-point.
+    /// Metres per second, near the waypoint.
     pub slow_speed: f64,
-    /// What is near, metres.
+    /// The distance at which it slows down, metres.
     pub slow_distance: f64,
     /// Radians per second.
     pub cruise_turn: f64,
@@ -27,7 +27,7 @@ pub(crate) struct Gains {
     pub slow_turn: f64,
 }
 
-/// What to do until the next estimate; speeds in m/s, rates in rad/s.
+/// The command until the next estimate; speeds in m/s, rates in rad/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Drive {
     Stop,
@@ -108,7 +108,7 @@ impl Gains {
         if fabs(bearing) < radians(1.0) {
             return Drive::Straight { speed: signed };
         }
-        // The circle that touches the heading and passes through the way-point, or through the point on
+        // The circle that touches the heading and passes through the waypoint, or through the point on
         // the straight way to it that is pursued.
         let pursuit = 2.0 * sin(bearing) / distance.min(LOOK_AHEAD) * speed;
         let most = fabs(self.turn_rate(bearing, period));

@@ -1,4 +1,4 @@
-//! A robot that stands still, as a dead one does, is driven round, whoever stands there.
+//! Robots drive round a robot that stands still, such as a dead one, wherever it stands.
 
 use crate::avoidance_world::scenes::{AGILE, from_to, one_in_the_way};
 use crate::avoidance_world::{self, EXACT, Scene, World, runs};

@@ -52,8 +52,8 @@ fn half_of_the_estimates_may_be_lost_if_the_options_name_the_gaps() {
     }
 }
 
-/// A robot that hears nothing for a second drives on as it was told last, so only those who know that
-/// this may happen are safe.
+/// A robot without estimates for a second continues with its last command, so only robots whose
+/// options allow for this are safe.
 #[test]
 fn outages_that_the_options_name_do_no_harm() {
     let options = Options {

@@ -12,7 +12,7 @@ fn a_mixed_fleet_never_collides() {
     for (positioning, seed) in runs(30) {
         let mut world = World::new(&strewn(&FLEET, 12, &[], seed), positioning, seed);
         let mut random = Random::keyed(seed, &[3]);
-        // Whoever has arrived goes on to somewhere else, taken or not.
+        // A robot that has arrived drives to another place, occupied or not.
         for _ in 0..90 {
             world.run_for(1.0);
             for robot in &mut world.robots {

@@ -29,7 +29,7 @@ fn alone(robot: Placed, obstacles: &[Obstacle]) -> Scene {
 fn driven_straight_at_a_wall_it_stops_before_it() {
     for model in models() {
         for (positioning, seed) in runs(20) {
-            // A way-point behind the wall, which no planner would give.
+            // A waypoint behind the wall, which no planner would give.
             let robot = from_to(model, (-3.0, 0.2), (3.0, 0.0));
             let mut world = World::new(&alone(robot, &[wall()]), positioning, seed);
             world.run_for(20.0);

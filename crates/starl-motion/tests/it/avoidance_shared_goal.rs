@@ -1,13 +1,13 @@
-//! Robots that all want the same point, as in Race: the first gets there, again and again, nobody
-//! collides, and who comes second waits at a distance.
+//! All robots have the same target, as in Race: the first robot gets there, repeatedly, without
+//! collisions, and the second waits at a distance.
 
 use crate::avoidance_world::scenes::{AGILE, at, from_to, radius, shared_goal};
 use crate::avoidance_world::{EXACT, Scene, VICINITY, World, runs};
 
-/// Where the way-points of a lap are, metres.
+/// Where the waypoints of a lap are, metres.
 const LAP: [(f64, f64); 4] = [(0.0, 0.0), (1.5, 1.0), (-1.5, 1.0), (0.0, -1.8)];
 
-/// Sends all to the way-points of a lap in turn; at each, the first to arrive sets off the next leg.
+/// Sends all to the waypoints of a lap in turn; at each, the first to arrive sets off the next leg.
 fn race(model: &'static str, count: u32, bound: f64) {
     for (positioning, seed) in runs(12) {
         let mut world = World::new(&shared_goal(model, count, seed), positioning, seed);
@@ -33,14 +33,14 @@ fn race(model: &'static str, count: u32, bound: f64) {
 }
 
 #[test]
-fn the_first_of_six_arrives_at_each_way_point() {
+fn the_first_of_six_arrives_at_each_waypoint() {
     for model in AGILE {
         race(model, 6, 40.0);
     }
 }
 
 #[test]
-fn the_first_of_twelve_arrives_at_each_way_point() {
+fn the_first_of_twelve_arrives_at_each_waypoint() {
     for model in ["create", "holonomic", "differential"] {
         race(model, 12, 60.0);
     }

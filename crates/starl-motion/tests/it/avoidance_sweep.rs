@@ -8,8 +8,8 @@ use crate::avoidance_world::{Scene, World, runs};
 /// Runs of a scene that take longer are given up, seconds.
 const BOUND: f64 = 900.0;
 
-/// Fails unless nobody collides in any run, and the time until the last robot has been at its goal is at
-/// most `median` in half of the runs and at most `most` in 99 of 100, seconds.
+/// Fails unless there is no collision in any run, and the time until the last robot has been at its goal
+/// is at most `median` in half of the runs and at most `most` in 99 of 100, seconds.
 fn sweep(name: &str, (median, most): (f64, f64), scene: impl Fn(u64) -> Scene) {
     let mut times = Vec::new();
     for (positioning, seed) in runs(200) {

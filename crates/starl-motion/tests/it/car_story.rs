@@ -1,4 +1,4 @@
-//! What sets the car apart: it cannot turn on the spot.
+//! The car differs from the others: it cannot turn on the spot.
 
 use crate::conformance::{CALM, Positioning, Run};
 use starl_core::math::{FRAC_PI_2, PI, TAU, tan};

@@ -143,7 +143,7 @@ fn stop_brings_every_model_to_a_halt() {
 }
 
 #[test]
-fn numbers_that_are_none_are_refused_and_never_spread() {
+fn nan_is_refused_and_never_spreads() {
     let absurd = [
         f64::NAN,
         f64::INFINITY,

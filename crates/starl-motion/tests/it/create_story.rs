@@ -90,7 +90,7 @@ fn wheels_and_the_other_commands_agree() {
 }
 
 #[test]
-fn it_turns_first_then_drives_and_slows_down_near_its_way_point() {
+fn it_turns_first_then_drives_and_slows_down_near_its_waypoint() {
     let create = models::by_name("create").unwrap();
     let mut run = Run::new(
         &*create,

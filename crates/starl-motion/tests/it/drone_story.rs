@@ -1,5 +1,5 @@
-//! What sets the quadcopter apart, as the thesis tells it (section 2.2): it takes off before it
-//! travels, flies faster than the ground robots, and overshoots more.
+//! The quadcopter differs from the others (thesis, section 2.2): it takes off before it travels,
+//! flies faster than the ground robots, and overshoots more.
 
 use crate::conformance::{CALM, Positioning, Run, every_model};
 use starl_core::math::{FRAC_PI_2, radians, sin, tan};
@@ -175,7 +175,7 @@ fn drag_and_tilt_balance_at_the_top_speed() {
 }
 
 #[test]
-fn it_holds_its_place_and_its_way_point_in_wind() {
+fn it_holds_its_place_and_its_waypoint_in_wind() {
     let drone = drone();
     let wind = Disturbance {
         wind: Point::planar(1.5, -1.0),
@@ -233,7 +233,7 @@ fn wind_does_not_move_what_stands_on_the_ground() {
 }
 
 #[test]
-fn a_low_way_point_does_not_make_it_take_off() {
+fn a_low_waypoint_does_not_make_it_take_off() {
     let drone = drone();
     let mut run = Run::new(&*drone, ORIGIN, Positioning::EXACT, 1);
     for _ in 0..20 {

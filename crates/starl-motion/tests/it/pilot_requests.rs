@@ -62,7 +62,7 @@ fn it_tracks_halts_and_drives() {
 }
 
 #[test]
-fn a_way_point_that_is_out_of_reach_is_brought_into_reach() {
+fn an_unreachable_waypoint_is_moved_within_reach() {
     for (name, target) in [
         ("create", Point::new(1.0, 0.0, 3.0)),
         ("drone", Point::planar(1.0, 0.0)),
@@ -149,7 +149,7 @@ fn a_plan_request_does_not_change_what_it_does() {
 }
 
 #[test]
-fn a_way_point_that_is_no_place_stops_it() {
+fn a_waypoint_that_is_not_finite_stops_it() {
     for model in every_model() {
         let mut pilot = Pilot::new(&*model, Some(avoidance::Options::default()));
         for bad in [f64::NAN, f64::INFINITY] {

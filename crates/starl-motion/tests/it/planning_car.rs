@@ -1,4 +1,4 @@
-//! A car's way-points can be followed by the car: driven by its own tracker it touches nothing.
+//! A car's waypoints can be followed by the car: driven by its own tracker it touches nothing.
 
 use crate::planning_support::{self, Case, hall, least_gap, model, place, random_world};
 use starl_core::motion::Estimate;
@@ -6,7 +6,7 @@ use starl_core::{Duration, Obstacle, Point, Pose, Random, Time, math};
 use starl_motion::tracking::{Goal, Tracking};
 use starl_motion::{Disturbance, Model};
 
-/// Drives along the way-points with an estimate every 0.1 s, from one to the next within 0.15 m if the
+/// Drives along the waypoints with an estimate every 0.1 s, from one to the next within 0.15 m if the
 /// straight way there is free, otherwise within 0.075 m; the least gap on the way, and where it ends.
 fn follow(model: &dyn Model, case: &Case, path: &[Point]) -> (f64, Point) {
     let mut state = model.at_rest(Pose::level(case.from, case.yaw));

@@ -1,5 +1,5 @@
-//! What every planner owes, for every kind of robot: a path that starts where the robot is, ends at
-//! the target, keeps clear all along, and depends on nothing but the request.
+//! Every planner guarantees, for every kind of robot: a path starts at the robot, ends at the
+//! target, is free everywhere, and depends only on the request.
 
 use crate::planning_support::{Case, PLANNERS, hall, least_gap, model};
 use starl_core::Point;

@@ -6,7 +6,7 @@ use starl_motion::Neighbour;
 use starl_motion::planning;
 
 #[test]
-fn the_first_way_point_leads_out_and_the_gap_never_shrinks_on_the_way() {
+fn the_first_waypoint_leads_out_and_the_gap_never_shrinks_on_the_way() {
     for name in ["create", "drone"] {
         let model = model(name);
         let body = model.body();

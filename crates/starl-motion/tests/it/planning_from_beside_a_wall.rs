@@ -1,6 +1,6 @@
-//! A path from beside one side of a block to beside another is found with few nodes and the whole margin:
-//! searches begin where there is room, not in the dents about the ends, where nearly all that a tree grows
-//! to is a dead end.
+//! A path from beside one side of a block to beside another is found with few nodes and the whole margin.
+//! Searches begin where there is room, not in the dents around the ends, where nearly all extensions of a
+//! tree are dead ends.
 
 use crate::planning_support::{Case, model, rectangle};
 use starl_core::Point;

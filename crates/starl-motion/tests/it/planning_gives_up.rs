@@ -40,7 +40,7 @@ fn a_gap_too_narrow_for_the_body_is_closed() {
         for (width, passes) in [(1.98 * radius, false), (6.0 * radius, true)] {
             let (a, b) = (Point::planar(-4.0, -1.5), Point::planar(5.0, 1.5));
             let mut case = Case::new(a, b, gap(width)).with(planner, 2);
-            // What ReachAvoid asks for.
+            // ReachAvoid requests this number.
             case.request.most_nodes = 20_000;
             assert_eq!(case.plan(&*model).is_some(), passes, "{planner:?} {width}");
         }

@@ -26,7 +26,7 @@ fn a_ground_robot_drives_under_what_is_higher_than_it() {
 }
 
 #[test]
-fn a_floor_slab_stops_nobody() {
+fn a_floor_slab_stops_no_robot() {
     let slab = Obstacle::cuboid(Point::new(-9.0, -9.0, -1.0), Point::new(9.0, 9.0, 0.0));
     for name in ["create", "drone", "car"] {
         let model = model(name);

@@ -134,7 +134,7 @@ fn a_passage_narrower_than_positions_err_is_no_way() {
 }
 
 #[test]
-fn nobody_squeezes_past_a_robot_that_stands_in_a_door() {
+fn no_robot_squeezes_past_a_robot_in_a_door() {
     // A door of one metre, a dead robot beside one of its posts, 6 mm more than the body on either side;
     // round the end of the wall is another way.
     let model = model("create");
@@ -151,7 +151,7 @@ fn nobody_squeezes_past_a_robot_that_stands_in_a_door() {
             let ends = (Point::planar(0.8, -0.6), Point::planar(0.8, 0.6));
             let mut case = Case::new(ends.0, ends.1, posts.clone()).with(planner, seed);
             case.request.around_robots = true;
-            // What the last of its ways through would be found with.
+            // The last of its paths would be found with this number.
             case.request.most_nodes = 1_000;
             let estimate = case.estimate();
             let path = planning::plan(&*model, &estimate, &case.request, &[dead]);

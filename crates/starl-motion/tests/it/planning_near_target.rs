@@ -24,7 +24,7 @@ fn the_nearest_free_point_is_gone_to_if_it_is_near_enough() {
     for planner in PLANNERS {
         let case = case(0.4).with(planner, 4);
         let path = case.plan(&*model).expect("a path to near the target");
-        let end = *path.last().expect("a way-point");
+        let end = *path.last().expect("a waypoint");
         assert!((end.y - (1.0 + clear)).abs() < 1e-4, "{end}");
         assert!((end.x - 2.0).abs() < 0.02, "{end}");
         let gap = least_gap(body, &case.whole(&*model, &path), &case.request.unsafe_set);
@@ -47,7 +47,7 @@ fn the_margin_yields_where_the_vicinity_allows_no_more_than_the_body_needs() {
     let model = model("create");
     for planner in PLANNERS {
         let path = case(0.12).with(planner, 4).plan(&*model).expect("a path");
-        let end = *path.last().expect("a way-point");
+        let end = *path.last().expect("a waypoint");
         assert!(
             end.y >= 1.0 + model.body().radius && end.y <= 1.05 + 0.12,
             "{end}"
@@ -82,7 +82,7 @@ fn a_target_pinched_by_two_walls_moves_to_where_both_leave_room() {
     let path = planning::plan_with(&options, &*model, &case.estimate(), &case.request, &[])
         .expect("a path");
     let clear = model.body().radius * (1.0 + options.margin_radii);
-    let end = *path.last().expect("a way-point");
+    let end = *path.last().expect("a waypoint");
     // The nearest free point is (clear, clear); it is found to within a hundredth of the distance.
     let best = Point::planar(0.05, 0.05).distance(Point::planar(clear, clear));
     assert!(

@@ -1,6 +1,6 @@
-//! What is owed in any world: a path starts where the robot is, ends within the vicinity of the target,
-//! touches nothing on the way, and is the same whenever it is asked for. Starts and targets lie anywhere,
-//! also in margins, in contact and in obstacles.
+//! Guarantees in any world: a path starts at the robot, ends within the vicinity of the target, touches
+//! nothing on the way, and is the same for each call. Starts and targets are anywhere, also in margins,
+//! in contact and in obstacles.
 
 use crate::planning_support::{Case, PLANNERS, least_gap, model, place, random_world};
 use starl_core::geometry::HeightSpan;

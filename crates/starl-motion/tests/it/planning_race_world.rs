@@ -25,7 +25,7 @@ fn legs(name: &str, vicinity: f64, planner: Planner, seeds: u64) {
             let path = path.unwrap_or_else(|| panic!("{name} {planner:?} {seed} {from} to {to}"));
             let whole = case.whole(&*model, &path);
             let target = body.reachable(to);
-            let end = *path.last().expect("a way-point");
+            let end = *path.last().expect("a waypoint");
             assert!(end.distance(target) <= vicinity, "{name} {end}");
             // At B the drone starts where it does not fit and leads out of there first.
             let skip = usize::from(obstacles[0].body_gap(whole[0], body.radius, body.height) < 0.0);
@@ -44,7 +44,7 @@ fn the_create_plans_every_leg_for_a_thousand_seeds() {
 
 #[test]
 fn the_drone_plans_every_leg_for_a_thousand_seeds() {
-    // Way-point B is 0.309 m from a corner of the obstacle and the drone's radius is 0.34 m.
+    // Waypoint B is 0.309 m from a corner of the obstacle and the drone's radius is 0.34 m.
     legs("drone", 0.032, Planner::Auto, 1_000);
 }
 

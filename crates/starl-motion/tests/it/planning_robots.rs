@@ -61,7 +61,7 @@ fn a_target_taken_by_a_robot_is_approached_as_far_as_the_vicinity_allows() {
     assert_eq!(path, None);
     case.request.vicinity = 0.4;
     let path = planning::plan(&*model, &case.estimate(), &case.request, &others).expect("a path");
-    let end = *path.last().expect("a way-point");
+    let end = *path.last().expect("a waypoint");
     let apart = end.distance(others[0].position);
     assert!((0.365..=0.4).contains(&apart), "{apart}");
 }

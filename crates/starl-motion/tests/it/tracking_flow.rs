@@ -1,10 +1,10 @@
-//! With a way-point after the next, robots flow through instead of stopping; speed limits hold.
+//! With a waypoint after the next, robots flow through instead of stopping; speed limits hold.
 
 use crate::conformance::{Positioning, Run, every_model};
 use starl_core::{Duration, Point, Pose, Random};
 use starl_motion::{Goal, Model};
 
-/// The slowest speed while a robot drives past the middle one of three way-points in a line, which
+/// The slowest speed while a robot drives past the middle one of three waypoints in a line, which
 /// it is told to leave at 0.2 m.
 fn slowest(model: &dyn Model, tells_next: bool) -> f64 {
     let start = model.body().reachable(Point::ZERO);
@@ -20,7 +20,7 @@ fn slowest(model: &dyn Model, tells_next: bool) -> f64 {
 }
 
 #[test]
-fn robots_keep_their_speed_through_way_points_in_a_line() {
+fn robots_keep_their_speed_through_waypoints_in_a_line() {
     for model in every_model() {
         let cruise = model.limits().cruise_speed;
         let (flowing, stopping) = (slowest(&*model, true), slowest(&*model, false));

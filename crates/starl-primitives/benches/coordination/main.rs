@@ -1,13 +1,13 @@
-//! What an entry, an election, an agreed registration and a crossing take: messages, time and processor time,
-//! for 3 to 100 robots, each against the theory of its algorithm.
+//! The cost of an entry, an election, an agreed registration and a crossing: messages, time and processor
+//! time, for 3 to 100 robots, each against the theory of its algorithm.
 //!
 //! `cargo bench -p starl-primitives --bench coordination -- [--quick]`
 //!
-//! Robots have nothing but the primitive, and a network that loses nothing and takes the same time for each
-//! datagram. Each task is done with several seeds, with delays of 1 ms and of 2 ms. What grows with the delay
-//! counts as delays, the rest are waits that the algorithm has of its own. Messages count once for each
-//! receiver. Processor time is that of all robots together with the test's network: the median over the seeds
-//! by the clock, or for tasks of more than 2 ms the mean by the kernel's count.
+//! Robots have nothing but the primitive, and a network without loss that takes the same time for each
+//! datagram. Each task is done with several seeds, with delays of 1 ms and of 2 ms. Time that grows with the
+//! delay counts as delays, the rest as waits of the algorithm. Messages count once for each receiver.
+//! Processor time is that of all robots together with the test's network: the median over the seeds by the
+//! clock, or for tasks of more than 2 ms the mean by the kernel's count.
 
 #![allow(
     clippy::disallowed_methods,
@@ -24,7 +24,7 @@ use tasks::Task;
 
 const SIZES: [usize; 7] = [3, 4, 9, 16, 25, 49, 100];
 
-/// What doing a task once takes.
+/// The cost of doing a task once.
 #[derive(Clone, Copy, Default)]
 struct Cost {
     messages: f64,

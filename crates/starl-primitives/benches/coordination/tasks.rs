@@ -1,4 +1,4 @@
-//! What is measured: how a fleet gets ready for it, does it, and what it takes in theory.
+//! The measured tasks: their preparation, the task, and the cost in theory.
 
 use crate::harness::crosser::{Crosser, arrive, crosser};
 use crate::harness::elector::{ELECT, Elector, agreed, by};
@@ -83,8 +83,8 @@ fn at_least(messages: impl Fn(f64) -> f64 + 'static) -> Box<dyn Fn(f64) -> Strin
 
 fn mutexes() -> Vec<Task> {
     use mutex::Algorithm::{Lease, Permission, Quorum};
-    // Request and permission; or request, grant and release. In a crowd those who wait for a quorum are told, asked
-    // to yield, and yield.
+    // Request and permission; or request, grant and release. In a crowd robots that wait for a quorum are told,
+    // asked to yield, and yield.
     let each = |algorithm| match algorithm {
         Permission => ("2", 2.0, "1", 2.0),
         Quorum => ("2", 3.0, "2", 6.0),
@@ -218,7 +218,7 @@ fn registers() -> Vec<Task> {
             exactly(|n| 4.0 * (n - 1.0)),
             "4 for all",
         ),
-        // The same for a claim and what writes it, if nobody is refused.
+        // The same for a claim and its write, if no robot is refused.
         task(
             "register, all claim and write",
             keeper::all_count,

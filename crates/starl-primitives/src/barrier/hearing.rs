@@ -3,11 +3,11 @@
 //! Invariant: of robots that know their generation, none is more than one ahead of another that keeps its
 //! memory; and what counts of a robot's words was said after it had heard of this robot's present life.
 //!
-//! What a robot says it has come to once it knows stays true as long as anybody remembers it, so it counts until another
-//! life is heard of; from then on what that one says, once it has shown itself to be the later one (see
-//! [`Handshake`]). Of one that does not know yet nothing counts but its questions, since it may have restarted and passed
-//! generations meanwhile. So a robot that learns its generation learns from all that could tell more: whoever has
-//! answered its life counts no word of its earlier ones.
+//! A robot's announcement of its generation, once it knows it, stays true as long as a robot remembers it. So it
+//! counts until another life is heard of. From then on the announcements of that life count, once it has proved to be
+//! the later one (see [`Handshake`]). Of a life that does not know its generation yet only its questions count,
+//! because it may have restarted and passed generations meanwhile. So a robot that learns its generation learns it
+//! from all robots that could know more: a robot that has answered its life ignores its earlier lives.
 
 use super::packet::Packet;
 use super::{Barrier, GREATEST, Peer, Words};
@@ -67,14 +67,14 @@ impl Barrier {
         } else if !said.missing.contains(&me) {
             self.owed.remove(&from);
         }
-        // Who speaks has not failed, unless the message was long under way.
+        // A robot that sends has not failed, unless the message was in transit for long.
         self.suspects.remove(&from);
     }
 
     /// The generation is certain when all have answered.
     pub(super) fn learn_generation(&mut self, robot: &mut Robot<'_>) {
         if self.knows {
-            // Nobody is two ahead of this robot, which they would have waited for.
+            // No robot is two generations ahead of this one, because it would have waited.
             let next = self.generation + 1;
             let mut heard = self.peers.values().filter_map(Peer::certain);
             if heard.any(|said| said.generation > next) {
@@ -96,11 +96,11 @@ impl Barrier {
         self.generation = greatest.min(GREATEST);
         self.move_on(robot);
         self.report_waiting(robot);
-        // Nobody counts this robot's arrival before.
+        // No robot counts this one's arrival before.
         self.say(robot, None);
     }
 
-    /// Forgets what was heard, and asks anew.
+    /// Forgets the answers, and asks again.
     pub(super) fn ask_all(&mut self, robot: &mut Robot<'_>) {
         self.knows = false;
         self.peers.clear();
@@ -131,7 +131,7 @@ impl Barrier {
         })
     }
 
-    /// What the present life of a robot has said since it heard of this one's.
+    /// The announcements of a robot's present life since it heard of this one's.
     fn said(&self, peer: RobotId) -> Option<&Words> {
         self.peers.get(&peer)?.said()
     }
@@ -152,8 +152,9 @@ impl Barrier {
         }
     }
 
-    /// Those from whom this robot needs to hear: before it can pass, or first before it knows. Two that do not
-    /// know and have answered each other have no more to say, or they would answer for ever.
+    /// The robots from which this robot needs a message: before it can pass, or before it knows its
+    /// generation. Two robots that do not know theirs and have answered each other send no more, or they would
+    /// answer for ever.
     pub(super) fn missing(&self, robot: &Robot<'_>) -> Vec<RobotId> {
         let others = self.others(robot);
         others.filter(|peer| self.is_missing(*peer)).collect()
@@ -164,7 +165,7 @@ impl Barrier {
             return;
         }
         let next = self.generation + 1;
-        // Who has passed has seen that all have come.
+        // A robot that has passed has seen that all have arrived.
         let has_passed = |peer: RobotId| {
             let said = self.said(peer);
             said.is_some_and(|said| said.knows && said.generation == next)
@@ -193,7 +194,8 @@ impl Words {
 }
 
 impl Peer {
-    /// What its present life has said since it heard of this robot's; none while another life of it is asked for.
+    /// The announcements of its present life since it heard of this robot's; none while another life of it is
+    /// queried.
     pub(super) fn said(&self) -> Option<&Words> {
         self.lives.known().filter(|_| self.lives.asked().is_none())
     }

@@ -1,35 +1,36 @@
-//! Barrier: nobody goes on before all have come to the same point (of the original StarL; the thesis
-//! mentions it among the synchronisation primitives).
+//! Barrier: no robot continues before all have arrived at the same point (of the original StarL; the
+//! thesis mentions it among the synchronisation primitives).
 //!
-//! A barrier is used again and again; its crossings are numbered, 1, 2, 3, ... (generations). A robot that
-//! has come says to all which generation it waits for, and passes when it knows that all others have come
-//! to that generation, or that one of them has passed it (a dissemination of counters, as in the
-//! sense-reversing barriers of Hensgen, Finkel and Manber 1988, with numbers for senses).
+//! A barrier is used repeatedly; its crossings (generations) are numbered 1, 2, 3, ... A robot that has
+//! arrived announces its generation to all. It passes when it knows that all others have arrived at that
+//! generation, or that one of them has passed it (a dissemination of counters, as in the sense-reversing
+//! barriers of Hensgen, Finkel and Manber 1988, with numbers instead of senses).
 //!
-//! A robot that has just started, or restarted without memory, does not know which generation comes next.
-//! It asks all others, naming its life, and takes the greatest number in their answers; answers to an
-//! earlier life do not count. Until all have answered it passes nothing, which costs nothing, as it needs
-//! all of them to pass; and its arrival does not count before, since nobody can tell for which generation.
-//! A life of which a robot has not heard before has to answer a number that the robot draws for it, so that copies
-//! of what its earlier lives said count no longer.
+//! A robot that has just started, or restarted without memory, does not know the next generation. It asks all
+//! others, with its life, and takes the greatest number in their answers; answers to an earlier life do not count.
+//! It passes nothing until all have answered, which costs no time, because it needs all of them to pass. Its
+//! arrival does not count before, because its generation is unknown. A life that is new to a robot must answer a
+//! number that the robot draws for it, so that late duplicates of earlier lives no longer count.
 //!
-//! What holds, whatever the network does and whichever robots crash and restart, as long as state is not
-//! corrupted:
-//! - safety: nobody passes a generation before every participant has come to it, or to a later one;
+//! These guarantees hold whatever the network does and whichever robots crash and restart, as long as
+//! state is not corrupted:
+//! - safety: no robot passes a generation before every participant has arrived at it, or at a later
+//!   one;
 //! - order: the generations that a robot passes in one life rise.
 //!
-//! If all have crashed since they last passed, generations begin anew with 1, and the same holds from there.
+//! If all have crashed since they last passed, generations start again with 1, with the same guarantees from
+//! there.
 //!
-//! What holds where datagrams are not always lost:
+//! These hold if not all datagrams are lost:
 //! - progress: when all participants have come and are up, all pass;
-//! - nobody waits unaware: while a participant that is waited for is believed to have failed,
-//!   [`Barrier::failed`] says so. Should it come back and arrive, all pass.
+//! - failures are visible: while a missing participant is believed to have failed,
+//!   [`Barrier::failed`] is true. If it returns and arrives, all pass.
 //!
-//! What a robot said before it crashed still counts: one that had come and crashed is waited for no longer
+//! Announcements before a crash still count: the others do not wait for a robot that arrived and crashed
 //! in that generation.
 //!
-//! Messages for n robots: n datagrams to all for each generation; 3n - 2 for the first, and where somebody
-//! has restarted up to n more; and those that repeat what was lost.
+//! Messages for n robots: n datagrams to all for each generation; 3n - 2 for the first, and up to n more
+//! after a restart; and retransmissions.
 //!
 //! Self-stabilising: numbers that do not fit each other make robots ask all others again, and they agree on
 //! the greatest. After a corruption of state robots may pass one generation too early.
@@ -48,7 +49,7 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use starl_core::event::BarrierEvent;
 use starl_core::{Input, Port, Primitive, Robot, RobotId, Time, TimerKey, timers};
 
-/// Greater numbers are none that robots could have counted to.
+/// Robots cannot have counted to greater numbers.
 const GREATEST: u64 = 1 << 62;
 
 timers! {
@@ -63,10 +64,10 @@ timers! {
 pub struct Barrier {
     port: Port,
     options: Options,
-    /// Who has to come; none for all of the fleet.
+    /// The robots that must arrive; none for the whole fleet.
     participants: Option<BTreeSet<RobotId>>,
     incarnation: Incarnation,
-    /// What it waits for, or will wait for next.
+    /// The generation that it waits for, or will wait for next.
     generation: u64,
     /// Whether this is certain: all others have answered since this robot began to ask.
     knows: bool,
@@ -87,9 +88,9 @@ pub struct Barrier {
 /// Another robot.
 #[derive(Clone, Debug)]
 struct Peer {
-    /// What its present life has said of itself.
+    /// The announcements of its present life.
     lives: Handshake<Words>,
-    /// What it wants to be answered.
+    /// The number that others must answer.
     echo: u32,
     /// Whether that is a token that it drew for this robot's present life.
     asks_anew: bool,
@@ -97,10 +98,10 @@ struct Peer {
     is_told: bool,
 }
 
-/// What a life has said of itself since it heard of this robot's present one.
+/// The announcements of a life since it heard of this robot's present one.
 #[derive(Clone, Copy, Debug, Default)]
 struct Words {
-    /// What it waits for, or will wait for next, or more if it does not know.
+    /// The generation that it waits for, or will wait for next, or more if it does not know.
     generation: u64,
     waits: bool,
     knows: bool,
@@ -127,8 +128,8 @@ impl Barrier {
         }
     }
 
-    /// Says that this robot has come. It waits from now on; if it waits already nothing happens. A robot
-    /// that is no participant waits for them all the same, and nobody waits for it.
+    /// Announces that this robot has arrived. It waits from now on; if it waits already nothing happens.
+    /// A robot that is not a participant also waits for them, and no robot waits for it.
     pub fn arrive(&mut self, robot: &mut Robot<'_>) {
         if self.waits {
             return;
@@ -159,7 +160,7 @@ impl Barrier {
     /// Whether this robot waits for one that is believed to have failed. It waits on, and passes should
     /// that robot come back and arrive.
     pub fn failed(&self) -> bool {
-        // Who has come by now is waited for no longer, dead or alive.
+        // Robots that have arrived by now are not waited for, dead or alive.
         self.waits
             && self
                 .suspects
@@ -178,7 +179,7 @@ impl Barrier {
         participants.is_none_or(|participants| participants.contains(&robot))
     }
 
-    /// Who has to come, in the order of their numbers.
+    /// The robots that must arrive, in the order of their numbers.
     fn all(&self, robot: &Robot<'_>) -> BTreeSet<RobotId> {
         let fleet = robot.fleet().iter().copied();
         fleet.filter(|peer| self.takes_part(*peer)).collect()

@@ -5,8 +5,8 @@ use starl_core::Duration;
 /// Settings of [`super::Barrier`]. Times run on the robot's own clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// What a robot that waits has said is repeated after this time to those that it has not heard; best a
-    /// few times the network's delay. Default 250 ms.
+    /// A waiting robot repeats its announcement to silent robots after this time; best a few times the
+    /// network's delay. Default 250 ms.
     pub first_timeout: Duration,
     /// The time between repetitions doubles up to this. Default 4 s.
     pub longest_timeout: Duration,

@@ -1,4 +1,4 @@
-//! What robots say to each other about where they are.
+//! The messages between robots about their generations.
 
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
@@ -15,12 +15,12 @@ pub(super) struct Packet {
     pub waits: bool,
     /// Whether that number is certain.
     pub knows: bool,
-    /// What the sender answers to others, to show that it was alive after they asked for it.
+    /// The sender's answers to others, to show that it was alive after they asked.
     pub heard: BTreeMap<RobotId, u32>,
-    /// What others are to answer, where it is not the sender's incarnation: numbers drawn for lives of theirs that are new
-    /// to the sender.
+    /// The numbers that others must answer, if they differ from the sender's incarnation: drawn for lives of theirs
+    /// that are new to the sender.
     pub asks: BTreeMap<RobotId, u32>,
-    /// From whom the sender needs to hear before it can pass.
+    /// The robots from which the sender needs a message before it can pass.
     pub missing: Vec<RobotId>,
     /// Whether it has said the same before.
     pub again: bool,

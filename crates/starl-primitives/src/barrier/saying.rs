@@ -1,4 +1,4 @@
-//! What a robot says of itself, when, and to whom.
+//! The announcements of a robot, with their times and receivers.
 
 use super::packet::Packet;
 use super::{Barrier, GREATEST, Peer};
@@ -8,8 +8,9 @@ use starl_core::event::BarrierEvent;
 use starl_core::{Destination, Robot, RobotId};
 
 impl Barrier {
-    /// Tells those that need it how far this robot is. While it waits it does so once it has heard all,
-    /// since nobody can pass before; when it has not come yet, what it will say then is answer enough.
+    /// Announces this robot's generation to those that need it. While it waits it does so once it has
+    /// heard all, because no robot can pass before. Before it has arrived, its later announcement is
+    /// answer enough.
     pub(super) fn answer(&mut self, robot: &mut Robot<'_>) {
         let place = (self.generation, self.waits);
         if !self.has_come {

@@ -1,9 +1,9 @@
 //! Broadcast: a message to every other robot (thesis, section 3.3.1), in one of several orders.
 //!
 //! Property (d1): over a network that delivers a datagram within `longest_delay` or not at all, every
-//! robot that receives the message does so within [`Broadcast::delivery_bound`] of the call, once; and
-//! every robot receives it that is up and for which not all copies are lost. Whoever did not
-//! acknowledge it is named by [`Broadcast::take_failures`].
+//! robot that receives the message does so within [`Broadcast::delivery_bound`] of the call, once.
+//! Every robot receives it that is up and for which not all copies are lost.
+//! [`Broadcast::take_failures`] names the robots without acknowledgement.
 //!
 //! "This can be easily expanded to enforce message ordering, such as FIFO ordering, causal ordering, and
 //! total ordering", says the thesis: see [`Order`].
@@ -26,7 +26,7 @@ use starl_core::event::{BroadcastEvent, TransferEvent};
 use starl_core::{Duration, Input, Port, Primitive, Random, Robot, RobotId};
 use total::Total;
 
-/// Sends messages to all other robots of the application. What arrives is handed to
+/// Sends messages to all other robots of the application. Received messages are passed to
 /// [`starl_core::Program::receive`] with this primitive's port.
 #[derive(Clone, Debug)]
 pub struct Broadcast {
@@ -34,7 +34,7 @@ pub struct Broadcast {
     way: Way,
 }
 
-/// How the order comes about.
+/// The implementation of the order.
 #[derive(Clone, Debug)]
 enum Way {
     Acknowledged(Box<Channel>),
@@ -45,14 +45,14 @@ enum Way {
 /// Messages that were passed over: others may have received them, and this robot will not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Gap {
-    /// Whose they were; none where they may have been anyone's.
+    /// Their sender; none if unknown.
     pub from: Option<RobotId>,
 }
 
-/// Gaps that nobody asks for are kept up to this number, the latest.
+/// The latest gaps are kept up to this number.
 const MOST_GAPS: usize = 64;
 
-/// What was passed over and not asked for.
+/// The messages that were passed over and not queried.
 #[derive(Clone, Debug, Default)]
 struct Gaps(VecDeque<Gap>);
 
@@ -140,9 +140,8 @@ impl Broadcast {
         }
     }
 
-    /// The messages that some robot did not acknowledge, since the last call; at most the latest 64.
-    /// In total order, those that were given up without a place in the order, of which nobody knows who
-    /// received them.
+    /// The messages that some robot did not acknowledge, since the last call; at most the latest 64. In
+    /// total order, those that were given up without a place in the order, whose receivers are unknown.
     pub fn take_failures(&mut self) -> Vec<Failure> {
         match &mut self.way {
             Way::Acknowledged(channel) => channel.take_failures(),
@@ -151,7 +150,7 @@ impl Broadcast {
         }
     }
 
-    /// What was passed over since the last call; at most the latest 64.
+    /// The messages passed over since the last call; at most the latest 64.
     pub fn take_gaps(&mut self) -> Vec<Gap> {
         match &mut self.way {
             Way::Acknowledged(_) => Vec::new(),

@@ -18,7 +18,7 @@ pub enum Order {
 }
 
 impl Order {
-    /// What records call it; none where there is no order.
+    /// The name of the order in records; none without an order.
     pub(super) fn promised(self) -> Option<messaging::Order> {
         match self {
             Order::Unordered => None,

@@ -34,7 +34,7 @@ impl Epoch {
         Epoch(moment << ROBOT_BITS | u64::from(leader.0) & ((1 << ROBOT_BITS) - 1))
     }
 
-    /// Whose it is.
+    /// The leader of the epoch.
     pub fn leader(self) -> RobotId {
         RobotId(self.0 as u32 & ((1 << ROBOT_BITS) - 1))
     }
@@ -72,7 +72,7 @@ mod tests {
         let at = |seconds: u64| Time(seconds * 1_000_000_000);
         let ahead = Epoch::next(Epoch(0), at(100), RobotId(1));
         let before = Epoch::next(ahead, at(3), RobotId(0));
-        // It forgets all, leads anew, and then gets a late copy of what was said.
+        // It loses its state, leads again, and then gets a late copy of an earlier message.
         let anew = Epoch::next(Epoch(0), at(8), RobotId(0));
         let after = Epoch::next(ahead.max(anew), at(9), RobotId(0));
         assert!(ahead < before && ahead < after && before != after);

@@ -1,20 +1,20 @@
 //! Election of a leader among participants (thesis, section 3.4.2).
 //!
-//! A robot that calls [`LeaderElection::elect`] stands for election from then on. Who leads is told by
-//! [`LeaderElection::leader`]: none while an election is under way. A leader that fails or resigns is
-//! replaced by itself. How a leader is found is the option [`Algorithm`]:
+//! A robot that calls [`LeaderElection::elect`] stands for election from then on.
+//! [`LeaderElection::leader`] returns the leader: none during an election. A leader that fails or
+//! resigns is replaced automatically. The option [`Algorithm`] selects the algorithm:
 //!
 //! - `Leases` (default, `leases/`): by votes of a majority of the participants, for an epoch and for the time of
-//!   a lease. Each epoch has one leader whatever the network does and whoever crashes and restarts; epochs
-//!   grow, so they serve as fencing numbers; at no time do two robots lead, if clocks keep to the drift
-//!   allowed for. Whoever is cut off from a majority shows no leader.
+//!   a lease. Each epoch has one leader whatever the network does and whichever robots crash and restart. Epochs
+//!   grow, so they serve as fencing numbers. Two robots never lead at the same time if clocks keep to the
+//!   allowed drift. A robot that is disconnected from a majority shows no leader.
 //! - `Ballots` (`ballots.rs`): each draws a number, the greatest wins, as in the thesis. In each part of a
 //!   network that falls apart there is a leader.
 //! - `Bully` (`bully.rs`): the greatest robot wins, likewise.
 //!
-//! Robots that are linked come to show the same leader, within a time that the reference gives. The leader
-//! is a participant that has called `elect`. An election that takes too long counts as
-//! [failed](LeaderElection::failed), and goes on: nobody waits unaware.
+//! Connected robots show the same leader within a time that the reference gives. The leader is a
+//! participant that has called `elect`. An election that takes too long has
+//! [failed](LeaderElection::failed), and continues.
 //!
 //! Self-stabilising: what is out of all bounds is put right at the next activation, and all else is
 //! overwritten by what leaders say again and again.
@@ -40,7 +40,7 @@ use rules::{Leadership, Rules};
 use starl_core::event::ElectionEvent;
 use starl_core::{Input, Port, Primitive, Random, Robot, RobotId, Time};
 
-/// Changes that nobody asks for are kept up to this number, the latest.
+/// The latest changes are kept up to this number.
 const MOST_CHANGES: usize = 16;
 
 /// Elects a leader. See the [module](self).
@@ -68,7 +68,7 @@ pub struct LeaderElection {
     armed: Option<Time>,
 }
 
-/// What became of a leader.
+/// A change of the leader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
     /// This robot leads from now on; or it did before, and does in a later epoch.
@@ -145,7 +145,8 @@ impl LeaderElection {
         self.settle(robot);
     }
 
-    /// No longer stands. If this robot leads, it says that it no longer does, and the others elect anew.
+    /// No longer stands. If this robot leads, it announces that it no longer does, and the others elect
+    /// again.
     pub fn resign(&mut self, robot: &mut Robot<'_>) {
         self.begin(robot);
         if self.called {
@@ -156,7 +157,7 @@ impl LeaderElection {
         self.settle(robot);
     }
 
-    /// Who leads, as far as this robot knows; none while an election is under way.
+    /// The leader, as far as this robot knows; none during an election.
     pub fn leader(&self) -> Option<RobotId> {
         Some(self.shown?.leader)
     }
@@ -178,7 +179,7 @@ impl LeaderElection {
         self.called && self.takes_part
     }
 
-    /// What became of leaders since the last call, the latest 16.
+    /// The changes of the leader since the last call, the latest 16.
     pub fn take_changes(&mut self) -> impl Iterator<Item = Change> + use<> {
         core::mem::take(&mut self.changes).into_iter()
     }
@@ -211,7 +212,7 @@ impl Primitive for LeaderElection {
         if *input == Input::Start {
             self.run(robot, |rules, scene| rules.recall(scene));
         }
-        // What has run out by now must not be taken for valid.
+        // Expired state must not be taken for valid.
         self.run(robot, |rules, scene| rules.settle(scene));
         match input {
             Input::Message(message) if message.port == self.port => {

@@ -17,8 +17,8 @@ pub struct Options {
     pub drift: f64,
     /// The time between two messages by which a leader says that it leads. Default 500 ms.
     pub period: Duration,
-    /// What is not answered is said again after this time, then after twice that, up to four times the
-    /// period. Best a few times the network's delay. Default 250 ms.
+    /// The time until the first retransmission, then twice that, up to four times the period. Best a
+    /// few times the network's delay. Default 250 ms.
     pub first_timeout: Duration,
     /// Bully: a greater robot that has not answered for this time is taken for failed. Default 1 s.
     pub answer_timeout: Duration,

@@ -1,4 +1,4 @@
-//! What robots say to each other about leaders.
+//! The messages between robots about leaders.
 
 use super::epoch::Epoch;
 use serde::{Deserialize, Serialize};
@@ -11,10 +11,10 @@ pub(super) enum Packet {
     Ballot {
         /// Counts elections.
         round: u64,
-        /// What it drew.
+        /// Its ballot.
         ballot: u32,
     },
-    /// Ballots: who was elected.
+    /// Ballots: the winner.
     Outcome(Outcome),
     /// Bully: the sender asks greater robots whether they are there.
     Election,
@@ -49,7 +49,7 @@ pub(super) enum Packet {
         /// By its clock.
         remaining: Duration,
     },
-    /// Leases: the sender has started anew, and wants to know what was promised before.
+    /// Leases: the sender has restarted, and asks for earlier promises.
     Ask {
         /// Counts its attempts.
         attempt: u32,
@@ -60,7 +60,7 @@ pub(super) enum Packet {
     Tell(Memory),
 }
 
-/// Ballots: who was elected when. Of two outcomes the greater is believed.
+/// Ballots: the winner and its round. Of two outcomes the greater is accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(super) struct Outcome {
     /// The election.
@@ -92,6 +92,6 @@ pub(super) struct Memory {
     pub remembers: bool,
     /// For how long it has been up, by its clock.
     pub up_for: Duration,
-    /// For how long it has begun anew with a majority, if it has.
+    /// The time since it started again with a majority, if it has.
     pub anew_for: Option<Duration>,
 }

@@ -1,4 +1,4 @@
-//! What the three algorithms have in common, for [`super::LeaderElection`] to run them alike.
+//! The common interface of the three algorithms for [`super::LeaderElection`].
 
 use super::Options;
 use super::packet::Packet;
@@ -26,7 +26,7 @@ pub(super) trait Rules {
     fn settle(&mut self, scene: &mut Scene<'_, '_>);
     /// When something is due next.
     fn due(&self, scene: &Scene<'_, '_>) -> Time;
-    /// Who leads, as far as this robot knows.
+    /// The leader, as far as this robot knows.
     fn leadership(&self, me: RobotId) -> Option<Leadership>;
     /// Takes up what storage holds, when the robot starts.
     fn recall(&mut self, scene: &mut Scene<'_, '_>) {
@@ -40,7 +40,7 @@ pub(super) trait Rules {
     fn corrupt(&mut self, random: &mut Random);
 }
 
-/// What an algorithm sees at one moment.
+/// The environment of an algorithm at one moment.
 pub(super) struct Scene<'s, 'r> {
     pub robot: &'s mut Robot<'r>,
     pub port: Port,
@@ -77,7 +77,7 @@ impl Scene<'_, '_> {
             .transmit(Destination::Robot(to), self.port, &packet);
     }
 
-    /// Says something to all robots: those that do not take part come to know who leads.
+    /// Sends a message to all robots: those that do not participate also learn the leader.
     pub fn tell_all(&mut self, packet: Packet) {
         if self.robot.peers().next().is_some() {
             self.robot.transmit(Destination::All, self.port, &packet);

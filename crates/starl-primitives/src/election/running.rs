@@ -1,4 +1,4 @@
-//! Running an algorithm: who takes part, what has changed, when something is due, and when it takes too long.
+//! Runs an algorithm: the participants, changes, timeouts, and elections that take too long.
 
 use super::epoch::Epoch;
 use super::rules::{Leadership, Rules, Scene};
@@ -32,7 +32,7 @@ impl LeaderElection {
         robot.report(self.port, start);
     }
 
-    /// Finds out who the participants are.
+    /// Determines the participants.
     fn meet(&mut self, robot: &Robot<'_>) {
         let (me, fleet) = (robot.id(), robot.fleet());
         if self.has_begun && fleet.len() == self.fleet_size {

@@ -6,7 +6,7 @@ use starl_core::{Duration, Time, math};
 /// The share of each new interval in mean and variance: about the last sixteen count.
 const WEIGHT: f64 = 1.0 / 16.0;
 
-/// What is known of one robot. Intervals are in seconds; mean and variance fade exponentially (West
+/// The knowledge of one robot. Intervals are in seconds; mean and variance fade exponentially (West
 /// 1979), so that they follow a network that changes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Arrivals {

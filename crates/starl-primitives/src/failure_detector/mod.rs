@@ -5,15 +5,15 @@
 //! Katayama 2004). Unlike there, mean and variance fade rather than coming from a window, the margin
 //! grows with every suspicion that proves false, and silence is looked at once a period.
 //!
-//! Properties, in a network that from some time on delivers enough heartbeats within some bound, which
-//! nobody needs to know (an eventually perfect detector: Chandra and Toueg 1996):
+//! Properties, in a network that from some time on delivers enough heartbeats within some unknown
+//! bound (an eventually perfect detector: Chandra and Toueg 1996):
 //! - completeness: every robot that stays down comes to be suspected for good by all that are up, within
 //!   [`FailureDetector::patience`] of its last heartbeat, which is never more than
 //!   [`Options::longest_patience`], and a period more;
-//! - accuracy: from some time on nobody suspects a robot that is up, linked and keeps running;
+//! - accuracy: from some time on no robot suspects a robot that is up, connected and keeps running;
 //! - a restart does not pass unnoticed, however short: the robot is suspected and trusted again.
 //!
-//! A suspicion may be wrong. Whoever acts on one must be safe even so.
+//! A suspicion may be wrong, and primitives that act on one must be safe even then.
 //!
 //! Messages: one datagram to all in each period, of some ten bytes, whatever the number of primitives.
 //! After a corruption of the state a robot that is up is suspected in error at most once, and a robot that
@@ -43,7 +43,7 @@ timers! {
     }
 }
 
-/// What heartbeats say.
+/// The content of a heartbeat.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Heartbeat {
     /// Drawn at the start.
@@ -52,8 +52,8 @@ struct Heartbeat {
     number: u32,
 }
 
-/// Watches the other robots of the application. What it finds out reaches the program's other primitives
-/// as [`Input::Suspected`] and [`Input::Trusted`].
+/// Watches the other robots of the application. The program's other primitives receive its findings as
+/// [`Input::Suspected`] and [`Input::Trusted`].
 #[derive(Clone, Debug)]
 pub struct FailureDetector {
     port: Port,
@@ -122,7 +122,7 @@ impl FailureDetector {
         robot.set_timer(self.timer(), Duration::from_seconds_f64(first));
     }
 
-    /// Says that this robot is up, and looks who is silent.
+    /// Announces that this robot is up, and checks for silent robots.
     fn tick(&mut self, robot: &mut Robot<'_>) {
         self.beat.number = self.beat.number.wrapping_add(1);
         robot.transmit(Destination::All, self.port, &self.beat);

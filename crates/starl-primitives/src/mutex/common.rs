@@ -1,5 +1,5 @@
-//! What all algorithms of a mutex go by: who this robot is to the others, what it holds, and what it has to
-//! report.
+//! The state that all algorithms of a mutex share: this robot's identity, the resources that it holds, and
+//! its reports.
 
 use super::{Options, Resources};
 use crate::incarnation::Incarnation;
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use starl_core::event::MutexEvent;
 use starl_core::{Port, Random, Robot, RobotId, TimerKey, timers};
 
-/// A clock this far ahead is none that robots' requests could have driven it to.
+/// Requests cannot have driven a clock this far ahead.
 const FURTHEST: u64 = 1 << 45;
 
 timers! {
@@ -36,7 +36,7 @@ pub(super) struct RequestId {
 pub(super) struct Common {
     pub port: Port,
     pub options: Options,
-    /// Who is asked; none for all of the fleet.
+    /// The participants; none for the whole fleet.
     pub participants: Option<BTreeSet<RobotId>>,
     pub incarnation: Incarnation,
     /// Counts requests.
@@ -70,9 +70,9 @@ impl Common {
         }
     }
 
-    /// The time of the next request on Lamport's clock. It never falls behind the robot's own clock, in some
-    /// milliseconds: one who has heard of nobody yet would else ask before all who wait already, and where
-    /// ever new robots come these would wait for ever.
+    /// The time of the next request on Lamport's clock. It never falls behind the robot's own clock, in
+    /// milliseconds. Otherwise a robot that has not heard from any other would be ahead of all waiting
+    /// robots, and a stream of new robots would starve them.
     pub fn tick(&mut self, robot: &Robot<'_>) -> u64 {
         self.clock = self.clock.saturating_add(1).max(robot.now().0 >> 20);
         self.clock

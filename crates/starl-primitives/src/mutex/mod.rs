@@ -1,19 +1,21 @@
 //! Mutual exclusion on sets of named resources (thesis, section 3.4.3).
 //!
-//! A robot asks for several resources at once, gets all of them at once, and gives them back one by one
-//! or together. How robots agree on who has what is an [`Algorithm`]: permission by all others, grants by a
-//! quorum of them, or leases of a majority. What they promise is the same:
+//! A robot requests several resources at once, gets all of them at once, and releases them together or one
+//! by one. The [`Algorithm`] decides when it gets them: permission of all others, grants of a quorum, or
+//! leases of a majority. Their guarantees are the same:
 //! - safety: no resource is held by two robots at once, whatever the network does and whichever robots
-//!   crash and restart; with leases, as long as clocks keep the bound of [`Options::drift`], and where they
-//!   do not [`Mutex::fencing`] tells who holds it;
-//! - progress: if every holder gives back what it holds, every request is granted, in the order of
-//!   Lamport's clock where requests overlap: nobody starves, and overlapping sets do not deadlock;
-//! - non-interference: a request that overlaps with nobody's is granted after one exchange of messages, two
-//!   where robots hear of each other for the first time;
-//! - nobody waits unaware: where a request waits for a robot that is suspected by the program's
-//!   [`crate::FailureDetector`], [`Mutex::failed`] says so, until the robot is trusted again.
+//!   crash and restart. With leases this requires that clocks keep the bound of [`Options::drift`]; if they
+//!   do not, [`Mutex::fencing`] identifies the later holder;
+//! - progress: if every holder releases its resources, every request is granted, in the order of
+//!   Lamport's clock where requests overlap: there is no starvation, and overlapping sets do not
+//!   deadlock;
+//! - non-interference: a request without overlap is granted after one exchange of messages, two where
+//!   robots hear of each other for the first time;
+//! - failures are visible: if a request waits for a robot that the program's
+//!   [`crate::FailureDetector`] suspects, [`Mutex::failed`] is true until the robot is trusted
+//!   again.
 //!
-//! What a robot held when it crashed stays locked until it is up again, when it holds nothing; with leases
+//! The resources of a crashed robot stay locked until it is up again, when it holds nothing; with leases
 //! until its lease ends.
 //!
 //! After a corruption of its state a robot may believe that it holds what another holds, until it gives it
@@ -73,8 +75,8 @@ pub enum AcquireError {
 
 impl Mutex {
     /// An instance; those of the same name on all robots lock the same resources. `participants` are
-    /// those who ask and are asked: all of the fleet, if none are given. Whoever may ask for the same
-    /// resource must be a participant of the others.
+    /// the robots that request and grant: by default the whole fleet. Robots that may request the
+    /// same resource must be participants of each other.
     pub fn new(name: &str, participants: Option<BTreeSet<RobotId>>, options: Options) -> Mutex {
         Mutex {
             common: Common::new(Port::named(name), participants, options),
@@ -85,15 +87,14 @@ impl Mutex {
         }
     }
 
-    /// Changes who is asked from the next request on.
+    /// Changes the participants from the next request on.
     pub fn set_participants(&mut self, participants: Option<BTreeSet<RobotId>>) {
         self.common.participants = participants;
     }
 
-    /// Asks for all of these resources at once (the thesis's do_mutex). A request that is under way
-    /// already is withdrawn, unless it is for the same resources: that one keeps its turn, and with
-    /// [`Algorithm::Permission`] those who are participants now are asked. Nothing is asked for an empty set, which
-    /// counts as held.
+    /// Requests all of these resources at once (the thesis's do_mutex). A pending request is withdrawn, unless it
+    /// is for the same resources: that one keeps its turn, and with [`Algorithm::Permission`] the current
+    /// participants are asked. An empty set needs no request and counts as held.
     ///
     /// # Errors
     /// Where the robot holds something.
@@ -146,7 +147,7 @@ impl Mutex {
         self.common.held.is_superset(resources)
     }
 
-    /// What this robot holds.
+    /// The resources that this robot holds.
     pub fn held(&self) -> &Resources {
         &self.common.held
     }
@@ -156,9 +157,9 @@ impl Mutex {
         !self.common.held.is_empty()
     }
 
-    /// The number of what is held, with [`Algorithm::Lease`]: greater than that of everybody who held one of
-    /// the resources before, and no other robot's. What a robot does with the resources should carry it,
-    /// so that whoever it is done to can refuse lower numbers than it has seen.
+    /// The number of the held resources, with [`Algorithm::Lease`]: greater than those of all earlier
+    /// holders of one of them, and different from every other robot's. Operations on the resources should
+    /// carry it, so that their receivers can refuse lower numbers than they have seen.
     pub fn fencing(&self) -> Option<u64> {
         match &self.protocol {
             Protocol::Permission(_) => None,
@@ -196,7 +197,7 @@ impl Mutex {
         known
     }
 
-    /// What is asked for.
+    /// The requested resources.
     fn wanted(&self) -> Option<&Resources> {
         each!(&self.protocol, state => state.wanted())
     }
@@ -221,7 +222,7 @@ impl Primitive for Mutex {
             state.look(common, robot);
         }
         match input {
-            // Who is not of the fleet asks for nothing.
+            // A robot outside the fleet cannot request anything.
             Input::Message(message)
                 if message.port == common.port && robot.fleet().contains(&message.from) =>
             {

@@ -2,7 +2,7 @@
 
 use starl_core::Duration;
 
-/// How robots agree on who has what. All robots must use the same for one mutex.
+/// The algorithm by which robots agree. All robots must use the same for one mutex.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Algorithm {
     /// All others permit each request (Ricart and Agrawala 1981): the fewest rounds.
@@ -10,8 +10,8 @@ pub enum Algorithm {
     Permission,
     /// Some two square roots of the participants grant it (Maekawa 1985): the fewest messages.
     Quorum,
-    /// A majority grants it for a while, with a number that tells later grants from earlier ones
-    /// (Gray and Cheriton 1989): whoever holds something may fail.
+    /// A majority grants it for a while, with a number that distinguishes later grants from earlier
+    /// ones (Gray and Cheriton 1989): the holder may fail.
     Lease,
 }
 
@@ -25,8 +25,8 @@ pub struct Options {
     pub first_timeout: Duration,
     /// The time between repetitions doubles up to this. Default 2 s.
     pub longest_timeout: Duration,
-    /// For how long a majority grants something: [`Algorithm::Lease`] only, and the same on all robots.
-    /// What a robot held that fails is free after this time. It is renewed when half of it is left, so let it be
+    /// The duration of a majority's grant: [`Algorithm::Lease`] only, and the same on all robots. The resources
+    /// of a failed robot are free after this time. The lease is renewed when half of it is left, so it should be
     /// many times the network's delay. Default 2 s.
     pub lease: Duration,
     /// No robot's clock runs faster or slower than true time by more than this share: for

@@ -1,4 +1,4 @@
-//! What a transient fault does to ReachAvoid.
+//! The effect of a transient fault on ReachAvoid.
 //!
 //! It recovers from any state: while a command is under way one timer is always armed, which takes it out of
 //! each of its phases, and the number of plans that it may ask for is bounded. A command that was lost is for

@@ -45,8 +45,8 @@ impl ReachAvoid {
         true
     }
 
-    /// Whether the robot is at the target; then the command is done. It goes on to the end of its path,
-    /// so that it comes to rest there and not short of it.
+    /// Whether the robot is at the target; then the command is done. It continues to the end of its
+    /// path, so that it stops there and not before.
     fn check_arrival(&mut self, robot: &mut Robot<'_>) -> bool {
         let Some(command) = &self.command else {
             return true;
@@ -114,7 +114,7 @@ impl ReachAvoid {
         false
     }
 
-    /// Moves on along the path as far as the robot has come; says whether that gave a new way-point.
+    /// Moves on along the path as far as the robot has come; says whether that gave a new waypoint.
     pub(super) fn advance(&mut self, robot: &Robot<'_>) -> bool {
         let Some(command) = &mut self.command else {
             return false;
@@ -139,7 +139,7 @@ impl ReachAvoid {
             ..
         } = self.options;
         let position = body.reachable(robot.position());
-        // At a way-point the way on is the planned one, but for a quarter of the vicinity.
+        // At a waypoint the remaining way is the planned one, except for a quarter of the vicinity.
         route.advance(position, 0.25 * vicinity, pass_radius, free)
     }
 

@@ -1,10 +1,10 @@
 //! ReachAvoid: go to a target, keep out of an unsafe set (thesis, section 3.2).
 //!
-//! It asks the host's planner for a path from where the robot has come to rest and feeds its points to
-//! the way-point tracker one by one. It plans again when the robot is pushed off the path or to where
-//! the straight way on is not free, when it comes no further, and when an obstacle that it had not
-//! known is in the way. Properties, under the thesis's assumptions (the actuators do
-//! not fail, positions are accurate to half the vicinity, a path of some width exists):
+//! It asks the host's planner for a path from where the robot has stopped, and passes its points to
+//! the waypoint tracker one by one. It replans when the robot is pushed off the path or to where the
+//! straight line is not free, when it makes no progress, and when an unknown obstacle is in the way.
+//! Properties, under the thesis's assumptions (the actuators do not fail, positions are accurate to
+//! half the vicinity, a path of some width exists):
 //! - safety: the robot's position stays outside the unsafe set; where it does not, it has failed;
 //! - goal: when it is done the robot has been within the vicinity of the target;
 //! - progress: it is not active for ever. In each [`Options::stuck_after`] the way ahead shrinks by
@@ -63,7 +63,7 @@ struct Command {
 
 #[derive(Clone, Debug)]
 enum Phase {
-    /// The robot comes to rest; then it asks for a path.
+    /// The robot stops; then it asks for a path.
     Braking { around_robots: bool },
     /// The planner is to answer.
     Planning,
@@ -194,7 +194,7 @@ impl ReachAvoid {
         self.failed
     }
 
-    /// Where the path under way starts, then its way-points, metres.
+    /// Where the path under way starts, then its waypoints, metres.
     pub fn path(&self) -> Option<&[Point]> {
         match &self.command.as_ref()?.phase {
             Phase::Following { route, .. } => Some(route.points()),

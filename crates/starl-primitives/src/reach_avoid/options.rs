@@ -9,7 +9,7 @@ pub struct Options {
     /// The target is reached at this distance from it, metres: in space for robots that fly, planar
     /// for others. At least twice the accuracy of the positioning system. Default 0.075.
     pub vicinity: f64,
-    /// A way-point before the last counts as passed at this distance if the way from there to the
+    /// A waypoint before the last counts as passed at this distance if the way from there to the
     /// next one is free, otherwise at a quarter of the vicinity, metres. Default 0.15.
     pub pass_radius: f64,
     /// A robot this far from its path plans again, metres. Default 0.5.

@@ -10,7 +10,7 @@ use starl_core::motion::{Body, Path};
 /// A path on the way.
 #[derive(Clone, Debug)]
 pub(super) struct Route {
-    /// Where it starts, then the way-points.
+    /// Where it starts, then the waypoints.
     points: Path,
     /// The point to go to now; at least 1.
     at: usize,
@@ -44,12 +44,12 @@ impl Route {
         self.points[self.points.len() - 1]
     }
 
-    /// Where it starts, then all way-points.
+    /// Where it starts, then all waypoints.
     pub fn points(&self) -> &[Point] {
         &self.points
     }
 
-    /// Counts way-points as passed that the robot at `position` has come to: within `wide` metres, or
+    /// Counts waypoints as passed that the robot at `position` has come to: within `wide` metres, or
     /// past it and within twice that, if one can go straight on to the next; in any case within `near`.
     /// `free` says whether one can go from a point to another. Says whether any were passed. The last
     /// never is.

@@ -1,4 +1,4 @@
-//! What participants answer, this robot among them, and when that is enough.
+//! The answers of participants, including this robot, and when they are enough.
 //!
 //! Invariant: answers count together only if none of them is from a life of its sender that another one
 //! knows to be over. So what a majority has stored or promised, a majority has, or has recovered.
@@ -10,9 +10,9 @@ use super::version::Version;
 use super::{Alarm, Register};
 use starl_core::{Duration, Robot, RobotId};
 
-/// What a participant says to a question.
+/// A participant's answer to a question.
 pub(super) enum Said {
-    /// What it has. `claimed` is the ballot that it has promised now, `promised` before.
+    /// Its copy. `claimed` is the ballot that it promises now, `promised` the one before.
     Shown {
         claimed: Option<Tag>,
         promised: Option<Tag>,

@@ -1,4 +1,4 @@
-//! What operations ask of others, when they ask again, and when they say that nobody answers.
+//! The questions of operations, their repetitions, and the reports that no robot answers.
 
 use super::operation::{Kind, Phase};
 use super::packet::{Content, Entry, QuestionId};
@@ -8,7 +8,7 @@ use starl_core::event::RegisterEvent;
 use starl_core::{Destination, Robot, RobotId};
 
 impl Register {
-    /// What an operation asks now.
+    /// The current question of an operation.
     fn question(&mut self, robot: &mut Robot<'_>, number: u32) -> Option<Content> {
         let operation = self.operations.get(&number)?;
         let id = QuestionId {
@@ -64,7 +64,7 @@ impl Register {
                 false => self.claim_anew(robot, number),
             };
         }
-        // A corruption may have taken away answers, or brought such as nobody gave.
+        // A corruption may have removed answers, or invented some.
         self.answer_own(robot, number);
         self.advance(robot, number);
         self.ask(robot, number);

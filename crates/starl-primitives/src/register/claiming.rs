@@ -8,17 +8,17 @@
 //! where the value is kept.
 //!
 //! Invariant: a value is *chosen* once a majority has stored it while it had promised nothing greater. Each
-//! ballot is used by one robot for one value. Who claims under a greater ballot hears of every value that was
-//! chosen before from a member of both majorities, so each chosen value was made from the one chosen before
-//! it. Copies that spread in the background are not counted as stored where something greater is promised. A
-//! robot that restarts recovers promises as it does copies: of those that it gave before, one of the majority
-//! that it hears knows as much (the module `recovery`).
+//! ballot is used by one robot for one value. A robot that claims under a greater ballot learns every value
+//! that was chosen before from a member of both majorities, so each chosen value was made from the one chosen
+//! before it. Copies that spread in the background do not count as stored where something greater is
+//! promised. A robot that restarts recovers promises like copies: for each promise that it gave, a robot of
+//! the majority that it hears knows as much (the module `recovery`).
 //!
-//! A write that is refused may have been stored by some, and whoever claimed the register after it may have
-//! read it there or not. To know, a copy names the latest ballot of each robot among those that have led to
-//! it. The writer claims the register itself, looks whether its ballot is among them, and has the copy stored
-//! anew under its new ballot: from then on nothing else can be chosen from before. What a robot was writing
-//! when it died is made part of the next claim that finds it, or is never chosen. So the write is
+//! Some robots may have stored a refused write, and the robot that claimed the register after it may have
+//! read it there or not. To decide this, a copy names the latest ballot of each robot among those that have
+//! led to it. The writer claims the register itself, checks whether its ballot is among them, and has the
+//! copy stored again under its new ballot: from then on no earlier value can be chosen. An unfinished write
+//! of a dead robot becomes part of the next claim that finds it, or is never chosen. So the write is
 //! [`Status::Done`](super::Status::Done) or [`Status::Lost`](super::Status::Lost), and never both.
 
 use super::operation::{Kind, Operation, Phase};
@@ -32,16 +32,17 @@ use starl_core::{Payload, Robot};
 #[derive(Clone, Debug)]
 pub(super) struct Claimed {
     pub ballot: Tag,
-    /// What was found.
+    /// The value that was found.
     pub version: Option<Version>,
 }
 
 impl Register {
-    /// Begins to read a register in order to write it: nobody's writes come between this one and
-    /// [`Register::write_claimed`], or that one is lost. What is read is certain only once that one is done.
+    /// Begins to read a register in order to write it: no other write comes between this one and
+    /// [`Register::write_claimed`], or that one is lost. The value read is certain only once that one is
+    /// done.
     ///
-    /// Robots that claim the same register at once disturb each other; who holds a lock on it is not
-    /// disturbed.
+    /// Robots that claim the same register at once disturb each other; the holder of a lock on it is
+    /// not disturbed.
     ///
     /// # Errors
     /// Where the name is too long, or too much is under way; and while this robot claims that register or
@@ -125,7 +126,7 @@ impl Register {
             .flatten()
             .filter(|tag| tag.is_valid())
             .max();
-        // Whoever was refused often goes before those who begin at the same time.
+        // A robot that was refused often goes before those that begin at the same time.
         let ballot = Tag::after(greatest, robot.id(), incarnation).later_by(operation.rounds);
         self.last_ballot = Some(ballot);
         operation.claim(ballot);

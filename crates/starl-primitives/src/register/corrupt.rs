@@ -45,7 +45,7 @@ impl Register {
         self.suspects.retain(|_| random.chance(0.5));
     }
 
-    /// Begins an operation anew after a corruption.
+    /// Restarts an operation after a corruption.
     pub(super) fn begin_again(&mut self, robot: &mut Robot<'_>, number: u32) {
         if let Some(operation) = self.operations.get_mut(&number) {
             operation.latest = None;

@@ -1,4 +1,5 @@
-//! How far a robot is that has just started: which stage it is in, and whom it has heard in it.
+//! The progress of a robot that has just started: its stage, and the robots that it has heard in
+//! it.
 //!
 //! See the module `recovery` for when a stage is over, and why.
 
@@ -26,14 +27,14 @@ pub(super) struct Entering {
     pub told: u64,
     /// When it began, by its own clock; none if it has not.
     pub begun: Option<Time>,
-    /// Who had just started in the first stage, and in which incarnation.
+    /// The robots that had just started in the first stage, with their incarnations.
     pub new_before: BTreeMap<RobotId, u32>,
-    /// What is known of others in this stage.
+    /// The knowledge of others in this stage.
     pub heard: BTreeMap<RobotId, Heard>,
     pub repetitions: u32,
 }
 
-/// What a robot that has just started knows of another one.
+/// A new robot's knowledge of another one.
 #[derive(Clone, Debug)]
 pub(super) enum Heard {
     /// It has just started too, in this incarnation.

@@ -2,8 +2,8 @@
 //! nothing changes, and compare them where they differ (the rhythm is that of [`crate::shared_memory`], the
 //! Trickle algorithm; the comparison is by lists, since registers are few).
 //!
-//! Operations do not need this. It lets [`Register::known`] come to show what was written, on robots that are
-//! no participants too.
+//! Operations do not need this. It lets [`Register::known`] show written values, also on robots that are not
+//! participants.
 
 use super::packet::{Content, Entry};
 use super::tag::Tag;
@@ -23,7 +23,7 @@ const REDUNDANCY: u32 = 2;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Gossip {
     pub interval: Duration,
-    /// Whether the timer was ever armed. It is armed anew whenever it fires.
+    /// Whether the timer was ever armed. It is rearmed whenever it fires.
     pub begun: bool,
     /// How many equal copies were announced in this interval.
     pub equal: u32,

@@ -17,15 +17,15 @@
 //! Replication Revisited, does not do, as they show). With storage, it goes on where it was (the module `saving`).
 //!
 //! Properties, for robots that name the same participants:
-//! - linearizability: each operation takes effect at one moment between its call and its end, whatever the
-//!   network does, as long as at no time a majority of the participants has forgotten: is down or recovering
-//!   without storage, or has lost it. If that happens the robots that are left block rather than forget, unless nobody that is heard has anything
-//!   left;
+//! - linearizability: each operation takes effect at one moment between its call and its end, whatever the network
+//!   does. This holds as long as at no time a majority of the participants has forgotten, that is, is down or
+//!   recovering without storage, or has lost it. If that happens the remaining robots block rather than forget, unless
+//!   no robot that is heard has anything left;
 //! - no lost update: what is written to a claimed register takes the place of what the claim has read, or is
 //!   told as lost, under the same condition; no clock, lock or suspicion matters;
 //! - progress: an operation ends if a majority is up and can be reached;
-//! - nobody waits unaware: otherwise [`Status::NoQuorum`] says so, and the operation goes on trying until it
-//!   is done or withdrawn.
+//! - failures are visible: otherwise [`Status::NoQuorum`] is returned, and the operation continues to try
+//!   until it is done or withdrawn.
 //!
 //! An operation that was withdrawn, or whose robot has crashed, may still take effect later; of an update that
 //! is so before the next one of its register is done.
@@ -99,7 +99,7 @@ const MOST_RESULTS: usize = 256;
 pub struct Register {
     port: Port,
     options: Options,
-    /// Who keeps copies; none for all of the fleet.
+    /// The robots that keep copies; none for the whole fleet.
     participants: Option<BTreeSet<RobotId>>,
     incarnation: Incarnation,
     standing: Standing,
@@ -112,7 +112,7 @@ pub struct Register {
     last_number: u32,
     operations: BTreeMap<u32, Operation>,
     results: BTreeMap<u32, Status>,
-    /// What has been claimed and not been written since.
+    /// The registers that have been claimed and not been written since.
     claimed: BTreeMap<Box<str>, Claimed>,
     /// The greatest ballot that this robot has used since it started.
     last_ballot: Option<Tag>,
@@ -132,7 +132,7 @@ pub enum Status {
     /// It is under way, but no majority has answered for [`Options::patience`], or so many participants
     /// are suspected that none can. It goes on trying: [`Register::withdraw`] ends it.
     NoQuorum,
-    /// It has taken effect. What was read, none where nothing was ever written; or what was written.
+    /// It has taken effect. The value read, none if nothing was ever written; or the value written.
     Done(Option<Payload>),
     /// It has not taken effect and never will: another robot's claim came before it. Of
     /// [`Register::write_claimed`].
@@ -155,7 +155,7 @@ pub enum OperationError {
     TooMany,
     /// This robot claims the register already, or writes what it has claimed.
     UnderWay,
-    /// What is to be written was not claimed, or has been written since.
+    /// The register was not claimed, or has been written since.
     NotClaimed,
 }
 
@@ -210,8 +210,8 @@ impl Register {
         }
     }
 
-    /// What this robot's own copy shows, without asking anyone: a value that was written, but maybe not the
-    /// latest; none where this robot knows of no write.
+    /// The value of this robot's own copy, without asking others: a written value, but possibly not the
+    /// latest; none if this robot knows of no write.
     pub fn known(&self, register: &str) -> Option<&[u8]> {
         self.replica.get(register)?.value.as_deref()
     }
@@ -267,8 +267,7 @@ impl Register {
         robot.transmit(to, self.port, &datagram);
     }
 
-    /// Sends to these: in one datagram to all where they are most of the fleet, since others ignore it or
-    /// answer in vain.
+    /// Sends to these: in one datagram to all if they are most of the fleet, because others ignore it.
     fn send_each(&mut self, robot: &mut Robot<'_>, to: &[RobotId], content: &Content) {
         if 2 * to.len() > robot.peers().count() {
             self.send(robot, Destination::All, content.clone());
@@ -283,7 +282,7 @@ impl Register {
         TimerKey::new(self.port, alarm)
     }
 
-    /// Takes a datagram. What is not one of ours is ignored.
+    /// Handles a datagram. Unknown datagrams are ignored.
     fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
         let from = message.from;
         let is_peer = from != robot.id() && robot.fleet().binary_search(&from).is_ok();

@@ -126,7 +126,7 @@ impl Register {
             self.keep_claimed(register, ballot, operation.latest.clone());
         }
         if let Some(version) = operation.latest.clone().filter(|_| !is_refused) {
-            // What was found is shown here from now on too.
+            // The value that was found is shown here from now on too.
             let register = register.into();
             self.merge(robot, &Entry { register, version });
         }

@@ -6,15 +6,15 @@ use alloc::boxed::Box;
 use alloc::collections::{BTreeMap, BTreeSet};
 use starl_core::{Payload, RobotId, Time};
 
-/// What is being done.
+/// The operation.
 #[derive(Clone, Debug)]
 pub(super) struct Operation {
     pub register: Box<str>,
     pub kind: Kind,
     pub phase: Phase,
-    /// Who has answered in this phase.
+    /// The robots that have answered in this phase.
     pub answers: BTreeMap<RobotId, Answer>,
-    /// Who has refused in this phase, having promised another ballot.
+    /// The robots that have refused in this phase, because they have promised another ballot.
     pub refused: BTreeSet<RobotId>,
     /// The greatest ballot or tag that was heard of.
     pub greatest: Option<Tag>,
@@ -34,7 +34,7 @@ pub(super) struct Operation {
     pub is_stuck: bool,
 }
 
-/// What is wanted.
+/// The kind of operation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Read,
@@ -50,7 +50,7 @@ pub(super) enum Kind {
     },
 }
 
-/// What a participant has said.
+/// A participant's answer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Answer {
     /// In which of its lives.
@@ -102,7 +102,7 @@ impl Operation {
         self.repetitions = 0;
     }
 
-    /// Begins to find out anew what there is, under a ballot.
+    /// Restarts the query for the current value, under a ballot.
     pub fn claim(&mut self, ballot: Tag) {
         self.latest = None;
         self.enter(Phase::Claim(ballot));

@@ -1,4 +1,4 @@
-//! What robots say to each other about registers.
+//! The messages between robots about registers.
 
 use super::tag::Tag;
 use super::version::Version;
@@ -19,7 +19,7 @@ pub(super) struct Datagram {
     pub content: Content,
 }
 
-/// What it says.
+/// The content.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Content {
     /// The sender has just started. In the first stage it asks for the number of its last life; in the
@@ -60,9 +60,10 @@ pub(super) enum Content {
     },
     /// Store this, unless you have a later one or have promised not to.
     Store { id: QuestionId, entry: Entry },
-    /// What has this tag is stored.
+    /// The value with this tag is stored.
     Stored { id: QuestionId, tag: Tag },
-    /// What has this tag is not stored, or this ballot not promised, since a greater one is.
+    /// The value with this tag is not stored, or this ballot not promised, because a greater one
+    /// is.
     Refused {
         id: QuestionId,
         tag: Tag,

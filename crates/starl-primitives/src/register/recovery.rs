@@ -3,13 +3,13 @@
 //! It cannot know whether it ran before, so it asks. In the first stage it learns the number of its last
 //! life from others, in the second it tells them that of its new one, one greater, and gets their copies. A
 //! stage ends when it has heard
-//! - a majority of all participants, among the others, that are up: what a majority had stored or promised,
-//!   one of them has, and whoever counts what this robot acknowledged in an earlier life hears of its new one from
-//!   one of them; or
+//! - a majority of all participants, among the others, that are up: one of them has each value that a majority had
+//!   stored or promised, and robots that count this robot's acknowledgements from an earlier life hear of its new
+//!   one from one of them; or
 //! - all others, up or just started themselves: nothing more can be known; or
-//! - for some time nobody that is up, and so many that have just started that they are a majority together.
-//!   That they had just started in both stages shows that there was a moment at which all of them were
-//!   recovering, so as long as no majority ever is, it was the fleet's own start.
+//! - for some time no robot that is up, and so many new robots that they are a majority together. They were
+//!   new in both stages, so there was a moment at which all of them were recovering. As long as no majority
+//!   ever recovers later, it was the fleet's own start.
 
 use super::entering::{Heard, Standing};
 use super::lives::FIRST;
@@ -34,7 +34,7 @@ impl Register {
         if !self.is_member(robot, me) || !self.is_member(robot, from) {
             return;
         }
-        // What it acknowledged before, it has forgotten.
+        // It has forgotten its earlier acknowledgements.
         if let Some(life) = life {
             self.lives.learn(from, life);
         }
@@ -45,7 +45,7 @@ impl Register {
             Content::State { id, page }
         } else {
             let known = self.lives.of(from);
-            // Who has just started may not know of the first life.
+            // A new robot may not know of the first life.
             let life = if is_up || known > FIRST { known } else { 0 };
             Content::Told { id, life, is_up }
         };
@@ -212,7 +212,7 @@ impl Register {
                 Heard::New(incarnation) => !entering.is_new(peer, *incarnation),
                 Heard::Up { .. } => false,
             });
-            // Who has started since is asked in both stages.
+            // Robots that have started since are asked in both stages.
             if is_mixed {
                 entering.next_stage(None);
             }
@@ -221,7 +221,7 @@ impl Register {
         self.say_hello(robot);
     }
 
-    /// Asks those of whom more is wanted in this stage.
+    /// Asks the robots that are still needed in this stage.
     fn say_hello(&mut self, robot: &mut Robot<'_>) {
         let (me, mut peers) = (robot.id(), self.members(robot));
         let Standing::New(entering) = &mut self.standing else {
@@ -235,7 +235,7 @@ impl Register {
             match entering.heard.get(&peer) {
                 Some(Heard::Up { is_done: true, .. }) => {}
                 Some(Heard::Up { after, .. }) => begun.push((peer, after.clone())),
-                // Whoever had just started may be up by now.
+                // A robot that was new may be up by now.
                 Some(Heard::New(_)) | None => unheard.push(peer),
             }
         }

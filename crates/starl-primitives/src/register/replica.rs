@@ -39,7 +39,7 @@ impl Replica {
         self.copies.get(register)?.version.as_ref()
     }
 
-    /// What is promised about a register.
+    /// The promise about a register.
     pub fn promised(&self, register: &str) -> Option<Tag> {
         self.copies.get(register)?.promised
     }

@@ -1,4 +1,4 @@
-//! What the trace events of registers hold.
+//! The fields of the trace events of registers.
 
 use super::OperationId;
 use starl_core::event::storing::Operation;

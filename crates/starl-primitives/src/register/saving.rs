@@ -1,9 +1,10 @@
-//! What outlasts a restart, on robots with storage: the copies and promises, and the crash vector.
+//! The state that survives a restart, on robots with storage: the copies and promises, and the
+//! crash vector.
 //!
-//! A robot that finds its own life on storage answers at once, and in the same life: all that it has acknowledged
-//! was on storage before others heard of it. So does one that finds nothing on storage that never lost anything:
-//! nobody has ever heard of it. One whose storage was lost enters as robots without storage do, and saves nothing
-//! until it is up.
+//! A robot that finds its own life on storage answers immediately, in the same life: all its acknowledgements
+//! were on storage before others could see them. So does a robot with empty storage that never lost anything: no
+//! robot has heard of it. A robot with lost storage enters like robots without storage, and saves nothing until
+//! it is up.
 
 use super::Register;
 use super::entering::Standing;

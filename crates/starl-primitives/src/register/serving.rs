@@ -1,4 +1,4 @@
-//! What a participant answers, and how copies and lives become known.
+//! A participant's answers, and the spread of copies and lives.
 //!
 //! Invariant: only a participant that is up answers, and what it has acknowledged it has.
 
@@ -53,7 +53,7 @@ impl Register {
                         tag: ballot,
                         promised,
                     },
-                    None => return, // There is no room for it, or nobody can have claimed it.
+                    None => return, // There is no room for it, or no robot can have claimed it.
                 },
             },
             Content::Store { id, entry } => {

@@ -1,4 +1,4 @@
-//! What orders the writes of a register.
+//! The order of a register's writes.
 
 use serde::{Deserialize, Serialize};
 use starl_core::RobotId;
@@ -11,7 +11,7 @@ const GREATEST: u64 = 1 << 62;
 pub struct Tag {
     /// One more than the greatest that the writer found.
     pub count: u64,
-    /// Who wrote.
+    /// The writer.
     pub writer: RobotId,
     /// In which of its lives, so that no tag is used twice.
     pub incarnation: u32,

@@ -1,11 +1,11 @@
-//! What a register holds at one time.
+//! The content of a register at one time.
 
 use super::tag::Tag;
 use alloc::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use starl_core::{Payload, RobotId};
 
-/// What a register holds at one time.
+/// The content of a register at one time.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(super) struct Version {
     /// Which write it comes from; or, of a claimed register, which ballot.
@@ -17,7 +17,7 @@ pub(super) struct Version {
 }
 
 impl Version {
-    /// What a plain write leaves.
+    /// The result of a plain write.
     pub fn written(tag: Tag, value: Payload) -> Version {
         Version {
             tag,

@@ -1,6 +1,6 @@
 //! The part of all others in an agreement: accepting a list, waiting to hear that all have, showing it.
 //!
-//! Invariant: who has accepted a list shows no earlier one.
+//! Invariant: a robot that has accepted a list shows no earlier one.
 
 use super::announcing::is_possible;
 use super::packet::{NO_VIEW, Packet, Roll, View, ViewId};

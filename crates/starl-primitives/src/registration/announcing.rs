@@ -1,16 +1,15 @@
 //! How participants become known to each other, and find out that they disagree.
 //!
-//! A robot that shows no list announces itself again and again. Of those that show the same list one
-//! announces it now and then, as whoever hears it keeps silent (in the manner of Trickle: Levis et al.
-//! 2004). So robots that were kept apart hear of each other, those that a list names in error say so, and one
-//! that shows a list which others have left behind learns of it.
+//! A robot without a list announces itself repeatedly. Of those with the same list one announces it now and
+//! then, because robots that hear it stay silent (similar to Trickle: Levis et al. 2004). So separated robots
+//! hear of each other, robots that are listed by mistake object, and a robot with an outdated list learns it.
 
 use super::packet::{Announcement, Packet, Roll, View};
 use super::{Alarm, LATEST, Registration, Stage};
 use starl_core::{Area, Destination, Duration, Message, Robot, RobotId, Time};
 
-/// Who has announced itself so often without coming into a list is brought to the coordinator's notice by
-/// others.
+/// A robot that has announced itself so often without getting into a list is reported to the coordinator
+/// by others.
 const OFTEN: u32 = 2;
 
 impl Registration {
@@ -95,7 +94,7 @@ impl Registration {
         }
     }
 
-    /// It is time to announce this robot again, and to see whether it waits in vain.
+    /// Announces this robot again, and checks whether it waits for a robot that does not answer.
     pub(super) fn announce_again(&mut self, robot: &mut Robot<'_>) {
         let Some(own) = &self.own else { return };
         let announcements = own.announcements;
@@ -147,13 +146,13 @@ impl Registration {
             let over = Packet::Over { ticket };
             return robot.transmit(Destination::Robot(from), self.port, &over);
         }
-        // Who speaks has not failed, unless the message was long under way.
+        // A robot that sends has not failed, unless the message was in transit for long.
         self.suspects.remove(&from);
         self.hear_time(said.promised.time);
         let known = self.peers.get(&from).map(|peer| peer.ticket);
         if known != Some(said.ticket) {
             if known.is_some() {
-                // It has registered anew.
+                // It has registered again.
                 self.drop_peer(robot, from);
             }
             if !self.is_neighbour(robot, said) {

@@ -1,37 +1,37 @@
-//! Registration: robots of a neighbourhood agree on who takes part (thesis, section 3.4.1).
+//! Registration: robots of a neighbourhood agree on the participants (thesis, section 3.4.1).
 //!
-//! A robot registers and leaves when it likes. Those that take part come to show the same list and the
-//! time at which it was computed, (rList, ts); while a list is being made they show none. The list is made
-//! anew when somebody comes, leaves, crashes or restarts.
+//! A robot registers and leaves at any time. The participants eventually show the same list and the time
+//! at which it was computed, (rList, ts); during an agreement they show none. A new list is made when a
+//! robot registers, leaves, crashes or restarts.
 //!
 //! It is the agreement on views of group membership (Birman and Joseph 1987; Ricciardi and Birman 1991;
 //! Chockler, Keidar and Vitenberg 2001). One of the participants, the coordinator, proposes a list to all
-//! in it; each accepts unless it has accepted a later one, and from then on shows no earlier list; when all
-//! have accepted, the list is shown. Lists have unique names in one order, by their times. Should a
-//! coordinator fall silent the next one takes over; two at once do no harm, as of their lists the later
-//! one prevails (as with the ballots of Lamport's Paxos, 1998).
+//! in it. Each accepts unless it has accepted a later one, and from then on shows no earlier list; when all
+//! have accepted, the list is shown. Lists have unique names in one order, by their times. If a coordinator
+//! falls silent the next one takes over. Two at once do no harm, because the later of their lists prevails
+//! (as with the ballots of Lamport's Paxos, 1998).
 //!
-//! What holds, whatever the network does and whichever robots crash and restart, as long as state is not
-//! corrupted:
-//! - agreement: lists with the same time and coordinator are equal. The times of any two lists that have a
-//!   robot in common are at least [`Options::settle`] apart (the thesis's d), so lists whose times are
-//!   nearer to each other are equal or have nobody in common;
+//! These guarantees hold whatever the network does and whichever robots crash and restart, as long as
+//! state is not corrupted:
+//! - agreement: lists with the same time and coordinator are equal. The times of any two lists with a
+//!   common robot are at least [`Options::settle`] apart (the thesis's d), so lists whose times are nearer
+//!   are equal or disjoint;
 //! - exclusion: two robots that list each other, both still in the life in which they are listed, show the
 //!   same list or one of them shows none;
 //! - soundness: a robot is in a list only if it was registered when it accepted that list, which is after
 //!   the coordinator computed it and before anyone shows it;
 //! - order: the times of the lists that a robot shows rise, through all its registrations of one life.
 //!
-//! What holds where datagrams are not always lost, for robots that are up and reach each other: a robot
-//! that registers comes to show a list with itself, and all of one neighbourhood the same one
-//! ([`Options::agreement_bound`]). Robots that are kept apart by a partition agree apart, and together
-//! again when it is healed. Nobody waits unaware: without a list for [`Options::patience`],
-//! [`Registration::failed`] says so, while the robot goes on trying.
+//! These hold if not all datagrams are lost, for robots that are up and reach each other: a registered
+//! robot shows a list with itself, and all robots of a neighbourhood show the same one
+//! ([`Options::agreement_bound`]). The parts of a partition agree separately, and together again when
+//! it is healed. Without a list for [`Options::patience`], [`Registration::failed`] is true, while the
+//! robot continues to try.
 //!
-//! Neighbourhoods. Who registers makes itself known as by a geocast: what it says goes to all with its
-//! area, and each receiver decides by its own position. Of two participants it is enough that one is in the
-//! other's area at one announcement; they belong together until one leaves, wherever they go. Who belongs
-//! with a robot belongs with all that it belongs with, since all are to agree.
+//! Neighbourhoods. A robot that registers announces itself like a geocast: the announcement goes to all
+//! with its area, and each receiver decides by its own position. Two participants belong together if one is
+//! in the other's area at one announcement, until one leaves, wherever they go. Membership is transitive,
+//! because all must agree.
 //!
 //! Messages for n robots that register together: 2n + 1, of which n + 2 are datagrams to all; each that
 //! comes later to n - 1 others, n + 2; when one of n leaves, n + 1, when one crashes, n. While nothing
@@ -63,7 +63,7 @@ use starl_core::{Area, Duration, Input, Port, Primitive, Robot, RobotId, Time, T
 /// Times beyond this, 146 years, are no times of ours.
 const LATEST: Time = Time(u64::MAX >> 2);
 
-/// Agreement on who takes part. See the [module](self).
+/// Agreement on the participants. See the [module](self).
 #[derive(Clone, Debug)]
 pub struct Registration {
     port: Port,
@@ -128,9 +128,9 @@ impl Registration {
         }
     }
 
-    /// Takes part (the thesis's do_register), together with those in this area; with the whole fleet, if
-    /// there is none. Who has registered already stays so, with this area from now on. An area that is not
-    /// valid holds nobody.
+    /// Participates (the thesis's do_register), together with the robots in this area, or with the whole
+    /// fleet if there is none. A robot that has registered already stays so, with this area from now on.
+    /// An invalid area contains no robot.
     pub fn register(&mut self, robot: &mut Robot<'_>, area: Option<Area>) {
         if let Some(own) = &mut self.own {
             if own.area != area {
@@ -159,7 +159,7 @@ impl Registration {
         self.look_within(robot, self.options.gather);
     }
 
-    /// Takes part no longer (the thesis's undo_register): the others agree anew.
+    /// No longer participates (the thesis's undo_register): the others agree on a new list.
     pub fn unregister(&mut self, robot: &mut Robot<'_>) {
         let Some(own) = self.own.take() else { return };
         robot.report(self.port, RegistrationEvent::Unregister);

@@ -11,8 +11,7 @@ pub struct Options {
     /// A robot that has just registered listens for others this long before it makes a list itself; best
     /// `settle` and a few times the network's delay. Default 400 ms.
     pub gather: Duration,
-    /// What is not answered is repeated after this time; best a few times the network's delay. Default
-    /// 250 ms.
+    /// The time until a retransmission; best a few times the network's delay. Default 250 ms.
     pub first_timeout: Duration,
     /// The time between repetitions doubles up to this. Default 2 s.
     pub longest_timeout: Duration,

@@ -1,4 +1,4 @@
-//! What robots say to each other about who takes part.
+//! The messages between robots about participants.
 
 use alloc::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
@@ -11,7 +11,7 @@ pub struct ViewId {
     /// When it was computed, by the clock of the robot that did; later than every list that one of its
     /// members knew of.
     pub time: Time,
-    /// Who computed it.
+    /// The robot that computed it.
     pub coordinator: RobotId,
     /// The coordinator's incarnation.
     pub incarnation: u32,
@@ -73,7 +73,7 @@ pub(super) enum Packet {
     Over { ticket: u32 },
 }
 
-/// What a participant makes known.
+/// A participant's announcement.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Announcement {
     pub ticket: u32,
@@ -83,10 +83,10 @@ pub(super) struct Announcement {
     pub here: Point,
     /// It shows no list that is earlier than this.
     pub promised: ViewId,
-    /// What it shows.
+    /// The list that it shows.
     pub view: Option<View>,
     /// How often it has announced itself since it last showed a list.
     pub count: u32,
-    /// Whose list it waits for.
+    /// The robot whose list it waits for.
     pub waits_for: Option<(RobotId, u32)>,
 }

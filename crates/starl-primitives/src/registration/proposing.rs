@@ -1,4 +1,5 @@
-//! The coordinator's part of an agreement: proposing a list, hearing who accepts it, telling all.
+//! The coordinator's part of an agreement: proposing a list, collecting acceptances, announcing the
+//! result.
 //!
 //! Invariant: a list is committed only when all in it have accepted it.
 

@@ -1,4 +1,4 @@
-//! What only a corruption of the state can have brought about is undone.
+//! Undoes states that only a corruption can cause.
 
 use super::packet::NO_VIEW;
 use super::{LATEST, Registration, Stage};

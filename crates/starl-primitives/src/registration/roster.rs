@@ -1,8 +1,8 @@
-//! Whom a robot knows to take part, and who of them computes the list.
+//! The known participants, and the one that computes the list.
 //!
-//! What a robot says of itself counts for more than what others say of it; and a ticket that is over never
-//! comes back. The coordinator of a list that is shown makes the next one, so that a newcomer does not take
-//! over; of several, and where there is none, the robot with the least number does.
+//! A robot's own announcement overrides reports of others, and a ticket that is over never returns. The
+//! coordinator of the shown list makes the next one, so that a newcomer does not take over. Of several, and
+//! if there is none, it is the robot with the least number.
 
 use super::packet::{Packet, Roll, ViewId};
 use super::{Registration, Stage};
@@ -12,7 +12,7 @@ use starl_core::{Destination, Duration, Robot, RobotId, Time};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Peer {
     pub ticket: u32,
-    /// Who computed the list that it was last known to show.
+    /// The coordinator of the last list that it was known to show.
     pub led_by: Option<RobotId>,
 }
 
@@ -56,7 +56,7 @@ impl Registration {
         self.peers.contains_key(&peer) && !self.suspects.contains(&peer)
     }
 
-    /// Who is to compute the list.
+    /// The robot that computes the list.
     pub(super) fn leader(&self, me: RobotId) -> RobotId {
         let takes_part = |robot: &RobotId| *robot == me || self.counts(*robot);
         let counted = || self.peers.iter().filter(|(peer, _)| self.counts(**peer));
@@ -66,7 +66,7 @@ impl Registration {
         established.unwrap_or_else(|| counted().map(|(&peer, _)| peer).min().unwrap_or(me).min(me))
     }
 
-    /// A robot says of itself that it takes part. Gives whether that is news.
+    /// A robot announces that it participates. Returns whether that is new.
     pub(super) fn meet(
         &mut self,
         robot: &Robot<'_>,
@@ -110,7 +110,7 @@ impl Registration {
     pub(super) fn drop_peer(&mut self, robot: &mut Robot<'_>, peer: RobotId) {
         self.peers.remove(&peer);
         for known in self.peers.values_mut() {
-            // What it led is over, even if it comes back.
+            // Its role as coordinator is over, even if it returns.
             known.led_by = known.led_by.filter(|leader| *leader != peer);
         }
         if self.own.is_none() {

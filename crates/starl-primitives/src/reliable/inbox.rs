@@ -1,4 +1,4 @@
-//! What a receiver knows of one stream of one sender: which incarnation speaks, and what has been taken of it.
+//! A receiver's state of one stream of one sender: the current incarnation, and the messages taken of it.
 //!
 //! Lives are told apart by a [`Handshake`].
 //!
@@ -14,23 +14,23 @@ use starl_core::{Payload, Time};
 /// Messages to hand out, by number.
 pub(super) type Arrived = SmallVec<[(u32, Payload); 1]>;
 
-/// What is known of one stream.
+/// The state of one stream.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Inbox {
     /// The incarnation that is heard, and what was taken of it.
     pub lives: Handshake<Sequence>,
     /// When the sender was last answered.
     pub answered: Option<Time>,
-    /// What is to be said to the sender.
+    /// The pending message to the sender.
     pub owed: Owed,
 }
 
-/// What a receiver has to say to a sender.
+/// A receiver's pending message to a sender.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Owed {
     #[default]
     Nothing,
-    /// What it has taken.
+    /// An acknowledgement.
     Taken,
     /// Its token.
     Greeting,
@@ -110,8 +110,8 @@ impl Sequence {
         }
     }
 
-    /// What a sender is told: all before this number has been taken, and runs of later ones, by how many
-    /// are missing before each and how many it has.
+    /// The report to a sender: all messages before this number have been taken, and runs of later ones,
+    /// by how many are missing before each and how many it has.
     pub fn report(&self, most_runs: usize) -> (u32, alloc::vec::Vec<(u32, u32)>) {
         let mut held = Runs::before(0);
         self.held.keys().for_each(|&number| held.insert(number));

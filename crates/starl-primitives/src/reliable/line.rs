@@ -1,4 +1,4 @@
-//! What a sender does with one stream: what goes into a datagram, who is tried again, what is given up.
+//! A sender's part of one stream: the content of datagrams, retransmissions, and giving up.
 
 use super::outgoing::{Outgoing, Receiver, Trying};
 use super::packet::{Packet, Stream};
@@ -15,7 +15,7 @@ const BURST: usize = 4;
 /// So many robots at most are told that they need not answer.
 const MOST_KNOWN: usize = 100;
 
-/// What is the same for all messages of a stream.
+/// The common properties of all messages of a stream.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
     pub port: starl_core::Port,
@@ -26,7 +26,7 @@ pub(super) struct Line {
     pub to: Option<RobotId>,
 }
 
-/// What a datagram says besides its messages.
+/// The part of a datagram besides its messages.
 #[derive(Debug)]
 pub(super) struct Head {
     destination: Destination,
@@ -46,7 +46,7 @@ impl Head {
         }
     }
 
-    /// To one robot. What an earlier life of it has taken will not come again.
+    /// To one robot. Messages that an earlier life of it has taken will not be sent again.
     pub fn to(peer: RobotId, receiver: &Receiver) -> Head {
         Head {
             token: receiver.token,
@@ -96,7 +96,8 @@ impl Line {
         robot.transmit(head.destination, self.port, &packet);
     }
 
-    /// Says how far the stream is to those who have never answered. Those who have taken all need not answer.
+    /// Reports the progress of the stream to those that have never answered. Those that have taken all need
+    /// not answer.
     fn remind(&self, robot: &mut Robot<'_>, outgoing: &Outgoing) {
         let receivers = outgoing.receivers.iter();
         let have_all = receivers.filter(|(_, receiver)| receiver.taken.next() == outgoing.next());
@@ -181,7 +182,8 @@ impl Line {
             outgoing.receivers.insert(peer, receiver);
             return None;
         }
-        // Whoever answers would have had what was sent a time-out ago, or well before what it has.
+        // A robot that answers would have had messages sent one timeout ago, or well before those
+        // that it has.
         let is_before = |sent: Time, later: Time, gap| sent + gap <= later;
         let lost = |sent: Time| {
             is_before(sent, now, first_timeout)
@@ -205,7 +207,7 @@ impl Line {
         due
     }
 
-    /// What the owner learns of messages that were sent again.
+    /// The notices to the owner about retransmitted messages.
     fn tell(&self, numbers: &[u32], to: RobotId, notices: &mut Notices) {
         let names = numbers.iter().map(|&number| self.name(number));
         let to = || alloc::vec![to];

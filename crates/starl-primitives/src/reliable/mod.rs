@@ -1,7 +1,7 @@
-//! The communication protocol under Broadcast, Geocast, Unicast and the distributed algorithms: over
-//! a network that loses, delays, duplicates and reorders datagrams it hands each message to each
-//! receiver at most once, and either gets it through or reports the failure (thesis, section 3.3.1:
-//! "a simple protocol that asks for acknowledgment for each message being sent").
+//! The communication protocol under Broadcast, Geocast, Unicast and the distributed algorithms. Over
+//! a network that loses, delays, duplicates and reorders datagrams it delivers each message to each
+//! receiver at most once, and either delivers it or reports the failure (thesis, section 3.3.1: "a
+//! simple protocol that asks for acknowledgment for each message being sent").
 //!
 //! A message to all goes out once to all. Each receiver says what it has taken, and is sent what it lacks, several
 //! messages in a datagram, until it has all or their time is up (`sending`). Invariants:
@@ -9,7 +9,8 @@
 //!   late its copies are;
 //! - messages of a sender's later life are taken after those of its earlier lives, and how many lives there were
 //!   does not matter: what tells them apart is a handshake, not memory (`inbox`);
-//! - every message is settled within [`Options::failure_bound`]: nobody waits for ever on a dead robot;
+//! - every message is settled within [`Options::failure_bound`]: no robot waits for ever for a dead
+//!   robot;
 //! - memory is bounded by the settings and the size of the fleet, and a peer that never speaks costs
 //!   nothing.
 //!
@@ -48,7 +49,7 @@ timers! {
         Resend,
         /// Senders are to be told what has been taken.
         Answer,
-        /// What an ordered broadcast above the protocol holds back is to be looked at.
+        /// The held messages of an ordered broadcast above the protocol must be checked.
         Look,
     }
 }
@@ -61,9 +62,9 @@ pub struct Reliable {
     /// Whether robots that have never answered may be out of reach, and are no failures.
     is_local: bool,
     incarnation: Incarnation,
-    /// What this robot sends to all.
+    /// The messages of this robot to all.
     multicast: Outgoing,
-    /// What it sends to each robot.
+    /// The messages of this robot to each robot.
     direct: BTreeMap<RobotId, Outgoing>,
     inboxes: BTreeMap<(RobotId, Stream), Inbox>,
     /// When receivers are tried again.

@@ -1,4 +1,4 @@
-//! What the protocol tells its owner.
+//! The notices of the protocol to its owner.
 
 use alloc::vec::Vec;
 use smallvec::SmallVec;
@@ -17,7 +17,7 @@ pub struct MessageId {
 }
 
 impl MessageId {
-    /// What events call it.
+    /// Its form in events.
     pub(crate) fn numbered(self) -> MessageNumber {
         MessageNumber {
             number: self.number,
@@ -42,7 +42,7 @@ pub struct Arrival {
 }
 
 impl Arrival {
-    /// What events call it: its sender, and which of its messages.
+    /// Its form in events: its sender and number.
     pub(crate) fn numbered(&self) -> (RobotId, MessageNumber) {
         let message = MessageNumber {
             number: self.number,
@@ -52,7 +52,7 @@ impl Arrival {
     }
 }
 
-/// What its owner learns from the protocol.
+/// A notice of the protocol to its owner.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Notice {
     /// A message reached this robot.
@@ -89,5 +89,5 @@ pub enum Notice {
     },
 }
 
-/// What the protocol learns at once; usually nothing or one thing.
+/// Simultaneous notices; usually none or one.
 pub type Notices = SmallVec<[Notice; 1]>;

@@ -15,9 +15,9 @@ pub(super) struct Outgoing {
     /// The number of the first message that is kept.
     base: u32,
     messages: VecDeque<Message>,
-    /// What is known of those who have spoken.
+    /// The receivers that have answered.
     pub receivers: BTreeMap<RobotId, Receiver>,
-    /// How those who have not are tried.
+    /// The retransmissions to those that have not.
     pub strangers: Trying,
 }
 
@@ -30,24 +30,25 @@ pub(super) struct Message {
     waiting: u32,
 }
 
-/// What is known of one receiver.
+/// The state of one receiver.
 #[derive(Clone, Debug)]
 pub(super) struct Receiver {
-    /// What it has taken.
+    /// The messages that it has taken.
     pub taken: Runs,
-    /// What it holds for an earlier message, as it last said. It may have forgotten that since.
+    /// The messages that it holds for an earlier one, by its last report. It may have forgotten
+    /// them since.
     pub held: Runs,
-    /// What it asks for to be told; none once it has said what it has taken.
+    /// The token that it asks for; none once it has acknowledged messages.
     pub token: Option<u32>,
     /// When messages that it has not taken were last sent to it again.
     pub resent: BTreeMap<u32, Time>,
     pub trying: Trying,
 }
 
-/// When those are tried again who do not answer.
+/// The retransmissions to silent receivers.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Trying {
-    /// How often it was done in vain.
+    /// The number of failed attempts.
     pub attempt: u32,
     /// When it is done next; none where that is a time-out after the first message that is missing.
     pub due: Option<Time>,
@@ -83,7 +84,7 @@ impl Receiver {
     }
 }
 
-/// What came of a receiver's report.
+/// The effect of a receiver's report.
 #[derive(Debug, Default)]
 pub(super) struct Credit {
     /// Messages that now all have taken.

@@ -1,4 +1,4 @@
-//! What the protocol sends.
+//! The datagrams of the protocol.
 
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
@@ -18,7 +18,7 @@ pub(super) enum Packet<C> {
         base: u32,
         /// The number of the next message that will be sent.
         next: u32,
-        /// Whoever is among these and has all need not answer.
+        /// Robots among these that have all messages need not answer.
         known: Vec<RobotId>,
         /// The messages, each with its number. They come last, so that the end of a datagram shows its message.
         messages: Vec<(u32, C)>,
@@ -26,7 +26,7 @@ pub(super) enum Packet<C> {
     /// The receiver does not know the sender's present incarnation: it asks for [`Packet::Data`] with this
     /// token.
     Greet { stream: Stream, token: u32 },
-    /// What the receiver has taken.
+    /// The messages that the receiver has taken.
     Taken {
         /// The sender's incarnation.
         incarnation: u32,

@@ -1,8 +1,8 @@
 //! The sender's half of the protocol: every message is tried until all have taken it or its time is up.
 //!
-//! What is lost is seen from what arrives: a message that was sent well before another one that a receiver turns out
-//! to have is sent again at once (as in RACK, RFC 8985). Where nothing is heard of a receiver it is tried with what it
-//! lacks after a time-out, which doubles each time. What is sent again to a receiver shares datagrams.
+//! Arrivals reveal losses: a message that was sent well before another one that a receiver has is retransmitted
+//! immediately (as in RACK, RFC 8985). A silent receiver gets its missing messages again after a timeout, which
+//! doubles each time. Retransmissions to a receiver share datagrams.
 
 use super::line::{CHUNK, Head};
 use super::outgoing::Credit;
@@ -37,7 +37,7 @@ impl Reliable {
             return (message, notices);
         }
         let due = now + line.stretched(robot, 0);
-        // Those who do not know this robot hear of it by any of its messages.
+        // Robots that do not know this robot learn of it by any of its messages.
         let attempt = outgoing.strangers.attempt;
         outgoing.strangers.due = Some(now + line.stretched(robot, attempt));
         line.send(robot, outgoing, Head::of(line.destination()), &[number]);
@@ -63,7 +63,7 @@ impl Reliable {
             return Notices::new();
         };
         if before > outgoing.next() {
-            return Notices::new(); // nobody can have taken that
+            return Notices::new(); // no robot can have taken that
         }
         let ahead = runs(before, &ahead);
         let Credit { settled, newest } = outgoing.credit(from, before, &ahead, are_taken);

@@ -2,8 +2,8 @@
 //!
 //! A write of a causal variable may depend on all writes of causal variables that its writer shows (Ahamad,
 //! Neiger, Burns, Kohli, Hutto 1995, "Causal Memory: Definitions, Implementation, and Programming"). It
-//! carries their stamps, and whoever receives it holds it back until it shows each of these writes or a
-//! later one of the same variable.
+//! carries their stamps, and a receiver holds it back until it shows each of these writes or a later one of
+//! the same variable.
 //!
 //! Invariant: what an element that is shown depends on is covered by what is shown.
 //!
@@ -33,7 +33,7 @@ impl Store {
         })
     }
 
-    /// What a write that is made now may depend on, but for the element that it replaces.
+    /// The dependencies of a write made now, except the element that it replaces.
     pub fn dependencies(&self, but: u64) -> Vec<Dependency> {
         let causal = self.range(0..=u64::MAX);
         let causal = causal.filter(|(key, element)| *key != but && element.depends.is_some());

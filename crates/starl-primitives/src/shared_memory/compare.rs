@@ -20,18 +20,18 @@ const LONGEST_LIST: usize = 16;
 /// through the whole memory.
 const MOST_PARTS: usize = 128;
 
-/// What follows from another robot's parts.
+/// The conclusion from another robot's parts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Difference {
     /// Where the memories differ, for the other to look at.
     pub parts: Vec<Part>,
-    /// What the other lacks.
+    /// The elements that the other lacks.
     pub newer: Vec<u64>,
-    /// What this robot lacks.
+    /// The elements that this robot lacks.
     pub wanted: Vec<u64>,
 }
 
-/// What a memory has in a range: a list if it is short, otherwise fingerprints.
+/// The description of a range of a memory: a list if it is short, otherwise fingerprints.
 pub(super) fn describe(store: &Store, range: Range) -> Option<Part> {
     let keys = range.keys()?;
     let is_short = store.range(keys.clone()).nth(LONGEST_LIST).is_none();
@@ -44,8 +44,8 @@ pub(super) fn describe(store: &Store, range: Range) -> Option<Part> {
     Some(Part::Split(range, parts.map(|part| sum(store, part))))
 }
 
-/// Compares parts of another memory with this one. What this one got since `settled` may be on its way
-/// to the other anyhow and does not count as newer.
+/// Compares parts of another memory with this one. Elements that this one got since `settled` may
+/// already be in transit to the other and do not count as newer.
 pub(super) fn compare(store: &Store, parts: &[Part], settled: Time) -> Difference {
     let mut difference = Difference::default();
     for part in parts.iter().take(MOST_PARTS) {

@@ -17,7 +17,7 @@ use starl_core::{Duration, Random, RobotId};
 pub(super) struct Gossip {
     /// The present interval.
     pub interval: Duration,
-    /// Whether the timer of announcements was ever armed. It is armed anew whenever it fires.
+    /// Whether the timer of announcements was ever armed. It is rearmed whenever it fires.
     pub begun: bool,
     /// How many memories equal to its own were announced in this interval.
     pub equal: u32,

@@ -18,8 +18,8 @@
 //!   variables that the writer showed then, or later ones;
 //! - after any corruption of memories all this holds again for what is written later.
 //!
-//! The value of a variable may be lost for good only together with all robots that have it. Then whoever has
-//! a causal write that depends on it, and has not shown it yet, does so only when the lost one is written
+//! The value of a variable may be lost permanently only together with all robots that have it. Then a robot
+//! with a causal write that depends on it, and not shown yet, shows it only when the lost one is written
 //! again.
 
 mod causality;
@@ -52,11 +52,11 @@ use store::Store;
 
 timers! {
     enum Alarm {
-        /// What was written is to be sent; any input does this.
+        /// New writes must be sent; any input does this.
         Flush,
         /// The memory is to be announced.
         Gossip,
-        /// What other robots lack is to be sent again.
+        /// The missing elements of other robots must be sent again.
         Repair,
     }
 }
@@ -76,13 +76,13 @@ pub struct SharedMemory {
     clock: HybridClock,
     incarnation: Incarnation,
     store: Store,
-    /// What multi-writer variables hold before any write.
+    /// The values of multi-writer variables before any write.
     initial: BTreeMap<Box<str>, Payload>,
-    /// What elements of arrays hold before any write.
+    /// The values of elements of arrays before any write.
     initial_elements: BTreeMap<Box<str>, Payload>,
     /// The variables that are causal.
     causal: BTreeSet<Box<str>>,
-    /// What came before what it depends on.
+    /// The writes that arrived before their dependencies.
     held: Held,
     /// Written and not yet sent.
     unsent: BTreeSet<u64>,

@@ -43,7 +43,7 @@ impl Options {
         (shortest, self.longest_interval.max(shortest))
     }
 
-    /// What changed less than this ago may still be on its way, so it is not repaired.
+    /// Changes within this time may still be in transit, so they are not repaired.
     pub(super) fn settling(&self) -> Duration {
         self.intervals().0 / 2
     }

@@ -1,4 +1,4 @@
-//! What memories send each other.
+//! The messages between memories.
 
 use super::stamp::{HybridClock, Stamp};
 use alloc::string::String;
@@ -10,12 +10,12 @@ use starl_core::Payload;
 /// One datagram.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Datagram<C> {
-    /// What the sender's clock shows.
+    /// The reading of the sender's clock.
     pub clock: HybridClock,
     pub content: C,
 }
 
-/// What it says.
+/// The content.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum Content {
     /// To all: elements to merge.
@@ -48,7 +48,7 @@ pub(super) struct Write {
     pub single_writer: bool,
     pub stamp: Stamp,
     pub value: Payload,
-    /// What it depends on; none for a variable that is not causal.
+    /// Its dependencies; none for a variable that is not causal.
     #[serde(skip)]
     pub depends: Option<Vec<Dependency>>,
 }

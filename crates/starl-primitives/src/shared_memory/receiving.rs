@@ -1,4 +1,4 @@
-//! What a memory makes of what others tell it.
+//! A memory's reaction to messages of others.
 
 use super::compare::{self, Difference};
 use super::packet::{Announcement, Content, Datagram, Part, Write};
@@ -13,7 +13,7 @@ use starl_core::{Message, Robot, RobotId};
 const MOST_VAIN: u32 = 32;
 
 impl SharedMemory {
-    /// Takes a datagram. What is not one of ours is ignored.
+    /// Handles a datagram. Unknown datagrams are ignored.
     pub(super) fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
         let from = message.from;
         let is_peer = from != robot.id() && robot.fleet().binary_search(&from).is_ok();

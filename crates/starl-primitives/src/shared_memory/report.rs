@@ -1,11 +1,11 @@
-//! What the trace events of shared memory hold.
+//! The fields of the trace events of shared memory.
 
 use super::store::Element;
 use starl_core::event::storing::Written;
 use starl_core::random::hash_key;
 use starl_core::{Digest, Payload};
 
-/// What is written to an element.
+/// A write to an element.
 pub(super) fn written(element: &Element) -> Written {
     let stamp = element.stamp;
     Written {

@@ -1,9 +1,9 @@
-//! What a memory tells others, and when.
+//! The messages of a memory to others, and their times.
 //!
-//! A write goes to all in the datagrams of its activation. Robots announce what their memories amount to
-//! ([`super::gossip`]); who has heard of another one when its own announcement is due goes on to
-//! compare it with that robot ([`super::compare`]). What either lacks goes to all, since others may
-//! lack it too.
+//! A write goes to all in the datagrams of its activation. Robots announce the fingerprints of their
+//! memories ([`super::gossip`]). A robot that has heard of a different one when its own announcement is
+//! due compares its memory with that robot's ([`super::compare`]). The missing elements of either go to
+//! all, because others may lack them too.
 
 use super::compare;
 use super::packet::{Announcement, Content, Datagram, FRAME_BYTES, KEY_BYTES, Part, Range, Write};

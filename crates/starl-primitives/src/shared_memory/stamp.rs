@@ -26,7 +26,7 @@ pub struct Stamp {
     pub time: Time,
     /// Counts the stamps of this time.
     pub count: u32,
-    /// Who wrote; decides between writes at one reading of two clocks.
+    /// The writer; decides between writes at equal readings of two clocks.
     pub writer: RobotId,
     /// In which of its lives. A robot that starts again may be told of a reading that it had already, and go
     /// on from there as it did before: no stamp is used twice for all that.
@@ -83,14 +83,14 @@ impl HybridClock {
         }
     }
 
-    /// Begins anew if it shows what no clock of ours can, which only a corruption brings about.
+    /// Restarts if it shows an impossible value, which only a corruption causes.
     pub fn refresh(&mut self) {
         if !self.is_valid() {
             *self = HybridClock::default();
         }
     }
 
-    /// What it shows now.
+    /// Its current reading.
     pub fn show(self, now: Time) -> HybridClock {
         let own = HybridClock {
             time: now.min(LATEST),

@@ -1,11 +1,11 @@
 //! One robot's copy of the memory.
 //!
 //! Each element is a last-writer-wins register (Shapiro, Preguiça, Baquero, Zawirski 2011, "A
-//! comprehensive study of Convergent and Commutative Replicated Data Types"). What is kept of two
-//! writes is a total order on stamp, then value: merging is commutative, associative and idempotent
-//! whatever the elements hold, so copies that have seen the same writes are equal, even those that
-//! began as garbage. Elements lie in the order of 64-bit keys, hashes of their addresses, and every range
-//! of keys has a fingerprint, the sum of the hashes of its elements, by which copies are compared.
+//! comprehensive study of Convergent and Commutative Replicated Data Types"). Stamp, then value, is a
+//! total order on writes, so merging is commutative, associative and idempotent whatever the elements
+//! contain, and copies that have seen the same writes are equal, even those that began as garbage.
+//! Elements are sorted by 64-bit keys, the hashes of their addresses. Every range of keys has a
+//! fingerprint, the sum of the hashes of its elements, by which copies are compared.
 
 use super::packet::{Dependency, Write};
 use super::stamp::Stamp;
@@ -39,14 +39,14 @@ pub(super) fn key(variable: &str, owner: Option<RobotId>) -> u64 {
     hash_key(digest.value(), &[])
 }
 
-/// What an address holds, under the key of the address.
+/// The element at an address, under the key of the address.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Element {
     pub key: u64,
     pub address: Address,
     pub stamp: Stamp,
     pub value: Payload,
-    /// What it depends on; none for a variable that is not causal.
+    /// Its dependencies; none for a variable that is not causal.
     pub depends: Option<Vec<Dependency>>,
     /// Whether this robot wrote it since it started.
     pub mine: bool,
@@ -66,8 +66,8 @@ impl Element {
         hash_key(digest.value(), &[])
     }
 
-    /// Whether it can have come about by writes: its stamp is one that clocks of ours give, and it is by
-    /// its owner. Only a corruption leaves others behind; they are neither sent nor kept for long.
+    /// Whether writes can have produced it: its stamp is possible, and it is by its owner. Only a
+    /// corruption leaves other elements behind; they are neither sent nor kept for long.
     pub fn is_valid(&self) -> bool {
         let writer = self.stamp.writer;
         self.stamp.clock().is_valid() && self.address.owner.is_none_or(|owner| owner == writer)
@@ -79,7 +79,7 @@ impl Element {
     }
 }
 
-/// What became of an element that was merged.
+/// The result of merging an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Merged {
     /// It is what the memory now holds.
@@ -161,8 +161,8 @@ impl Store {
         self.fingerprint
     }
 
-    /// Computes afresh what follows from the elements, and sets right what only a corruption leaves
-    /// behind: elements that are not valid, were touched in the future, or depend on what is not shown.
+    /// Recomputes the values derived from the elements, and removes remains of a corruption: elements
+    /// that are invalid, were touched in the future, or depend on values that are not shown.
     pub fn refresh(&mut self, now: Time) {
         self.elements.retain(|_, element| element.is_valid());
         let mut has_causal = false;
@@ -236,7 +236,7 @@ impl Store {
     }
 }
 
-/// What is to become of a write where there is an element with its key.
+/// The decision about a write where there is an element with its key.
 fn compare(present: &Element, write: &Write, owner: Option<RobotId>, me: RobotId) -> Merged {
     if !present.address.is(&write.variable, owner) {
         // Two addresses with the same key: the lesser is kept, on all robots alike.

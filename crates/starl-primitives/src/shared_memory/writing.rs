@@ -1,4 +1,4 @@
-//! How a write comes about.
+//! The creation of a write.
 
 use super::stamp::HybridClock;
 use super::store::{self, Address, Element};

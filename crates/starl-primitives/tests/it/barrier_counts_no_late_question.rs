@@ -1,5 +1,5 @@
-//! What a robot says before it knows the generation counts for none: by the time it arrives the robot may have
-//! restarted, and passed.
+//! Announcements of a robot before it knows the generation do not count: by the time they arrive the robot may
+//! have restarted, and passed.
 
 use crate::harness::crosser::{Crosser, arrive, barrier, crossings};
 use crate::harness::{Wire, World};

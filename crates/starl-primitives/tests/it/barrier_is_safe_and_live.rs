@@ -1,5 +1,5 @@
-//! Nobody passes a barrier before all have come to it, whatever the network does and whichever robots crash
-//! and restart; and when all have come, all pass.
+//! No robot passes a barrier before all have arrived, whatever the network does and whichever robots crash
+//! and restart; and when all have arrived, all pass.
 
 use crate::harness::crosser::{Crosser, arrive, barrier, crosser, crossings};
 use crate::harness::{Wire, World};
@@ -17,7 +17,7 @@ fn busy(count: usize, seed: u64, wire: Wire) -> World {
 }
 
 #[test]
-fn nobody_passes_before_the_last_has_come() {
+fn no_robot_passes_before_the_last_has_arrived() {
     let mut world = idle(4, 1, Wire::perfect());
     for generation in 1..4 {
         for robot in [2, 0, 3] {
@@ -40,7 +40,7 @@ fn nobody_passes_before_the_last_has_come() {
 }
 
 #[test]
-fn a_lone_robot_waits_for_nobody() {
+fn a_lone_robot_does_not_wait() {
     let mut world = idle(1, 1, Wire::perfect());
     assert!(!barrier(&world, 0).passed());
     world.command(0, arrive());
@@ -150,7 +150,7 @@ fn late_joiners_are_waited_for() {
         }
         world.run_for(SECOND * 40);
         assert!(crosser(&world, 4).crossings >= 10, "seed {seed}");
-        // Who joins has not come to what was passed before; from then on all are counted.
+        // A robot that joins has not arrived at earlier generations; from then on all are counted.
         for robot in 0..5 {
             let ahead = barrier(&world, robot).generation();
             assert!(ahead.abs_diff(barrier(&world, 4).generation()) <= 1);
@@ -159,7 +159,7 @@ fn late_joiners_are_waited_for() {
 }
 
 #[test]
-fn who_waits_for_a_dead_robot_is_told_and_passes_when_it_is_back() {
+fn waiting_for_a_dead_robot_is_reported_and_ends_when_it_returns() {
     for crashes_first in [true, false] {
         let mut world = idle(3, 1, Wire::perfect());
         for robot in 0..3 {
@@ -203,7 +203,7 @@ fn robots_that_do_not_know_fall_silent() {
 }
 
 #[test]
-fn who_crashes_at_the_barrier_had_come() {
+fn a_robot_that_crashes_at_the_barrier_has_arrived() {
     let mut world = idle(3, 1, Wire::perfect());
     (0..3).for_each(|robot| world.command(robot, arrive()));
     world.run_for(SECOND * 5);

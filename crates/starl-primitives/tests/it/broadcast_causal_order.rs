@@ -159,7 +159,7 @@ fn the_program_is_told_of_what_it_misses() {
 }
 
 #[test]
-fn who_joins_late_does_not_wait_for_what_was_before() {
+fn a_late_joiner_does_not_wait_for_earlier_messages() {
     let mut world = world(3, 5, Wire::perfect(), 0);
     for value in 0..5 {
         world.command(0, tell(value));

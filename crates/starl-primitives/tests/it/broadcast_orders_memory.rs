@@ -71,7 +71,7 @@ fn memory_is_flat_over_an_hour_of_load_and_churn() {
 }
 
 #[test]
-fn garbage_is_borne() {
+fn garbage_is_tolerated() {
     for order in [Order::Fifo, Order::Causal, Order::Total] {
         for seed in 0..20 {
             let make = Teller::boxed(order, 20, 0.2);

@@ -1,5 +1,5 @@
-//! What becomes of a totally ordered broadcast when its leader dies, when the fleet falls apart, when a
-//! robot is away for long, when most robots stop at once, and when someone joins late.
+//! A totally ordered broadcast when its leader dies, when the network is partitioned, when a robot is
+//! away for long, when most robots stop at once, and when a robot joins late.
 
 use crate::harness::teller::{Id, Step, Teller, runs, sequences, tell, teller, total_violation};
 use crate::harness::{Wire, World};
@@ -134,14 +134,14 @@ fn absence(messages: u32) -> World {
 }
 
 #[test]
-fn who_was_away_catches_up() {
+fn a_robot_that_was_away_catches_up() {
     let world = absence(400);
     assert_eq!(handed(&world, 2).len(), 401);
     assert!(world.events("gap").is_empty());
 }
 
 #[test]
-fn who_was_away_for_too_long_is_told_of_the_gap() {
+fn a_robot_that_was_away_for_too_long_is_told_of_the_gap() {
     let messages = 3500; // more than a minute
     let world = absence(messages);
     assert_eq!(handed(&world, 0).len(), messages as usize + 1);
@@ -182,13 +182,13 @@ fn a_group_that_has_lost_its_majority_is_followed_by_another() {
         for robot in 0..5 {
             assert!(!teller(&world, robot).failed(), "seed {seed}");
         }
-        // Those who were in the group before say that they may have missed something.
+        // The members of the earlier group report that they may have missed messages.
         assert!(world.events("gap").len() >= 2, "seed {seed}");
     }
 }
 
 #[test]
-fn who_joins_late_is_handed_what_comes_then() {
+fn a_late_joiner_gets_the_messages_from_then_on() {
     let mut world = world(3, 6);
     for value in 0..700 {
         world.command(0, tell(value));

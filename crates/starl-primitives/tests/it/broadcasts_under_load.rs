@@ -114,7 +114,7 @@ fn a_partition_of_twenty_seconds_loses_nothing_and_its_backlog_clears_within_thr
             world.run_for(Duration::from_seconds(15));
             // The last of them have a little time.
             let until = world.now - Duration::from_seconds(3);
-            // In causal order what others waited for in vain meanwhile is passed over.
+            // In causal order messages that others waited for meanwhile are passed over.
             let from = match order {
                 Order::Causal => healed,
                 _ => Time::ZERO,

@@ -1,5 +1,5 @@
-//! Nobody waits for ever on a robot that is gone: a bounded number of copies, a bounded time, and then
-//! a failure that names it. The living are served meanwhile.
+//! No robot waits for ever for a dead robot: a bounded number of copies, a bounded time, and then a
+//! failure that names it. Live robots are served meanwhile.
 
 use crate::harness::talker::{Talker, broadcast, geocast, unicast};
 use crate::harness::{Wire, World, int};
@@ -16,7 +16,7 @@ fn the_failure_comes_within_its_bound_and_names_the_dead() {
                 ..Options::default()
             };
             let mut world = World::new(4, seed, Wire::bad(), None, Talker::boxed(options));
-            // Of those who are to hear of an area only those are missed who have answered before.
+            // Of the robots in an area, only those that have answered before are missed.
             world.command(0, geocast(100));
             world.run_for(options.failure_bound());
             assert_eq!(world.events("fail"), [], "seed {seed}");
@@ -107,7 +107,7 @@ fn too_many_messages_on_their_way_fail_the_oldest() {
 }
 
 #[test]
-fn a_fleet_of_one_has_nobody_to_wait_for() {
+fn a_fleet_of_one_does_not_wait() {
     let options = Options::default();
     let mut world = World::new(1, 5, Wire::perfect(), None, Talker::boxed(options));
     world.command(0, broadcast(1));

@@ -101,7 +101,7 @@ fn a_leader_that_resigns_is_replaced_and_stands_again_when_told_so() {
 }
 
 #[test]
-fn who_has_not_called_for_an_election_does_not_lead_but_learns_who_does() {
+fn a_robot_that_does_not_stand_does_not_lead_but_learns_the_leader() {
     for algorithm in ALGORITHMS {
         for seed in 0..20 {
             let make = Elector::boxed(by(algorithm), None, false, true);

@@ -60,7 +60,7 @@ fn with_leases_the_leader_stays_in_the_greater_part_and_the_others_show_none() {
         );
         world.wire.cut.clear();
         world.run_for(SECOND * 5);
-        // The leader is not disturbed by those that stood in vain.
+        // Robots that stand without success do not disturb the leader.
         assert_eq!(agreed(&world, &ALL), Some(leader as u32), "seed {seed}");
         assert!(
             lesser
@@ -91,7 +91,7 @@ fn with_leases_a_leader_that_is_cut_off_stops_before_another_leads() {
 }
 
 #[test]
-fn with_leases_nobody_leads_where_no_part_has_a_majority() {
+fn with_leases_no_robot_leads_without_a_majority() {
     let mut world = world(1, Algorithm::Leases);
     part(&mut world, &[0, 1]);
     for (from, to) in [(2, 3), (2, 4)] {
@@ -123,7 +123,7 @@ fn with_ballots_and_bully_each_part_has_a_leader_until_they_meet() {
     }
 }
 
-/// A link that carries one way only is the hardest for whoever believes what it hears.
+/// A link in one direction only is the hardest case for robots that believe what they hear.
 #[test]
 fn links_that_carry_one_way_only_do_no_harm() {
     for algorithm in ALGORITHMS {

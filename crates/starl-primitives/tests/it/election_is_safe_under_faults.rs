@@ -15,7 +15,7 @@ struct Troubled {
     world: World,
     random: Random,
     count: u32,
-    /// How many events there were before, and who.
+    /// The number of events before each crash, and the robot.
     crashes: Vec<(usize, u32)>,
     down: Vec<u32>,
     /// Whether a majority may forget at once.
@@ -125,7 +125,7 @@ impl Troubled {
 }
 
 #[test]
-fn whoever_crashes_if_no_majority_forgets_at_once_and_clocks_are_hours_apart() {
+fn with_any_crashes_if_no_majority_forgets_at_once_and_clocks_are_hours_apart() {
     let mut led = 0;
     for seed in 0..600 {
         let count = 3 + seed as u32 % 3;
@@ -135,7 +135,7 @@ fn whoever_crashes_if_no_majority_forgets_at_once_and_clocks_are_hours_apart() {
 }
 
 #[test]
-fn whoever_crashes_if_clocks_are_close() {
+fn with_any_crashes_if_clocks_are_close() {
     let mut led = 0;
     for seed in 0..600 {
         let count = 1 + seed as u32 % 5;

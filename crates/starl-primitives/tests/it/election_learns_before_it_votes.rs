@@ -1,5 +1,5 @@
-//! What a robot that restarts has to go through before it votes again, and why: each part of it, left out, would
-//! let two robots lead at once or epochs go back.
+//! The steps of a restarted robot before it votes again, and their reasons: without any one of them two robots
+//! could lead at once or epochs could go back.
 
 use crate::harness::elector::{ELECT, Elector, RESIGN, agreed, by, judge};
 use crate::harness::{Wire, World};
@@ -8,8 +8,8 @@ use starl_primitives::election::{Algorithm, Options};
 
 const SECOND: Duration = Duration::from_seconds(1);
 
-/// Of three robots one hears nothing any more, while the other two elect anew. Then the one that voted restarts,
-/// and is linked with the third alone: these two are a majority.
+/// Of three robots one is disconnected, while the other two elect again. Then the one that voted restarts, and
+/// is connected only with the third: these two are a majority.
 fn voter_changes_sides(seed: u64, options: Options) -> (World, Vec<(usize, u32)>) {
     let make = Elector::eager(options);
     let mut world = World::new(3, seed, Wire::perfect(), None, make);
@@ -36,8 +36,8 @@ fn voter_changes_sides(seed: u64, options: Options) -> (World, Vec<(usize, u32)>
     (world, crashes)
 }
 
-/// The voter may not help the third robot to lead before it knows from the leader what it had promised: nobody
-/// leads until the three are linked.
+/// The voter must not help the third robot to lead before it knows its earlier promise from the leader: no
+/// robot leads until the three are connected.
 #[test]
 fn a_voter_that_forgot_does_not_help_another_to_an_earlier_epoch() {
     for seed in 0..100 {

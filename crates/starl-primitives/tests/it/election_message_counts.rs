@@ -9,7 +9,7 @@ use starl_primitives::election::Algorithm;
 const SECOND: Duration = Duration::from_seconds(1);
 const COUNTS: [usize; 6] = [3, 5, 10, 20, 50, 100];
 
-/// A fleet over a perfect network, without heartbeats, of which nobody stands yet.
+/// A fleet over a perfect network, without heartbeats, of which no robot stands yet.
 fn idle(count: usize, algorithm: Algorithm) -> World {
     let make = Elector::boxed(by(algorithm), None, false, false);
     World::new(count, 1, Wire::perfect(), None, make)

@@ -48,14 +48,15 @@ fn all_agree_within_ten_seconds() {
     }
 }
 
-/// What a corruption made up is forgotten after a lease: from then on no two lead at once, and epochs grow.
+/// Invented state of a corruption is forgotten after a lease: from then on no two robots lead at once, and
+/// epochs grow.
 #[test]
 fn with_leases_all_is_safe_again_after_two_leases() {
     for seed in 0..SEEDS {
         let mut world = corrupted(Algorithm::Leases, seed, Wire::bad());
         let since: Time = world.now;
         world.run_for(SECOND * 6);
-        // Who leads by then has an epoch of its own; those before are not judged.
+        // A robot that leads by then has its own epoch; earlier leaders are not judged.
         let mut leading: Vec<u32> = Vec::new();
         for robot in ALL {
             let election = harness::elector::election(&world, robot);

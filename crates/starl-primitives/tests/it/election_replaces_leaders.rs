@@ -140,8 +140,8 @@ fn with_leases_a_robot_that_restarts_votes_only_after_a_lease() {
     }
 }
 
-/// Of three robots one is down and one has restarted: what the one that is down has promised nobody may know,
-/// so there is no leader until it is back. With nobody to ask for it, waiting is all that is safe.
+/// Of three robots one is down and one has restarted: the promises of the one that is down are unknown, so
+/// there is no leader until it returns. Waiting is the only safe behaviour.
 #[test]
 fn with_leases_there_is_no_leader_where_too_few_remember() {
     let mut world = agreeing(3, 1, Algorithm::Leases, Wire::perfect());
@@ -158,10 +158,10 @@ fn with_leases_there_is_no_leader_where_too_few_remember() {
     assert!(agreed(&world, &[0, 1, 2]).is_some());
 }
 
-/// A robot that was down when the others began anew joins them, and then remembers as well as they do: one that
-/// restarts after that can learn from it, though another one is down.
+/// A robot that was down when the others started again joins them, and then remembers as much as they do: a
+/// robot that restarts after that can learn from it, although another one is down.
 #[test]
-fn with_leases_who_joins_those_that_began_anew_remembers_as_they_do() {
+fn with_leases_a_robot_that_joins_restarted_ones_remembers_as_they_do() {
     for seed in 0..20 {
         let make = Elector::eager(by(Algorithm::Leases));
         let mut world = World::new(4, seed, Wire::perfect(), None, make);

@@ -18,7 +18,7 @@ fn message(from: u32, payload: Payload) -> Input {
     })
 }
 
-/// What a robot knows takes so many letters to write.
+/// The length of a robot's written state.
 fn size(world: &World, robot: usize) -> usize {
     format!("{:?}", election(world, robot)).len()
 }
@@ -39,7 +39,7 @@ fn bytes_of_any_kind() {
                 if let Some(kind) = bytes.first_mut() {
                     *kind %= 16;
                 }
-                // Those that are no participants are many; participants do not lie.
+                // There are many robots that are not participants; participants do not lie.
                 let from = 4 + random.below(100_000);
                 let to = random.below(4) as usize;
                 world.input(to, &message(from, Payload::from_vec(bytes)));
@@ -61,8 +61,8 @@ fn bytes_of_any_kind() {
     }
 }
 
-/// What participants said once is heard again, at any time, and under another's name: nothing is safe then, but
-/// all goes on when it is over.
+/// Earlier messages of participants are heard again, at any time, and under another's name: nothing is safe
+/// then, but everything continues afterwards.
 #[test]
 fn messages_that_were_sent_before() {
     for algorithm in ALGORITHMS {

@@ -38,7 +38,7 @@ fn a_crashed_robot_is_suspected_within_what_is_promised() {
 }
 
 #[test]
-fn on_a_good_network_a_crash_is_noticed_in_two_seconds_and_nobody_else_is_suspected() {
+fn on_a_good_network_a_crash_is_noticed_in_two_seconds_and_no_other_robot_is_suspected() {
     for seed in 0..20 {
         let mut world = world(4, seed, Wire::perfect());
         world.run_for(SECOND * 60);

@@ -10,7 +10,7 @@ const INSIDE: Point = Point::planar(0.9, 0.0);
 const OUTSIDE: Point = Point::planar(1.1, 0.0);
 
 #[test]
-fn who_is_inside_throughout_receives_and_who_is_outside_throughout_does_not() {
+fn a_robot_always_inside_receives_and_one_always_outside_does_not() {
     for seed in 0..40 {
         let mut world = World::new(
             5,

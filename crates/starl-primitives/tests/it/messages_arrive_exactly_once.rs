@@ -84,7 +84,7 @@ fn in_order() {
 
 #[test]
 fn with_hardly_any_memory() {
-    // What a receiver has no room for is repeated, so more retries are needed.
+    // Messages without room at a receiver are repeated, so more retries are needed.
     for seed in 0..20 {
         let first_in_first_out = seed % 2 == 0;
         check(

@@ -8,7 +8,7 @@ use starl_core::{Duration, Input, Message, Payload, Port, Random, RobotId};
 const SECOND: Duration = Duration::from_seconds(1);
 const PERIOD: Option<Duration> = Some(Duration::from_millis(100));
 
-/// A datagram that was sent, perhaps with some bytes changed, or none that makes sense.
+/// A datagram that was sent, perhaps with some bytes changed, or a meaningless one.
 fn garbage(sent: &[Payload], random: &mut Random) -> Vec<u8> {
     let mut bytes = match sent.len() as u32 {
         0 => Vec::new(),

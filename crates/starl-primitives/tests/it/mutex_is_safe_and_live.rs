@@ -182,7 +182,7 @@ fn after_a_corruption_it_is_safe_again_once_all_was_given_back() {
         (0..4).for_each(|robot| world.corrupt(robot));
         world.run_for(SECOND * 60);
         world.records.clear();
-        // Nobody holds anything from before when all have had a turn.
+        // No robot holds anything from before when all have had a turn.
         let held: Vec<bool> = (0..4)
             .map(|robot| mutex(&world, robot).held().is_empty())
             .collect();

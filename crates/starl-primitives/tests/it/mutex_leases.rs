@@ -62,7 +62,7 @@ fn a_holder_that_is_cut_off_knows_when_its_lease_has_ended() {
 }
 
 #[test]
-fn nobody_waits_for_a_lease_where_all_arbiters_hear_of_each_other() {
+fn no_request_waits_for_a_lease_if_all_arbiters_hear_of_each_other() {
     let mut world = world(3, 1, Wire::perfect(), false);
     world.run_for(SECOND / 5);
     world.command(0, acquire(&["a"]));
@@ -86,7 +86,7 @@ fn nobody_waits_for_a_lease_where_all_arbiters_hear_of_each_other() {
 }
 
 #[test]
-fn numbers_grow_though_those_who_forgot_them_have_clocks_that_differ() {
+fn numbers_grow_though_robots_that_forgot_them_have_different_clocks() {
     let mut world = world(3, 1, Wire::perfect(), false);
     world.set_clock_ahead(1, 3_600_000_000_000);
     world.run_for(SECOND / 5);

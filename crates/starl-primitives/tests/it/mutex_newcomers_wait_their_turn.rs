@@ -1,5 +1,5 @@
-//! A robot that has heard of nobody yet, as it has just restarted, is not served before those who wait already.
-//! Where ever new robots came, these would wait for ever.
+//! A robot that has not heard from any other, because it has just restarted, is not served before those that
+//! wait already. Otherwise a stream of new robots would starve them.
 
 use crate::harness::locker::{ALGORITHMS, Locker, acquire, mutex, release, set};
 use crate::harness::{Wire, World};
@@ -8,7 +8,7 @@ use starl_core::Duration;
 const SECOND: Duration = Duration::from_seconds(1);
 
 #[test]
-fn a_robot_that_restarted_comes_after_those_who_wait() {
+fn a_restarted_robot_comes_after_waiting_robots() {
     for algorithm in ALGORITHMS {
         let boxed = Locker::boxed(algorithm, false);
         let period = Some(Duration::from_millis(100));

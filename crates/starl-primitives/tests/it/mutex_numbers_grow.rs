@@ -20,7 +20,7 @@ fn set_clocks(world: &mut World, random: &mut Random) {
     }
 }
 
-/// Who went on without knowing the last number.
+/// The robots that continued without knowing the last number.
 fn anew(world: &World) -> Vec<u32> {
     let mut anew = Vec::new();
     for (_, robot, event) in &world.records {
@@ -96,7 +96,7 @@ fn numbers_grow_while_robots_crash_in_turn() {
 }
 
 #[test]
-fn a_robot_that_restarts_waits_for_those_who_may_know_more() {
+fn a_restarted_robot_waits_for_robots_that_may_know_more() {
     let make = Locker::boxed(Algorithm::Lease, false);
     let mut world = World::new(3, 1, Wire::perfect(), PERIOD, make);
     world.set_clock_ahead(2, HOUR);
@@ -138,7 +138,7 @@ fn with_storage_numbers_grow_though_all_crash_and_the_fast_clock_does_not_return
 }
 
 #[test]
-fn without_storage_those_who_have_all_forgotten_say_so() {
+fn without_storage_a_majority_that_forgot_is_reported() {
     let make = Locker::boxed(Algorithm::Lease, false);
     let mut world = World::new(3, 1, Wire::perfect(), PERIOD, make);
     world.set_clock_ahead(2, HOUR);

@@ -31,7 +31,7 @@ fn a_dead_robot_is_left_out() {
 }
 
 #[test]
-fn who_waits_for_a_dead_holder_is_told_and_goes_on_when_it_is_back() {
+fn waiting_for_a_dead_holder_is_reported_and_ends_when_it_returns() {
     let mut world = calm(4);
     world.command(3, acquire(&["a", "b"]));
     world.run_for(SECOND);

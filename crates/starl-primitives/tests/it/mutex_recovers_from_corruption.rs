@@ -17,8 +17,8 @@ fn is_doubly_held(world: &World) -> bool {
     })
 }
 
-/// Whoever holds something asks for nothing. Two robots that a fault made hold what the other one asks for would
-/// wait for each other.
+/// A robot that holds something requests nothing. Two robots with invented resources that the other one requests
+/// would wait for each other.
 #[test]
 fn robots_that_wait_give_up_what_a_fault_has_made_up() {
     for algorithm in ALGORITHMS {

@@ -1,5 +1,4 @@
-//! A request that others are to permit, since one of those who were asked takes part no longer or another one does,
-//! stays the request that it was, and keeps its turn.
+//! If the participants of a pending request change, it stays the same request, and keeps its turn.
 
 use crate::harness::locker::{Locker, acquire, ask_only, mutex, release, set};
 use crate::harness::{Wire, World};

@@ -1,6 +1,6 @@
-//! What an entry takes where all robots always want the same few resources and keep what they get for a while: at
-//! most 4 n datagrams in a fleet of n, also where a fifth of them is lost, and nobody starves.
-//! `cargo test -p starl-primitives --test it mutex_under_contention -- --nocapture` shows the table of
+//! The cost of an entry where all robots always want the same few resources and keep them for a while: at most 4
+//! n datagrams in a fleet of n, also with a fifth of them lost, and without starvation.
+//! `cargo test -p starl-primitives --test it mutex_under_contention -- --nocapture` prints the table of
 //! docs/reference/primitives/mutex.md.
 
 use crate::harness::locker::{ALGORITHMS, Locker, contend};

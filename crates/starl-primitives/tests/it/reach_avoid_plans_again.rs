@@ -102,7 +102,7 @@ fn answers_of_other_instances_are_ignored() {
 }
 
 #[test]
-fn an_answer_that_is_no_path_counts_as_none() {
+fn an_invalid_path_counts_as_none() {
     for path in [vec![], vec![p(f64::NAN, 0.0)]] {
         let mut bench = Bench::new(Options {
             most_plan_failures: 1,
@@ -145,7 +145,7 @@ fn a_robot_that_is_blocked_for_good_gives_up() {
 }
 
 #[test]
-fn way_points_are_cut_short_only_where_the_way_on_is_free() {
+fn waypoints_are_cut_short_only_where_the_rest_is_free() {
     // A corner: the short cut from (1.93, 0) to (2, 2) would graze the block.
     let corner = block(p(1.0, 0.25), p(1.75, 2.0));
     for (unsafe_set, cut_at) in [(vec![], 1.86), (vec![corner], 1.95)] {
@@ -160,7 +160,7 @@ fn way_points_are_cut_short_only_where_the_way_on_is_free() {
 }
 
 #[test]
-fn a_way_point_that_was_overshot_is_passed() {
+fn an_overshot_waypoint_is_passed() {
     let mut bench = under_way();
     bench.at(p(2.1, 0.25));
     assert_eq!(bench.tracked, Some((p(4.0, 0.0), None)));
@@ -189,7 +189,7 @@ fn a_robot_on_the_move_brakes_before_it_asks_for_a_path() {
 }
 
 #[test]
-fn a_robot_that_never_comes_to_rest_asks_all_the_same() {
+fn a_robot_that_never_stops_still_asks() {
     let mut bench = Bench::new(Options::default());
     bench.velocity = p(0.5, 0.0);
     bench.go(p(4.0, 0.0), [].into());

@@ -1,4 +1,5 @@
-//! What operations cost, how far a robot is told that they are, and how one comes back after a crash.
+//! The cost of operations, the reports of their progress, and the return of an operation after a
+//! crash.
 
 use crate::harness::keeper::{Keeper, keeper, known, read, result, status, withdraw, write};
 use crate::harness::{Wire, World};

@@ -1,6 +1,6 @@
-//! What robots count in a register by claiming and writing it is counted once for each write that they are
-//! told is done, whatever the network does and whichever robots crash and restart; no lock and no clock keeps
-//! them apart.
+//! A count that robots keep in a register by claiming and writing increases once for each write that is
+//! reported as done, whatever the network does and whichever robots crash and restart; no lock and no clock
+//! separates them.
 
 use crate::harness::counter::{Counter, Tally, tally};
 use crate::harness::{Wire, World};
@@ -99,7 +99,7 @@ fn robots_that_keep_no_copies_count_too() {
         let make = Counter::boxed(Some(keepers), 4000);
         let mut world = World::new(5, seed, Wire::bad(), PERIOD, make);
         world.run_for(SECOND * 120);
-        // Whoever is further away has its turn seldom, as nothing keeps robots apart.
+        // A robot that is further away seldom has a turn, because nothing separates robots.
         let tally = check(&world, 5, seed);
         assert!(tally.all_done() >= 20, "seed {seed}: {tally:?}");
     }

@@ -1,5 +1,5 @@
-//! What a robot has promised to a claim it keeps although it restarts without memory; and what a robot was
-//! writing when it died is completed by the next one that finds it, or never.
+//! A robot keeps its promise to a claim although it restarts without memory. An unfinished write of a dead
+//! robot is completed by the next robot that finds it, or never.
 
 use crate::harness::keeper::{Keeper, claim, keeper, known, read, result, status, update, write};
 use crate::harness::{Wire, World};
@@ -25,7 +25,7 @@ fn set_linked(world: &mut World, one: u32, other: u32, linked: bool) {
 }
 
 #[test]
-fn whoever_restarts_recovers_what_it_has_promised() {
+fn a_restarted_robot_recovers_its_promises() {
     let mut world = idle();
     world.command(0, claim());
     world.run_for(SECOND);
@@ -39,12 +39,13 @@ fn whoever_restarts_recovers_what_it_has_promised() {
     world.start(2);
     world.run_for(SECOND * 5);
     assert!(keeper(&world, 2).register.is_up());
-    // It is the only other one that each of them has. It refuses robot 0, who claims the register itself.
+    // It is the only other one that each of them has. It refuses robot 0, which claims the register
+    // itself.
     let written = Status::Done(Some(1_u32.to_le_bytes().as_slice().into()));
     world.command(0, update(1));
     world.run_for(SECOND * 10);
     assert_eq!(status(&world, 0), written);
-    // What it found then is not what robot 1 has found.
+    // The value that it found then differs from the one that robot 1 found.
     world.command(1, update(2));
     world.run_for(SECOND * 10);
     assert_eq!(status(&world, 1), Status::Lost);

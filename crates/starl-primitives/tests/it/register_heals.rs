@@ -19,8 +19,8 @@ fn after_a_corruption_of_all_robots_writes_are_read_again() {
         }
         (0..4).for_each(|robot| world.corrupt(robot));
         let corrupted = world.now;
-        // Copies that nobody wrote may have greater tags than the next write; once all know of them, its tag
-        // is greater still. Operations that were under way may store such values too.
+        // Invented copies may have greater tags than the next write; once all robots know them, its tag is
+        // greater still. Pending operations may store such values too.
         let copy = |world: &World, robot: usize| {
             let copy = keeper(world, robot).register.known("x");
             copy.map(<[u8]>::to_vec)

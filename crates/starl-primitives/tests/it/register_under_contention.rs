@@ -1,6 +1,7 @@
-//! What an operation takes where all robots begin one on the same register at once: 2 n datagrams in a fleet of n for
-//! reads and writes, some times that for claims that no lock keeps from refusing each other; and all come to an end. `cargo test -p starl-primitives --test it
-//! register_under_contention -- --nocapture` shows the table of docs/reference/primitives/register.md.
+//! The cost of operations where all robots begin one on the same register at once: 2 n datagrams in a fleet of n for
+//! reads and writes, several times that for claims without a lock; and all of them end.
+//! `cargo test -p starl-primitives --test it register_under_contention -- --nocapture` prints the table of
+//! docs/reference/primitives/register.md.
 
 use crate::harness::keeper::{Keeper, all_count, keeper, read, until_done, write};
 use crate::harness::{Wire, World};

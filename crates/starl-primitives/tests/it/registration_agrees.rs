@@ -1,5 +1,5 @@
-//! Robots that register come to show the same list, and a new one whenever somebody comes, leaves, crashes
-//! or restarts.
+//! Registered robots eventually show the same list, and a new one whenever a robot registers, leaves,
+//! crashes or restarts.
 
 use crate::harness::registrar::{
     Registrar, agree, judge, list, register, register_within, registration, unregister,
@@ -21,7 +21,7 @@ fn checked(world: &World) -> usize {
 }
 
 #[test]
-fn who_registers_together_is_in_one_list() {
+fn robots_that_register_together_are_in_one_list() {
     for seed in 0..50 {
         let mut world = idle(5, seed, Wire::perfect());
         (0..4).for_each(|robot| world.command(robot, register()));
@@ -84,7 +84,7 @@ fn a_crash_is_noticed_and_a_restart_too() {
             world.command(robot, register());
             world.run_for(SECOND);
             assert!(agree(&world, &[0, 1, 2, 3]), "seed {seed}");
-            // A restart so short that nobody misses it.
+            // A restart that is too short to be noticed.
             world.run_for(SECOND * 10);
             world.crash(robot);
             world.start(robot);
@@ -117,7 +117,7 @@ fn robots_of_one_area_agree() {
         assert!(agree(&world, &[1, 3]));
         // These are far from them and from each other.
         assert!(agree(&world, &[0]) && agree(&world, &[2]));
-        // Who has left the area stays in the list; the next still comes in.
+        // A robot that has left the area stays in the list; the next still enters.
         world.place(1, Point::planar(200.0, 0.0));
         world.command(4, register_within(10));
         world.run_for(SECOND * 3);
@@ -127,7 +127,7 @@ fn robots_of_one_area_agree() {
 }
 
 #[test]
-fn who_waits_for_long_is_told() {
+fn a_long_wait_is_reported() {
     let mut world = idle(2, 1, Wire::perfect());
     world.command(0, register());
     world.command(1, register());

@@ -124,7 +124,7 @@ fn garbage_is_survived() {
             }
         }
         world.wire = Wire::perfect();
-        // What was heard in error of robots that do not answer is forgotten in time.
+        // Wrong information about silent robots is forgotten in time.
         let begun = world.now;
         while !agree(&world, &[0, 1, 2]) {
             world.run_for(SECOND);

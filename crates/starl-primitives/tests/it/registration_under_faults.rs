@@ -1,6 +1,6 @@
 //! Whatever the network does and whichever robots crash and restart: no two lists of one time, no two robots
-//! that list each other with different lists, nobody in a list that was not registered. And once the faults
-//! end all come to show the same list.
+//! that list each other with different lists, no robot in a list without registration. After the faults all
+//! robots eventually show the same list.
 
 use crate::harness::registrar::{
     Registrar, agree, judge, list, register, registration, unregister,

@@ -9,7 +9,7 @@ use starl_primitives::shared_memory::Options;
 
 const PORT: Port = Port::named("memory");
 
-/// What a memory sends when this happens to it.
+/// The messages of a memory for an input.
 fn handle(id: u32, memory: &mut SharedMemory, input: &Input) -> Vec<(Destination, Payload)> {
     let effects = harness::alone(id, |robot| memory.handle(robot, input));
     let sent = effects.into_iter().filter_map(|effect| match effect {

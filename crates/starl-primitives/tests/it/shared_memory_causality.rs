@@ -84,11 +84,11 @@ fn elements_of_arrays_depend_on_each_other_too() {
     assert_eq!(read_of(&world, 1, 1, 0), Some(6));
 }
 
-/// Orders writes, and who made them.
+/// The order of writes, and their writers.
 type Stamp = (Time, i64, u32);
 
-/// What robots show, by their events: an element is its variable and its owner. Crashes are given, since
-/// they leave no event.
+/// The values that robots show, from their events: an element is its variable and its owner. Crashes
+/// leave no event, so they are given.
 fn judge(world: &World, crashes: &[(Time, u32)]) -> usize {
     type Element = (String, Option<u32>);
     type Shown = BTreeMap<Element, Stamp>;
@@ -109,7 +109,7 @@ fn judge(world: &World, crashes: &[(Time, u32)]) -> usize {
         .collect();
     events.sort_by_key(|((at, robot, _), _)| (*at, *robot));
     for ((at, me, fields), name) in events {
-        // What is shown at one moment is shown together.
+        // Updates of one moment are shown together.
         let is_over = fresh
             .first()
             .is_some_and(|first| first.0 < at || first.1 != me.0);

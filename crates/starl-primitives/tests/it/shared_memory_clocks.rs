@@ -1,6 +1,6 @@
-//! Clocks that are hours apart do not lose writes: whoever knew of a write when it wrote wins over it.
-//! Of writes that did not know of each other all robots take the one with the later clock, then the one
-//! of the greater number.
+//! Clocks that are hours apart do not lose writes: a robot that knew a write when it wrote wins over
+//! it. Of writes without knowledge of each other all robots take the one with the later clock, then the
+//! one of the greater number.
 
 use crate::harness::sharer::{Sharer, memory, read, write};
 use crate::harness::{Wire, World};

@@ -113,7 +113,7 @@ fn no_datagram_brings_about_a_flood() {
 }
 
 #[test]
-fn a_memory_that_nobody_starts_begins_with_its_first_input() {
+fn a_memory_without_a_start_begins_with_its_first_input() {
     let mut memory = SharedMemory::new("memory", Options::default());
     let effects = harness::alone(0, |robot| memory.handle(robot, &Input::Activate));
     assert!(matches!(

@@ -113,7 +113,7 @@ fn copies_become_equal_over_a_network_that_loses_repeats_and_reorders() {
 }
 
 #[test]
-fn a_write_that_nobody_heard_is_repaired() {
+fn a_write_that_no_robot_heard_is_repaired() {
     for seed in 0..20 {
         let mut world = world(3, seed, Wire::perfect());
         world.run_for(Duration::from_seconds(60));

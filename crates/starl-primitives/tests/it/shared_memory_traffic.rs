@@ -1,5 +1,5 @@
-//! What shared memory costs: little while nothing changes, however many robots there are; datagrams of
-//! bounded length, however many variables.
+//! The cost of shared memory: little while nothing changes, however many robots there are; datagrams
+//! of bounded length, however many variables.
 
 use crate::harness::sharer::{Sharer, memory, read, write, write_many, write_own};
 use crate::harness::{Wire, World};
@@ -137,7 +137,8 @@ fn large_differences_are_sent_piece_by_piece() {
     }
 }
 
-/// Many find out at once; who hears another send it does not send it too.
+/// Many robots find a difference at once; a robot that hears another send the write does not send
+/// it too.
 #[test]
 fn what_many_robots_missed_is_sent_again_about_once() {
     let mut bytes = 0;

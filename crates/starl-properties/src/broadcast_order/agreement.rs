@@ -1,10 +1,9 @@
 //! Agreement in total order, with a bound: what a robot broadcasts that belongs to a majority of the fleet is
 //! handed to all of that majority.
 //!
-//! The bound runs from the moment at which it was sent, or from when the last fault has been got over,
-//! whichever is later. It is judged for those that are well then and in one part with the sender, if they are
-//! a majority; and who has come into the order after the message was sent, or says that it has a gap, is
-//! not asked for it.
+//! The bound starts when the message was sent, or after the last fault, whichever is later. It is judged for
+//! robots that work then and are in one part with the sender, if they are a majority. Robots that have
+//! entered the order after the message was sent, or report a gap, are not judged.
 
 use super::AGREEMENT;
 use crate::health::{Health, Needs};
@@ -28,7 +27,7 @@ pub(super) struct Agreement {
     last_fault: Option<Time>,
     /// Since when each robot has been in the order of an instance.
     joined: BTreeMap<(Port, RobotId), Time>,
-    /// Who was handed each message, and when it was sent.
+    /// The robots that delivered each message, and the time when it was sent.
     handed: BTreeMap<MessageKey, (Time, BTreeSet<RobotId>)>,
     /// By when it is judged, in that order.
     due: VecDeque<(Time, MessageKey)>,
@@ -145,7 +144,7 @@ impl Agreement {
         }
     }
 
-    /// Who has to have been handed a message by now.
+    /// The robots that must have delivered a message by now.
     fn owed(
         &self,
         key: MessageKey,
@@ -185,8 +184,8 @@ impl Agreement {
         near.into_iter().filter(has_been).collect()
     }
 
-    /// Whether a robot is down without which those that voted before may be too few to decide: others have started again,
-    /// and vote no more until somebody leads.
+    /// Whether a robot is down without which the voters may be too few to decide: others have restarted, and vote
+    /// again only when there is a leader.
     fn may_lack_voters(&self) -> bool {
         let quorum = self.robots as usize / 2 + 1;
         !self.down.is_empty() && self.crashed.len() > self.robots as usize - quorum

@@ -1,8 +1,8 @@
 //! Causal order: what happened before a message was sent (Lamport 1978) is handed out before it.
 //!
-//! As each sender's messages are handed out in its order, what comes before a message is told by one number
-//! for each sender. What a robot sent in an earlier life is not owed to who was handed, or passed over, something of a
-//! later one.
+//! Each sender's messages are delivered in its order, so the predecessors of a message are one number for each sender.
+//! Messages of a robot's earlier life are not required at robots that delivered, or passed over, a message of a later
+//! one.
 
 use super::{CAUSAL, Finding, Process};
 use crate::report::MessageKey;
@@ -10,7 +10,7 @@ use starl_core::{Duration, RobotId, Time};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-/// Messages are forgotten after this time: whoever is handed one then is not judged for it.
+/// Messages are forgotten after this time: later deliveries of them are not judged.
 const MEMORY: Duration = Duration::from_seconds(300);
 
 /// The last message of each process that comes before something.
@@ -18,12 +18,12 @@ type Past = BTreeMap<Process, u32>;
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Causality {
-    /// What came before each message.
+    /// The predecessors of each message.
     before: BTreeMap<MessageKey, Arc<Past>>,
     sent: VecDeque<(Time, MessageKey)>,
-    /// What has happened before now at each robot: sent, handed out, and before that.
+    /// The past of each robot: messages that it sent and delivered, and their predecessors.
     known: BTreeMap<RobotId, Past>,
-    /// What each robot was handed or passed over.
+    /// The messages that each robot delivered or passed over.
     settled: BTreeMap<RobotId, Past>,
     /// The lives of all robots in the order in which they first sent.
     lives: BTreeMap<Process, u64>,

@@ -1,8 +1,8 @@
 //! The order of broadcasts (thesis, section 3.3.1: "FIFO ordering, causal ordering, and total ordering").
 //!
-//! Which order an instance promises is on record with each message that is sent. What a robot was handed is
-//! judged from one start to the next: it keeps nothing when it stops. A message that it says it passes
-//! over, or a gap that it says it has, excuses it from being handed that, never from the order.
+//! The record of each sent message contains the order that its instance promises. Deliveries of a robot are
+//! judged from one start to the next, because it keeps nothing when it stops. A message that it reports as
+//! passed over, or a gap that it reports, excuses it from the delivery, never from the order.
 
 mod agreement;
 mod causal;
@@ -33,7 +33,7 @@ type Process = (RobotId, u32);
 pub(super) struct BroadcastOrder {
     bound: Duration,
     instances: BTreeMap<Port, Instance>,
-    /// What was broadcast without order, and handed out.
+    /// The messages that were broadcast without order, and delivered.
     unordered: Taken,
     agreement: Agreement,
     /// After a corruption nothing is judged until then.
@@ -66,7 +66,7 @@ impl Instance {
         }
     }
 
-    /// Who was handed what begins anew.
+    /// The robots that delivered messages of an instance start again.
     fn begin_anew(&mut self, robot: RobotId) {
         self.handed.remove(&robot);
         self.sequences.end(robot);
@@ -76,11 +76,11 @@ impl Instance {
     }
 }
 
-/// What is seen at a robot, and what of it is wrong.
+/// An observation at a robot, and its violations.
 struct Finding<'a> {
     report: &'a Report<'a, BroadcastEvent>,
     violations: &'a mut Vec<Violation>,
-    /// After a corruption nothing is held against anybody.
+    /// After a corruption nothing counts as a violation.
     excused: Option<&'a mut Excused>,
 }
 
@@ -233,7 +233,7 @@ impl Checker for BroadcastOrder {
     }
 
     fn heeds(&self) -> Kinds {
-        // What is overdue is found at the next record of any kind.
+        // Missed deadlines are found at the next record of any kind.
         match self.agreement.is_owed() {
             false => Kinds::REPORTS | Kinds::SENT | Kinds::DELIVERED,
             true => Kinds::ALL,

@@ -12,7 +12,7 @@ const WINDOW: usize = 2048;
 /// The runs of robots that have ended that are compared with others, the latest.
 const ENDED: usize = 32;
 
-/// What a robot was handed since its start.
+/// The deliveries of a robot since its start.
 #[derive(Clone, Debug, Default)]
 struct Run {
     robot: Option<RobotId>,
@@ -26,7 +26,7 @@ struct Run {
     common: BTreeMap<u64, u64>,
 }
 
-/// What all robots were handed.
+/// The deliveries of all robots.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sequences {
     /// By a number that each run gets.

@@ -1,4 +1,5 @@
-//! What is on record of one election: who takes part, who shows whom, who leads in which epoch.
+//! The records of one election: its participants, the leader that each shows, and the leader of
+//! each epoch.
 
 use super::{EXCLUSION, ORDER, SOUNDNESS, UNIQUENESS};
 use crate::Violation;
@@ -31,12 +32,12 @@ pub(super) struct Member {
     pub called: Option<Time>,
     /// Since when it votes.
     pub votes_since: Option<Time>,
-    /// Whether it had nobody to learn from what was promised before.
+    /// Whether no robot could tell it the earlier promises.
     pub is_anew: bool,
     pub shown: Shown,
 }
 
-/// Whom a robot shows as leader, if any, and since when.
+/// The leader that a robot shows, if any, and since when.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shown {
     pub leader: Option<RobotId>,
@@ -150,8 +151,8 @@ impl Instance {
         self.leading.insert(robot, epoch);
     }
 
-    /// Where a majority does not vote, having crashed or not begun, nobody may remember the latest epoch; whether
-    /// there was one.
+    /// If a majority does not vote, because it has crashed or not started, possibly no robot remembers the latest
+    /// epoch. Returns whether there was one.
     pub fn note_forgotten(&mut self) -> bool {
         let votes = |robot: &RobotId| {
             let member = self.members.get(robot);

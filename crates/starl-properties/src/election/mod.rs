@@ -1,9 +1,9 @@
 //! Leader election (thesis, section 3.4.2): agreement, soundness and progress, and what epochs promise.
 //!
-//! That an epoch has one leader is judged as it is. What rests on memory and clocks is not judged where memory
-//! was lost: epochs need not grow past a moment at which a majority of the participants did not vote, having
-//! crashed or not begun, and nothing but the uniqueness of epochs is asked for a bound after a corruption.
-//! Agreement and progress are judged with a bound, in which those concerned were well and linked.
+//! An epoch must always have one leader. Guarantees that rest on memory and clocks are not judged where memory
+//! was lost: epochs need not grow past a moment at which a majority of the participants did not vote, because
+//! it had crashed or not started. For one bound after a corruption only the uniqueness of epochs is judged.
+//! Agreement and progress are judged with a bound in which the robots concerned worked and were connected.
 
 mod instance;
 mod owed;
@@ -157,7 +157,7 @@ impl Checker for Election {
 
     fn observe(&mut self, record: &Record, violations: &mut Vec<Violation>) {
         match &record.event {
-            // Before anyone elects nobody is to agree.
+            // Before the first election there is nothing to agree on.
             Event::Sent { .. } | Event::Delivered { .. } if !self.instances.is_empty() => {
                 self.parts.observe(record);
             }

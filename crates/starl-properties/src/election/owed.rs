@@ -4,7 +4,7 @@ use super::{AGREEMENT, Election, Instance, Member, PROGRESS, Shown};
 use crate::{Excuse, Violation, robot_list};
 use starl_core::{Duration, Port, RobotId, Time};
 
-/// What is excused, and why.
+/// An excuse, and its reason.
 type Reason = (&'static str, Excuse);
 
 /// Robots cannot tell whether one began to vote before another started, or so shortly after: their clocks drift,
@@ -147,8 +147,8 @@ impl Election {
         !owes
     }
 
-    /// Whether enough are ready for one of them to be elected: a majority that votes, or that all have to learn
-    /// what was promised, or one of whom so many vote that the others can learn it from them.
+    /// Whether enough robots are ready to elect one of them: a majority that votes, or that all have to learn
+    /// the promises, or so many voters that the others can learn the promises from them.
     fn has_quorum(
         &self,
         instance: &Instance,

@@ -1,7 +1,7 @@
 //! Which robots are ready to grant, as far as they say so, and from when on a request is to be granted.
 //!
-//! With leases a majority that is well, ready and together with the robot is enough, whoever else is down. With
-//! permissions and quorums all robots are needed.
+//! With leases a majority that works, is ready and connected with the robot suffices, whichever other robots
+//! are down. With permissions and quorums all robots are needed.
 
 use crate::Excuse;
 use crate::health::Health;
@@ -15,13 +15,13 @@ pub(super) struct Arbiters {
     /// How many robots take part, and how many of them have to be ready.
     participants: u32,
     needed: u32,
-    /// Who knows what it has granted, since when, and how many took part then.
+    /// The robots that know their grants, since when, and the number of participants then.
     ready: BTreeMap<RobotId, (Time, u32)>,
-    /// Whether so few have known it at some moment that nobody need know the last number.
+    /// Whether so few have known it at some moment that possibly no robot knows the last number.
     may_have_forgotten: bool,
 }
 
-/// What is known of all robots.
+/// The state of all robots.
 pub(super) struct Fleet<'a> {
     pub robots: u32,
     pub health: &'a Health,

@@ -1,4 +1,4 @@
-//! What is on record of one mutex: who holds what, and who waits for what.
+//! The records of one mutex: holders and waiting robots of each resource.
 
 use super::arbiters::{Arbiters, Fleet};
 use super::waiting::Waiting;
@@ -11,10 +11,9 @@ use std::sync::Arc;
 /// A mutex.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Locks {
-    /// By resource: those who hold it, who should be one at most. All but the last are doubtful or have
-    /// been reported.
+    /// By resource: its holders, at most one. All except the last are doubtful or have been reported.
     holders: BTreeMap<Arc<str>, Vec<Holder>>,
-    /// By resource: the number that it was held with last, and by whom.
+    /// By resource: its last number, and the holder.
     numbers: BTreeMap<Arc<str>, (u64, RobotId)>,
     /// The same before a majority has forgotten it.
     forgotten: BTreeMap<Arc<str>, (u64, RobotId)>,
@@ -31,12 +30,12 @@ struct Holder {
     is_doubtful: bool,
 }
 
-/// What is said of a robot's coming to hold something.
+/// The verdict on a robot's entry.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
     /// Its number, with leases.
     pub number: Option<u64>,
-    /// Whether nobody else is to hold it.
+    /// Whether no other robot may hold it.
     pub is_exclusive: bool,
     /// Whether some corrupted state may have led to it.
     pub is_doubtful: bool,
@@ -44,7 +43,8 @@ pub(super) struct Entry {
 
 impl Locks {
     pub fn acquire(&mut self, robot: RobotId, resource: &str, at: Time) {
-        // Who asks holds nothing, whatever it held before its state was corrupted.
+        // A robot that requests something holds nothing, even if it did before its state was
+        // corrupted.
         for holders in self.holders.values_mut() {
             holders.retain(|holder| holder.robot != robot);
         }
@@ -195,14 +195,14 @@ impl Locks {
         self.used.clear();
     }
 
-    /// Nobody can know the numbers that were given.
+    /// The earlier numbers may be lost.
     pub fn forget_numbers(&mut self) {
         let mut numbers = core::mem::take(&mut self.numbers);
         self.forgotten.append(&mut numbers);
         self.used.clear();
     }
 
-    /// Whether anybody holds it.
+    /// Whether a robot holds it.
     pub fn is_held(&self, resource: &str) -> bool {
         self.holders
             .get(resource)

@@ -1,11 +1,11 @@
 //! Mutex (thesis, section 3.4.3): safety, non-interference and progress, and that the numbers of leases grow.
 //!
-//! Who holds what is known by what robots report. A hold ends when it is given back, when its lease ends, and
-//! when its robot crashes. With leases two robots may hold a resource where clocks break the bound that the
-//! leases count on; that is not judged then, and the numbers must tell the two apart even so.
+//! The reports of robots show the holders. A hold ends when it is released, when its lease ends, and when its
+//! robot crashes. With leases two robots may hold a resource if clocks break the bound that the leases rely
+//! on. This is not judged then, but the numbers must still distinguish the two.
 //!
-//! Where a majority of the arbiters of leases has forgotten all at once, nobody can know the last number. If they say
-//! so, numbers need be greater only than those since then.
+//! If a majority of the arbiters of leases has forgotten at once, possibly no robot knows the last number. If they
+//! report this, numbers need only be greater than those since then.
 //!
 //! After a corruption of state anywhere, robots may believe that they hold what others hold until they have
 //! given it back: what is entered within the bound after it is not judged against others.
@@ -40,7 +40,7 @@ pub(super) struct Mutex {
     health: Health,
     parts: Parts,
     locks: BTreeMap<Port, Locks>,
-    /// What is entered until then may be held by others too, for the corruption of some state.
+    /// Until then others may hold the same, because of a corruption of some state.
     doubtful_until: Time,
     /// When a state was overwritten last; zero if none was.
     corrupted_at: Time,

@@ -1,11 +1,12 @@
 //! Requests that wait, and whether they wait too long.
 //!
-//! Requests that overlap, directly or through others, wait for each other. As long as somebody holds what one
-//! of them asks for, all of them may wait for that. When nobody does, one of them is to be granted within the
-//! bound; a request that nobody's overlaps with is to be granted itself (non-interference). And of those who
-//! wait for the same, nobody is to be granted it again and again while another waits.
+//! Requests that overlap, directly or through others, wait for each other. As long as a robot holds a
+//! resource that one of them asks for, all of them may wait for that. When no robot does, one of them must be
+//! granted within the bound; a request without overlap must be granted itself (non-interference). Of robots
+//! that wait for the same resource, none may be granted it repeatedly while another waits.
 //!
-//! Who has to be well and together meanwhile, the arbiters say: see [`super::arbiters`].
+//! The arbiters determine which robots must work and be connected meanwhile: see
+//! [`super::arbiters`].
 
 use super::arbiters::Fleet;
 use super::locks::Locks;
@@ -27,7 +28,7 @@ pub(super) struct Waiting {
     changed: Time,
     /// How often each robot has come to hold what this one waits for.
     overtaken: BTreeMap<RobotId, u32>,
-    /// When, and by whom, it was overtaken once too often.
+    /// The time, and the robot that overtook it once too often.
     starved: Option<(Time, RobotId)>,
     is_reported: bool,
     /// Since when it waited for what it was excused for last.
@@ -49,8 +50,8 @@ impl Waiting {
 }
 
 impl Locks {
-    /// Something has happened to these resources: all who wait for them, or for those who do, may have waited
-    /// for that.
+    /// The state of these resources has changed: all requests that wait for them, directly or through others,
+    /// may have waited for that.
     pub(super) fn changed(&mut self, resources: &[&str], at: Time) {
         if self.waiting.is_empty() {
             return;
@@ -104,7 +105,8 @@ impl Locks {
                 continue;
             }
             let changes = group.iter().map(|robot| self.waiting[robot].changed);
-            // Who comes later does not excuse those who were there, and who cannot go on none of those who can.
+            // A newcomer does not excuse earlier robots, and a robot that cannot continue does not excuse those
+            // that can.
             let changed = changes.min().unwrap_or(now);
             let since = |robot: &RobotId| self.waiting[robot].changed.max(well[robot].0);
             let latest = group.iter().map(since).min().unwrap_or(now);
@@ -136,9 +138,9 @@ impl Locks {
             let (property, why) = match group.len() {
                 1 => (
                     NON_INTERFERENCE,
-                    "though nobody else holds or wants any of it",
+                    "though no other robot holds or requests any of it",
                 ),
-                _ => (PROGRESS, "though nobody holds any of it"),
+                _ => (PROGRESS, "though no robot holds any of it"),
             };
             found.push(Violation {
                 property: property.into(),

@@ -54,8 +54,8 @@ impl Command {
         }
     }
 
-    /// What is wrong if the robot has now entered the unsafe set; said once. The way between two poses
-    /// is taken as straight. The set is looked at only when the robot can have come to it.
+    /// The violation if the robot has now entered the unsafe set; reported once. The way between two
+    /// poses is assumed to be straight. The set is checked only if the robot can have reached it.
     pub fn check_safety(&mut self, at: Time, robot: RobotId, position: Point) -> Option<String> {
         let from = self.judged.replace(position).unwrap_or(position);
         self.clearance -= from.distance(position);

@@ -136,7 +136,7 @@ impl ReachAvoid {
         }
     }
 
-    /// What is wrong if a command that is done has not brought its robot to the target.
+    /// The violation if a finished command has not brought its robot to the target.
     fn check_goal(&self, robot: RobotId, command: &Command, at: Time) -> Option<String> {
         let watch = &self.robots[robot.index()];
         let target = command.target;
@@ -198,7 +198,7 @@ impl Checker for ReachAvoid {
     }
 
     fn heeds(&self) -> Kinds {
-        // What is overdue is found at the next record of any kind.
+        // Missed deadlines are found at the next record of any kind.
         match self.deadlines.is_empty() {
             true => Kinds::REPORTS | Kinds::MOVED | Kinds::INTERVENTION,
             false => Kinds::ALL,

@@ -25,7 +25,7 @@ pub(super) struct Register {
     last: Id,
     /// Whether some state was corrupted, so that copies may hold what was never written.
     corrupted: bool,
-    /// Who is down, and whether the network is parted.
+    /// The robots that are down, and whether the network is partitioned.
     down: BTreeSet<RobotId>,
     is_parted: bool,
     /// Whether a crash leaves robots what they have stored.
@@ -37,11 +37,11 @@ pub(super) struct Register {
 #[derive(Clone, Debug, Default)]
 struct Instance {
     registers: BTreeMap<String, Search>,
-    /// What is under way: by robot and its number for it.
+    /// The pending operations: by robot and its number for the operation.
     operations: BTreeMap<(RobotId, u32), Operation>,
-    /// What will not end, but may still take effect on a register that is to be judged again.
+    /// Operations that will not end, but may still take effect on a register that is judged again.
     loose: Vec<Operation>,
-    /// Who has kept copies at some time, and who does now.
+    /// The robots that have kept copies at some time, and those that do now.
     members: BTreeSet<RobotId>,
     up: BTreeSet<RobotId>,
     /// Whether a majority has been down or recovering at once, having forgotten all, so that values may be lost.
@@ -56,7 +56,7 @@ struct Operation {
     id: Id,
     register: String,
     kind: Kind,
-    /// What it writes, and in the place of what.
+    /// The value that it writes, and the value that it replaces.
     value: i64,
     found: Content,
     begun: Time,
@@ -74,7 +74,7 @@ impl Operation {
     }
 }
 
-/// What an operation does.
+/// The kind of an operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Read,
@@ -84,7 +84,7 @@ enum Kind {
 }
 
 impl Instance {
-    /// The history of a register; none as long as nobody can know what it holds.
+    /// The history of a register; none as long as its content is unknown.
     fn search(&mut self, register: &str) -> Option<&mut Search> {
         if !self.is_lost {
             return Some(self.registers.entry(register.into()).or_default());

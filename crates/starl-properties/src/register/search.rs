@@ -19,7 +19,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// At most this many configurations are kept.
 const MOST_CONFIGURATIONS: usize = 4096;
 
-/// What a register holds.
+/// The content of a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Content {
     /// Nothing was written.
@@ -31,7 +31,7 @@ pub(super) enum Content {
 /// Names an operation.
 pub(super) type Id = u64;
 
-/// What has become of a history so far.
+/// The verdict on a history so far.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Verdict {
     /// It is linearizable.
@@ -77,7 +77,7 @@ impl Configuration {
 }
 
 impl Default for Search {
-    /// A register that nobody has written.
+    /// A register before its first write.
     fn default() -> Search {
         Search::holding(Content::Nothing)
     }
@@ -101,7 +101,7 @@ impl Search {
         }
     }
 
-    /// What has become of it. Once it is not linearizable, or that cannot be said, it stays so.
+    /// The verdict. Once it is "not linearizable" or "unknown", it stays so.
     pub fn verdict(&self) -> Verdict {
         self.verdict
     }
@@ -209,8 +209,8 @@ impl Search {
         self.keep(next);
     }
 
-    /// What is possible after any operations under way have taken effect, in any order, so that it `fits`; none
-    /// if that is too much.
+    /// The possible states after any pending operations have taken effect, in any order, so that it `fits`;
+    /// none if there are too many.
     fn after_any(
         &mut self,
         fits: impl Fn(&mut Configuration) -> bool,
@@ -255,7 +255,7 @@ impl Search {
         value: i64,
         next: &mut BTreeSet<Configuration>,
     ) -> bool {
-        // Whoever will not end need not be ordered, unless it is seen.
+        // Operations that will not end need no place in the order, unless their effect is seen.
         let others = self.writes.iter().filter(|(id, (_, is_abandoned))| {
             !is_abandoned && !configuration.effective.contains(id)
         });
@@ -317,7 +317,7 @@ mod tests {
         begin: u32,
         end: Option<u32>,
         is_write: bool,
-        /// What an update finds.
+        /// The value that an update finds.
         found: Option<i64>,
         value: i64,
     }

@@ -1,4 +1,4 @@
-//! One registration: who takes part and shows what, and which lists there were.
+//! One registration: its participants, the lists that they show, and all lists.
 
 use super::{AGREEMENT, EXCLUSION, SOUNDNESS};
 use crate::Violation;
@@ -13,7 +13,7 @@ const MOST_LISTS: usize = 256;
 pub(super) struct Instance {
     pub robots: BTreeMap<RobotId, Life>,
     lists: BTreeMap<ListId, List>,
-    /// When somebody came or left last.
+    /// The time of the last registration or departure.
     pub changed: Time,
     /// Since when not all that are to agree do.
     pub apart_since: Option<Time>,
@@ -21,7 +21,7 @@ pub(super) struct Instance {
     pub is_reported: bool,
 }
 
-/// What a robot has said in its present life.
+/// The reports of a robot in its present life.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Life {
     /// Counts the robot's lives.
@@ -43,7 +43,7 @@ pub(super) struct Life {
 #[derive(Clone, Debug, Default)]
 struct List {
     members: Option<Vec<RobotId>>,
-    /// Who has accepted it, in which of its lives.
+    /// The robots that have accepted it, with their lives.
     accepted: BTreeMap<RobotId, u32>,
     /// Whether some of what was said of it may have been missed or made up.
     is_doubtful: bool,
@@ -208,8 +208,7 @@ impl Instance {
         }
     }
 
-    /// Whether all that take part with the whole fleet show the same list; and who does not show that
-    /// of the first.
+    /// The robots that participate with the whole fleet and do not show the list of the first.
     pub fn apart(&self) -> Vec<RobotId> {
         let all = self.robots.iter();
         let mut all = all.filter(|(_, life)| life.registered.is_some() && life.with_all);

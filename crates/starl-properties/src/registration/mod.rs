@@ -1,9 +1,9 @@
 //! Registration (thesis, section 3.4.1): agreement, soundness and progress, and what lists exclude.
 //!
-//! Agreement, exclusion and soundness are judged at each moment, by what robots report of their own part:
-//! that they register and leave, accept a list, show it, show none. Progress and convergence are judged with
-//! a bound that runs from the last moment at which somebody came or left or a fault was on record, as each
-//! of these makes for another agreement.
+//! Agreement, exclusion and soundness are judged at each moment, by the reports of robots about themselves:
+//! they register and leave, accept a list, show it, show none. Progress and convergence are judged with a
+//! bound that starts at the last registration, departure or fault, because each of these causes another
+//! agreement.
 
 mod instance;
 
@@ -54,7 +54,7 @@ impl Registration {
         let Report {
             at, robot, port, ..
         } = *report;
-        // What a corruption made up is gone by then.
+        // Invented state of a corruption is gone by then.
         let is_disturbed = self.disturbance.is_made_up(at);
         let instance = self.instances.entry(port).or_default();
         let mut is_excused = is_disturbed;

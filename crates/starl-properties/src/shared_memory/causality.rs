@@ -1,5 +1,5 @@
-//! Causality: who shows a write of a causal variable shows all writes of causal variables that its writer
-//! showed when it wrote, or later ones.
+//! Causality: a robot that shows a write of a causal variable shows all writes of causal variables that
+//! its writer showed when it wrote, or later ones.
 
 use super::element::Stamp;
 use super::{Address, owner};
@@ -19,14 +19,14 @@ const MOST_WRITES: usize = 256;
 /// An element: its variable, and its owner in an array.
 type Element = (Arc<str>, Option<RobotId>);
 
-/// What a robot shows of causal variables.
+/// The writes of causal variables that a robot shows.
 type Shown = BTreeMap<Element, Stamp>;
 
 /// Watches the causal variables of all shared memories.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Causality {
     memories: BTreeMap<Port, Memory>,
-    /// What robots have come to show at the present moment.
+    /// The updates of robots at the present moment.
     fresh: Vec<Update>,
     pending: Pending,
     /// Whether some state was corrupted, so that memories may hold what was never written.
@@ -39,7 +39,7 @@ pub(crate) struct Causality {
 struct Memory {
     /// The variables that are causal.
     causal: BTreeSet<Arc<str>>,
-    /// What each robot shows.
+    /// The writes that each robot shows.
     shown: BTreeMap<RobotId, Shown>,
     /// For each write what its writer showed besides.
     past: BTreeMap<Element, BTreeMap<Stamp, Arc<Shown>>>,
@@ -53,7 +53,7 @@ struct Update {
     port: Port,
     element: Element,
     stamp: Stamp,
-    /// What its writer showed besides.
+    /// The other writes that its writer showed.
     past: Arc<Shown>,
 }
 

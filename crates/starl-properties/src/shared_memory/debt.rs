@@ -1,4 +1,4 @@
-//! What robots are yet to show, and by when.
+//! The writes that robots must show, with their deadlines.
 
 use super::element::{Element, Shown, Stamp};
 use super::{CONVERGENCE, SharedMemory};
@@ -28,9 +28,9 @@ pub(super) struct Debt {
 
 /// Whether a robot is yet to show a write.
 enum Verdict {
-    /// It shows it, as far as anybody can say.
+    /// It shows the write, as far as the records tell.
     Settled,
-    /// It does not, and nobody is left that does.
+    /// It does not show the write, and no remaining robot does.
     Lost,
     /// It does not, and should have by now.
     Late,
@@ -73,7 +73,7 @@ impl SharedMemory {
         let (mut late, mut due) = (Vec::new(), Vec::new());
         let mut excused = Vec::new();
         let mut everyone = debt.to.is_none();
-        // Who has come since has debts of its own.
+        // Robots that joined later have their own entries.
         let members = memory.members.iter();
         let robots = members.filter_map(|(&robot, &joined)| match debt.to {
             None => (joined <= debt.written).then_some(robot),
@@ -124,7 +124,7 @@ impl SharedMemory {
         }
     }
 
-    /// Whether a robot shows a write, or who owes it to it since when.
+    /// Whether a robot shows a write, or else which robot must pass it on, and since when.
     fn judge(&self, robot: RobotId, debt: &Debt, element: &Element, now: Time) -> Verdict {
         let shown = element.shown.get(&robot);
         if shown.is_some_and(|shown| shown.may_be_at_least(debt.stamp)) {
@@ -151,7 +151,7 @@ impl SharedMemory {
         };
         let owed_since = owed_since.max(ready(robot));
         if owed_since == Time::NEVER {
-            // Nobody can show it to it now.
+            // No robot can pass it on now.
             return Verdict::Due(now + self.bound);
         }
         let due = owed_since + self.bound;

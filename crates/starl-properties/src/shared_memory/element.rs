@@ -1,4 +1,4 @@
-//! What is on record of one element of a shared memory: its writes, and what robots show.
+//! The records of one element of a shared memory: its writes, and the values that robots show.
 
 use starl_core::event::storing::Written;
 use starl_core::{RobotId, Time};
@@ -25,7 +25,7 @@ impl Stamp {
     }
 }
 
-/// What a robot shows.
+/// The write that a robot shows.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Shown {
     /// This write, since then.
@@ -35,7 +35,7 @@ pub(super) enum Shown {
 }
 
 impl Shown {
-    /// Whether it shows this write or a later one, or nobody can say.
+    /// Whether it shows this write or a later one, or this is unknown.
     pub fn may_be_at_least(self, stamp: Stamp) -> bool {
         match self {
             Shown::Write(shown, _) => shown >= stamp,

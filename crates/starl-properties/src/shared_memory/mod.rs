@@ -36,7 +36,7 @@ pub(super) struct SharedMemory {
     health: Health,
     parts: Parts,
     memories: BTreeMap<Port, Memory>,
-    /// What is to be shown, by the time at which it is judged and a running number.
+    /// The writes that must be shown, by the time at which they are judged and a running number.
     owed: BTreeMap<(Time, u64), Debt>,
     debts: u64,
     /// Robots that went back.
@@ -49,7 +49,7 @@ pub(super) struct SharedMemory {
 /// One memory.
 #[derive(Clone, Debug, Default)]
 struct Memory {
-    /// Who has it, and since when.
+    /// The robots with this memory, and since when.
     members: BTreeMap<RobotId, Time>,
     /// By name, and for arrays by owner.
     variables: BTreeMap<Arc<str>, BTreeMap<Option<RobotId>, Element>>,

@@ -60,7 +60,7 @@ fn those_that_wait_for_each_other_keep_all() {
 }
 
 #[test]
-fn who_passes_too_early_is_found() {
+fn passing_too_early_is_found() {
     let mut story = robots();
     arrives(&mut story, 1000, 0, Some(2));
     arrives(&mut story, 1000, 1, Some(2));
@@ -69,7 +69,7 @@ fn who_passes_too_early_is_found() {
 }
 
 #[test]
-fn who_passes_the_same_twice_is_found() {
+fn passing_the_same_twice_is_found() {
     let mut story = robots();
     arrives(&mut story, 1000, 0, Some(1));
     passes(&mut story, 1500, 0, 1);
@@ -77,7 +77,7 @@ fn who_passes_the_same_twice_is_found() {
 }
 
 #[test]
-fn who_came_and_crashed_had_come() {
+fn a_robot_that_arrived_and_crashed_has_arrived() {
     let mut story = robots();
     arrives(&mut story, 1000, 2, Some(2));
     story.fault(1200, Some(2), "crash");
@@ -89,7 +89,7 @@ fn who_came_and_crashed_had_come() {
 }
 
 #[test]
-fn who_restarts_comes_before_it_knows_to_what() {
+fn a_restarted_robot_arrives_before_it_knows_the_generation() {
     let mut story = robots();
     story.fault(1000, Some(2), "crash");
     story.fault(1500, Some(2), "restart");
@@ -104,7 +104,7 @@ fn who_restarts_comes_before_it_knows_to_what() {
 }
 
 #[test]
-fn when_all_have_crashed_generations_begin_anew() {
+fn when_all_have_crashed_generations_start_again() {
     let mut story = robots();
     for robot in 0..3 {
         story.fault(1000, Some(robot), "crash");
@@ -116,7 +116,7 @@ fn when_all_have_crashed_generations_begin_anew() {
 }
 
 #[test]
-fn who_waits_too_long_is_found() {
+fn waiting_too_long_is_found() {
     let mut story = robots();
     for robot in 0..3 {
         arrives(&mut story, 1000, robot, Some(2));
@@ -126,7 +126,7 @@ fn who_waits_too_long_is_found() {
 }
 
 #[test]
-fn nobody_owes_it_while_one_is_missing_or_down() {
+fn progress_is_not_required_while_a_robot_is_missing_or_down() {
     let mut story = robots();
     arrives(&mut story, 1000, 0, Some(2));
     arrives(&mut story, 1000, 1, Some(2));

@@ -40,7 +40,7 @@ fn a_message_that_does_not_arrive_is_reported_once_when_its_time_is_up() {
 }
 
 #[test]
-fn all_whom_it_does_not_reach_are_named_together() {
+fn all_robots_that_it_does_not_reach_are_named_together() {
     let verdict = broadcast_at_1s().verdict(60_000);
     assert_only(&verdict, "broadcast.delivery", 6000, &[0, 1, 2]);
     assert!(verdict[0].text.contains("did not reach robots 1 and 2"));
@@ -175,7 +175,7 @@ fn faults_that_do_not_stop_a_robot_from_talking_excuse_nothing() {
 }
 
 #[test]
-fn whom_a_partition_kept_the_message_from_is_excused() {
+fn a_robot_behind_a_partition_is_excused() {
     let mut story = robot_2_hears_nothing();
     story.fault(900, None, "partition");
     dropped(&mut story, 1000, (0, 2), DropReason::Partition);
@@ -184,7 +184,7 @@ fn whom_a_partition_kept_the_message_from_is_excused() {
 }
 
 #[test]
-fn a_partition_between_others_or_at_another_time_excuses_nobody() {
+fn a_partition_between_others_or_at_another_time_excuses_no_robot() {
     for (millis, link) in [
         (1500, (0, 1)),
         (1500, (2, 0)),
@@ -201,7 +201,7 @@ fn a_partition_between_others_or_at_another_time_excuses_nobody() {
 }
 
 #[test]
-fn loss_and_range_excuse_nobody() {
+fn loss_and_range_excuse_no_robot() {
     for reason in [DropReason::Loss, DropReason::Range, DropReason::Bandwidth] {
         let mut story = robot_2_hears_nothing();
         dropped(&mut story, 1000, (0, 2), reason);

@@ -1,4 +1,4 @@
-//! What robots are handed is judged by the order that the instance promises.
+//! Deliveries are judged by the order of the instance.
 
 use crate::support::{Story, assert_none, assert_only, seconds};
 use starl_core::RobotId;
@@ -259,7 +259,7 @@ fn all_of_a_majority_are_handed_what_one_of_it_sends() {
 }
 
 #[test]
-fn who_is_down_or_apart_or_came_later_is_not_asked_for_it() {
+fn robots_that_are_down_or_apart_or_joined_later_are_not_judged() {
     let mut down = left_out();
     down.fault(2050, Some(2), "crash");
     assert_none(&down.verdict(90_000));

@@ -1,4 +1,5 @@
-//! Robots that are linked come to show the same leader, and who stands has one, within the bound.
+//! Connected robots eventually show the same leader, and a robot that stands has one, within the
+//! bound.
 
 use crate::support::{Story, assert_none, assert_only, seconds};
 use starl_core::{RobotId, Value};
@@ -81,7 +82,7 @@ fn robots_that_were_unwell_have_the_bound_from_then_on() {
 }
 
 #[test]
-fn who_stands_without_a_leader_for_too_long_is_reported() {
+fn standing_without_a_leader_for_too_long_is_reported() {
     for algorithm in ["bully", "leases"] {
         let mut story = three(algorithm);
         shows(&mut story, 1000, 0, 0);
@@ -96,7 +97,7 @@ fn who_stands_without_a_leader_for_too_long_is_reported() {
 }
 
 #[test]
-fn who_does_not_stand_needs_no_leader() {
+fn a_robot_that_does_not_stand_needs_no_leader() {
     let mut story = three("bully");
     shows(&mut story, 1000, 0, 0);
     shows(&mut story, 1000, 1, 0);
@@ -112,7 +113,7 @@ fn with_leases_a_robot_without_a_majority_has_no_leader() {
     assert_none(&story.verdict(30_000));
 }
 
-/// Robot 0 votes, robot 1 has restarted, robot 2 is down: what robot 2 has promised nobody else may know.
+/// Robot 0 votes, robot 1 has restarted, robot 2 is down: no other robot knows the promises of robot 2.
 #[test]
 fn with_leases_robots_that_wait_for_one_that_remembers_have_no_leader() {
     let mut story = three("leases");
@@ -137,10 +138,10 @@ fn with_leases_robots_that_wait_for_one_that_remembers_have_no_leader() {
     );
 }
 
-/// Robot 2 is down, robot 1 recovers. If robot 0 did so with it, they begin anew together; if it voted already, it
-/// takes robot 2 to go on. Which it was cannot be told within a second.
+/// Robot 2 is down, robot 1 recovers. If robot 0 recovers with it, they start again together; if it voted already,
+/// robot 2 is needed to continue. Within a second the two cases cannot be distinguished.
 #[test]
-fn with_leases_who_voted_within_a_second_may_have_voted_before() {
+fn with_leases_a_robot_that_voted_within_a_second_may_have_voted_before() {
     let verdict = |millis| {
         let mut story = three("leases");
         story.fault(100, Some(2), "crash");

@@ -1,4 +1,4 @@
-//! An epoch has one leader, epochs grow, no two robots lead at once, and who leads has stood for election.
+//! An epoch has one leader, epochs grow, no two robots lead at once, and a leader has stood for election.
 
 use crate::support::{Story, assert_none, assert_only};
 use starl_core::{RobotId, Value};

@@ -1,4 +1,4 @@
-//! What a fault on record excuses is counted, by property and reason; where nothing is excused nothing is counted.
+//! Excuses by recorded faults are counted, by property and reason; without an excuse nothing is counted.
 
 use crate::support::{Story, assert_none, at, seconds};
 use starl_core::event::Hit;

@@ -59,7 +59,7 @@ fn the_boundary_is_as_wide_as_an_estimate_can_be_stale() {
 }
 
 #[test]
-fn who_leaves_meanwhile_may_deliver() {
+fn a_robot_that_leaves_meanwhile_may_deliver() {
     let mut story = delivered(circle(), 3050);
     story.walks(0, 1500, 1, at(0.0, 0.0), at(1.5, 0.0));
     story.walks(1600, 4000, 1, at(1.6, 0.0), at(4.0, 0.0));
@@ -67,7 +67,7 @@ fn who_leaves_meanwhile_may_deliver() {
 }
 
 #[test]
-fn who_left_before_may_not() {
+fn a_robot_that_left_before_may_not() {
     let mut story = delivered(circle(), 3050);
     story.stays(0, 100, 1, at(0.0, 0.0));
     story.walks(800, 4000, 1, at(1.8, 0.0), at(5.0, 0.0));
@@ -75,7 +75,7 @@ fn who_left_before_may_not() {
 }
 
 #[test]
-fn who_comes_in_after_delivery_was_outside_when_it_counted() {
+fn a_robot_that_enters_after_delivery_was_outside_when_it_counted() {
     let mut story = delivered(circle(), 1550);
     story.stays(0, 2000, 1, at(3.0, 0.0));
     story.stays(2100, 20_000, 1, at(0.0, 0.0));
@@ -83,7 +83,7 @@ fn who_comes_in_after_delivery_was_outside_when_it_counted() {
 }
 
 #[test]
-fn a_late_copy_does_not_reach_who_came_in_after_the_bound() {
+fn a_late_copy_does_not_reach_a_robot_that_entered_after_the_bound() {
     // The sender repeats for 4 s beyond d2 at the most.
     for (enters, holds) in [(5000, true), (7000, false)] {
         let mut story = delivered(circle(), 9000);
@@ -119,7 +119,7 @@ fn areas_of_every_shape_are_understood() {
 }
 
 #[test]
-fn nobody_is_in_an_area_that_is_not_valid() {
+fn no_robot_is_in_an_invalid_area() {
     let nowhere = Area::Circle {
         center: at(0.0, 0.0),
         radius: -1.0,

@@ -19,7 +19,7 @@ fn sent_to(area: Area) -> Story {
     story
 }
 
-/// Robots 0 and 1 are inside, robot 2 is far away; nobody delivers.
+/// Robots 0 and 1 are inside, robot 2 is far away; no robot delivers.
 fn silence() -> Story {
     let mut story = sent_to(circle());
     story.stays(0, 20_000, 0, at(-0.5, 0.0));
@@ -104,7 +104,7 @@ fn robots_that_break_are_excused() {
 }
 
 #[test]
-fn whom_a_partition_kept_the_message_from_is_excused() {
+fn a_robot_behind_a_partition_is_excused() {
     let mut story = silence();
     let event = Event::Dropped {
         from: RobotId(0),
@@ -133,7 +133,7 @@ fn areas_of_every_shape_are_understood() {
 }
 
 #[test]
-fn nobody_is_owed_a_message_to_an_area_that_is_not_valid() {
+fn no_robot_is_owed_a_message_to_an_invalid_area() {
     let mut story = sent_to(Area::Circle {
         center: at(0.0, 0.0),
         radius: f64::NAN,

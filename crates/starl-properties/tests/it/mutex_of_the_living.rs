@@ -68,7 +68,7 @@ fn a_minority_need_not_go_on_and_a_majority_has_to_as_soon_as_it_is_ready() {
         story.excused(30_000, NON_INTERFERENCE),
         [(Excuse::NoMajority, 1)]
     );
-    // Whoever has started has forgotten what it granted until it says otherwise.
+    // A robot that has started has forgotten its grants until it reports otherwise.
     story.fault(10_000, Some(2), "restart");
     assert_none(&story.verdict(30_000));
     ready(&mut story, 12_000, 2, 3, true);
@@ -76,7 +76,7 @@ fn a_minority_need_not_go_on_and_a_majority_has_to_as_soon_as_it_is_ready() {
 }
 
 #[test]
-fn with_storage_a_robot_need_not_be_ready_anew() {
+fn with_storage_a_robot_need_not_be_ready_again() {
     let mut story = story(3);
     story.setting.keeps_storage = true;
     for robot in [2, 3, 4] {
@@ -134,7 +134,7 @@ fn numbers_may_go_back_where_a_majority_has_forgotten_them_and_says_so() {
 }
 
 #[test]
-fn those_who_say_so_without_a_majority_that_forgot_are_not_excused() {
+fn reports_without_a_majority_that_forgot_are_not_excused() {
     let mut story = story(3);
     numbered(&mut story, 1000, 0, 900);
     for robot in [3, 4] {

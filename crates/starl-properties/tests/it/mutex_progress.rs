@@ -1,5 +1,4 @@
-//! What is free is granted within the bound: to a request that nobody else's overlaps with, and to one of those
-//! that overlap.
+//! A free resource is granted within the bound: to a request without overlap, and to one of those that overlap.
 
 use crate::support::{Story, assert_none, assert_only, seconds};
 
@@ -14,7 +13,7 @@ fn story() -> Story {
 }
 
 #[test]
-fn a_request_that_nobody_overlaps_with_is_granted_in_time() {
+fn a_request_without_overlap_is_granted_in_time() {
     let mut late = story();
     late.locks(1000, 0, "acquire", "a")
         .locks(1000, 0, "acquire", "b");
@@ -24,7 +23,7 @@ fn a_request_that_nobody_overlaps_with_is_granted_in_time() {
     assert_only(&verdict, NON_INTERFERENCE, 6000, &[0]);
     assert_eq!(
         verdict[0].text,
-        "robot 0 did not get what was asked for within 5s, though nobody else holds or wants any of it"
+        "robot 0 did not get what was asked for within 5s, though no other robot holds or requests any of it"
     );
     late.locks(6000, 0, "enter", "a")
         .locks(6000, 0, "enter", "b");
@@ -45,7 +44,7 @@ fn what_is_held_may_be_waited_for() {
 }
 
 #[test]
-fn those_who_wait_for_each_other_are_reported_together() {
+fn robots_that_wait_for_each_other_are_reported_together() {
     let mut story = story();
     story
         .locks(1000, 0, "acquire", "a")
@@ -56,7 +55,7 @@ fn those_who_wait_for_each_other_are_reported_together() {
     story.locks(2500, 2, "acquire", "c");
     let verdict = story.verdict(20_000);
     assert_only(&verdict, PROGRESS, 6000, &[0]);
-    // Whoever holds something at the end of the row is waited for.
+    // A holder at the end of the row is waited for.
     let mut story = story_with_a_holder();
     assert_none(&story.verdict(20_000));
     story.locks(3000, 2, "release", "d");
@@ -106,7 +105,7 @@ fn robots_that_are_down_or_apart_excuse() {
 }
 
 #[test]
-fn nobody_is_overtaken_for_ever() {
+fn no_robot_is_overtaken_for_ever() {
     let mut story = story();
     story.locks(0, 0, "acquire", "a");
     for turn in 1..=101 {

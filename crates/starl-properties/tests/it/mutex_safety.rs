@@ -1,4 +1,4 @@
-//! A resource is held by one robot at a time, and the numbers of those who hold it grow.
+//! A resource is held by one robot at a time, and the numbers of successive holders grow.
 
 use crate::support::{Story, assert_none, assert_only, seconds};
 

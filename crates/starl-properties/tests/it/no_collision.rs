@@ -145,22 +145,22 @@ fn restart_in_the_fall((top, high): (f64, f64), restarts: u64, lands: u64) -> St
 }
 
 #[test]
-fn who_restarts_in_its_fall_sinks_on_for_a_moment() {
+fn a_drone_that_restarts_while_falling_sinks_for_a_moment() {
     // It comes down on the robot before it has caught itself.
     let story = restart_in_the_fall((0.6, 0.2), 1450, 1800);
     assert_none(&story.verdict(1800));
 }
 
 #[test]
-fn who_restarts_in_its_fall_and_goes_down_by_itself_collides() {
-    // It never rises, but two seconds after its restart nobody falls.
+fn a_drone_that_restarts_while_falling_and_descends_by_itself_collides() {
+    // It never rises, but two seconds after its restart no robot falls.
     let story = restart_in_the_fall((0.9, 0.7), 1050, 3100);
     let verdict = story.verdict(3100);
     assert_only(&verdict, "no_collision", 3100, &[0, 1]);
 }
 
 #[test]
-fn who_restarts_on_a_robot_flies_off_and_comes_back_collides() {
+fn a_drone_that_restarts_on_a_robot_and_comes_back_collides() {
     for flies_off in [false, true] {
         let mut story = crash_landing();
         story.stays(3100, 4000, 0, at(0.0, 0.0));
@@ -178,7 +178,7 @@ fn who_restarts_on_a_robot_flies_off_and_comes_back_collides() {
 }
 
 #[test]
-fn who_runs_into_a_flyer_that_fell_collides() {
+fn a_robot_that_runs_into_a_fallen_drone_collides() {
     let mut story = Story::of(&[GROUND, FLYER]);
     story.stays(0, 3000, 0, at(2.0, 0.0));
     story.stays(0, 500, 1, Point::new(0.0, 0.0, 0.5));
@@ -190,7 +190,7 @@ fn who_runs_into_a_flyer_that_fell_collides() {
 }
 
 #[test]
-fn a_crash_on_the_ground_excuses_nobody() {
+fn a_crash_on_the_ground_excuses_no_robot() {
     let mut story = Story::of_ground_robots(2);
     story.stays(0, 1000, 0, at(0.0, 0.0));
     story.stays(0, 1000, 1, at(0.45, 0.0));

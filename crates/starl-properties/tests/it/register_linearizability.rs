@@ -85,7 +85,7 @@ fn operations_at_the_same_time_may_take_effect_in_any_order() {
 }
 
 #[test]
-fn whoever_reads_later_does_not_read_the_value_before() {
+fn a_later_read_does_not_return_the_earlier_value() {
     // The write is still under way: either value may be read, but not the new one and then the old.
     let write = (0, "write", 300, 5000, 5);
     let good = story(&[write, (1, "read", 400, 500, 0), (2, "read", 600, 700, 5)]);
@@ -183,7 +183,7 @@ fn after_a_majority_forgot(operations: &[(u32, &'static str, u64, u64, i64)]) ->
 
 #[test]
 fn it_is_judged_again_when_a_majority_is_back_though_a_robot_stays_dead() {
-    // What a lost majority wrote may be there or not, and what it then turns out to be stays.
+    // A write of a lost majority may exist or not, and its later state stays.
     for found in [0, 5] {
         let reads = [(2, "read", 40_000, 40_100, found)];
         assert_none(&after_a_majority_forgot(&reads).verdict(60_000));

@@ -70,7 +70,7 @@ fn properties(story: &Story) -> Vec<String> {
 }
 
 #[test]
-fn those_that_agree_and_agree_anew_keep_all() {
+fn robots_that_agree_again_keep_all() {
     let mut story = robots(2);
     agree(&mut story, 400, (400, 0, &[0, 1]));
     registers(&mut story, 1000, 2);
@@ -146,7 +146,7 @@ fn a_robot_that_restarted_is_another_one() {
 }
 
 #[test]
-fn who_has_not_registered_or_has_left_accepts_nothing() {
+fn a_robot_that_has_not_registered_or_has_left_accepts_nothing() {
     let mut story = robots(1);
     agree(&mut story, 400, (400, 0, &[0, 1]));
     assert_eq!(properties(&story), ["registration.soundness"]);
@@ -158,7 +158,7 @@ fn who_has_not_registered_or_has_left_accepts_nothing() {
 }
 
 #[test]
-fn who_waits_too_long() {
+fn waiting_too_long() {
     let mut story = robots(2);
     agree(&mut story, 400, (400, 0, &[0]));
     let found = story.verdict(15_000);

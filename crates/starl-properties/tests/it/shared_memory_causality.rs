@@ -1,4 +1,4 @@
-//! Nobody shows a write of a causal variable without those that its writer showed.
+//! No robot shows a write of a causal variable without those that its writer showed.
 
 use crate::support::{Story, assert_none, assert_only};
 use starl_core::Value;
@@ -64,7 +64,7 @@ fn what_depends_on_what_was_overwritten_depends_on_what_that_did() {
 }
 
 #[test]
-fn whoever_restarts_shows_nothing() {
+fn a_restarted_robot_shows_nothing() {
     let mut story = two_writes();
     story.shows(3000, 1, "update", "y", (1000, 0, 5));
     story

@@ -164,7 +164,7 @@ fn what_was_written_while_it_was_apart_is_one_debt() {
 }
 
 #[test]
-fn what_nobody_has_any_more_is_owed_by_nobody() {
+fn a_lost_write_is_not_required() {
     let mut story = Story::of_ground_robots(3);
     story.setting.properties.shared_memory_bound = seconds(5);
     for robot in 0..3 {
@@ -242,9 +242,9 @@ fn robots_in_the_same_part_owe_each_other() {
     assert_only(&verdict, PROPERTY, 6000, &[0, 2]);
 }
 
-/// What was sent before the partition set in says nothing of its parts.
+/// Messages sent before the partition began do not show its parts.
 #[test]
-fn a_datagram_from_before_the_partition_joins_nobody() {
+fn a_datagram_from_before_the_partition_joins_no_robots() {
     let mut story = robot_2_shows_nothing();
     story.sends(890, 0, 0, 2);
     story.fault(900, None, "partition");
@@ -263,7 +263,7 @@ fn another_partition_separates_those_that_one_joined() {
 }
 
 #[test]
-fn a_partition_long_past_excuses_nobody() {
+fn a_partition_long_past_excuses_no_robot() {
     let mut story = robot_2_shows_nothing();
     story.fault(100, None, "partition");
     story.fault(900, None, "heal");
@@ -283,7 +283,7 @@ fn a_corrupted_memory_is_not_judged_for_what_was_written_before_or_until_it_spea
     assert_only(&story.verdict(60_000), PROPERTY, 25_000, &[0, 2]);
 }
 
-/// What a corruption brought into the world is to be agreed on like anything else.
+/// Robots must agree on invented state of a corruption like on any other.
 #[test]
 fn garbage_that_spreads_is_to_reach_all() {
     let mut story = robot_2_shows_nothing();
@@ -335,7 +335,7 @@ fn a_datagram_after_the_healing_says_nothing_of_the_parts_before() {
 }
 
 #[test]
-fn a_fault_after_the_bound_excuses_nobody() {
+fn a_fault_after_the_bound_excuses_no_robot() {
     let mut story = robot_2_shows_nothing();
     story.fault(6010, Some(2), "crash");
     assert_only(&story.verdict(60_000), PROPERTY, 6000, &[0, 2]);

@@ -1,4 +1,4 @@
-//! Nobody shows a value in a shared memory that was never written.
+//! No robot shows a value in a shared memory that was never written.
 
 use crate::support::{Story, assert_none, assert_only};
 

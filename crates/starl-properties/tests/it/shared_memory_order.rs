@@ -1,4 +1,5 @@
-//! What a robot shows of a shared variable never goes back to an earlier write while it is up.
+//! The value of a shared variable that a robot shows never goes back to an earlier write while it
+//! is up.
 
 use crate::support::{Story, assert_none, assert_only};
 
@@ -76,7 +77,7 @@ fn variables_and_elements_are_told_apart() {
 }
 
 #[test]
-fn a_robot_that_restarts_begins_anew() {
+fn a_restarted_robot_starts_again() {
     let mut story = two_writes();
     story.fault(2100, Some(1), "crash");
     story.fault(2200, Some(1), "restart");

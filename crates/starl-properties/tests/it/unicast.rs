@@ -1,4 +1,4 @@
-//! What is sent to one robot reaches it within the bound, and once.
+//! A message to one robot reaches it within the bound, and once.
 
 use crate::support::{Story, assert_none, assert_only, seconds};
 use starl_core::RobotId;

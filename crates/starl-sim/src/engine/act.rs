@@ -35,7 +35,7 @@ impl Turn<'_> {
         self.take_in_order(arrivals);
     }
 
-    /// What comes before anything else: the start, paths that planners have found, and readings.
+    /// The first inputs: the start, paths that planners have found, and readings.
     fn begin(&mut self) {
         let mut from = self.window.from;
         if !self.node.condition().started {
@@ -54,8 +54,8 @@ impl Turn<'_> {
         }
     }
 
-    /// What happens, by time; at equal times estimates come before what was stored, then messages, then
-    /// orders, then what the node waits for.
+    /// The inputs by time. At equal times estimates come before completed writes, then messages, then
+    /// orders, then the node's own timeouts.
     fn take_in_order(&mut self, mut arrivals: &[Delivery]) {
         let is_down = self.node.condition().down;
         loop {
@@ -77,7 +77,7 @@ impl Turn<'_> {
         }
     }
 
-    /// What happens before `end`, while the robot senses nothing new.
+    /// The inputs before `end`, while the robot senses nothing new.
     fn take_until(&mut self, end: Time, arrivals: &mut &[Delivery]) {
         let readings = self.sensed.then_some(&*self.readings);
         let snapshot = snapshot(self.desk.shared, self.desk.kind, self.senses, readings);
@@ -205,7 +205,7 @@ fn datagram(transmission: &Transmission) -> Happening {
     }
 }
 
-/// What a robot knows at the moment; it has no readings but its bumper's where none were taken.
+/// The robot's current knowledge; without readings it has only that of its bumper.
 fn snapshot<'a>(
     shared: &'a Shared,
     kind: &'a Kind,

@@ -1,4 +1,5 @@
-//! What steers a run, and when: faults and events of the scenario, and what is applied while it runs.
+//! The interventions of a run with their times: faults and events of the scenario, and those applied
+//! during the run.
 
 use super::{Stream, fault, stream};
 use crate::scenario::{Bounds, Occasion, Scenario};
@@ -18,7 +19,7 @@ pub struct Due {
 pub struct Agenda {
     list: Vec<Due>,
     done: usize,
-    /// What has been applied from outside.
+    /// The interventions applied from outside.
     applied: Vec<(Time, Intervention)>,
 }
 
@@ -66,12 +67,12 @@ impl Agenda {
         self.list.insert(self.done + later, Due { at, what, told });
     }
 
-    /// What has been applied, in that order.
+    /// The applied interventions, in that order.
     pub fn applied(&self) -> &[(Time, Intervention)] {
         &self.applied
     }
 
-    /// What is to come and is recorded as an intervention.
+    /// The future events that are recorded as interventions.
     pub fn told(&self) -> impl Iterator<Item = (Time, Intervention)> {
         let told = self.list[self.done..].iter().filter(|due| due.told);
         told.map(|due| (due.at, due.what.clone()))

@@ -11,8 +11,8 @@ use starl_core::event::Hit;
 use starl_core::geometry::Bounds;
 use starl_core::{Point, RobotId};
 
-/// What a robot's predicted motion meets, the deepest overlap first. No body moves farther than
-/// `reach` in the step.
+/// The first contact of a robot's predicted motion, the deepest overlap first. No body moves
+/// farther than `reach` in the step.
 #[inline]
 pub fn first_hit(shared: &Shared, robot: RobotId, next: &[Point], reach: f64) -> Option<Hit> {
     let body = &shared.bodies[robot.index()];

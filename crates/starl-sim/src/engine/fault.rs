@@ -1,4 +1,4 @@
-//! What breaks and when: the schedule, with the seeded random faults drawn into it.
+//! The faults with their times: the schedule, with the seeded random faults drawn into it.
 
 use super::{Stream, stream};
 use crate::scenario::{Fault, FaultKind, Scenario};
@@ -92,7 +92,7 @@ pub fn timeline(scenario: &Scenario) -> Vec<Fault> {
     faults
 }
 
-/// What the trace tells of a fault.
+/// The event of a fault in traces.
 pub fn event(kind: &FaultKind) -> Event {
     Event::Fault(match kind {
         FaultKind::Crash(_) => event::Fault::Crash,

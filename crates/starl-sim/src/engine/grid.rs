@@ -42,7 +42,8 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Indexes robots where they are now, but for those that are `gone` (none is if that is empty).
+    /// Indexes robots at their current positions, except those that are `gone` (none is if that is
+    /// empty).
     pub fn rebuild(&mut self, bodies: &[Neighbour], gone: &[bool]) {
         let is_gone = |robot: usize| gone.get(robot).copied().unwrap_or(false);
         self.lay_out(bodies);

@@ -115,7 +115,7 @@ impl Inboxes {
         }
     }
 
-    /// What arrives at a robot in this step, by time, sender and sequence number.
+    /// The arrivals at a robot in this step, by time, sender and sequence number.
     pub fn of(&self, robot: RobotId, sorted: &mut Vec<Delivery>) {
         sorted.clear();
         if self.starts.is_empty() {
@@ -132,7 +132,7 @@ impl Inboxes {
         }
     }
 
-    /// What came in the present step of the datagram that `from` sent under this number.
+    /// The arrivals in the present step of the datagram that `from` sent under this number.
     pub fn find(&self, from: RobotId, sequence: u32) -> Option<&Transmission> {
         let mut all = self.transmissions.iter();
         all.find(|content| content.from == from && content.sequence == sequence)

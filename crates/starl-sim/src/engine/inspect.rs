@@ -78,8 +78,8 @@ impl Simulation {
         self.mind(robot).senses.holding
     }
 
-    /// Lets a watcher ask a robot's program something that takes a handle to the robot, as the robot is now;
-    /// nothing comes of it: see [`starl_core::Agent::rehearse`]. Sensors are read afresh for it.
+    /// Lets an observer query a robot's program with a handle to the robot in its current state, without
+    /// effects: see [`starl_core::Agent::rehearse`]. Sensors are read for it.
     pub fn rehearse<T>(
         &self,
         robot: RobotId,

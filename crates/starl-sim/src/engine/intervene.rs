@@ -26,8 +26,8 @@ impl Simulation {
     /// the same goes on alike.
     ///
     /// # Errors
-    /// What is wrong with the intervention: numbers that make no sense, robots that there are not, and, if it
-    /// is to happen now, names and indices of nothing in the world.
+    /// The error of the intervention: invalid numbers, unknown robots, and, if it is to happen now, unknown
+    /// names and indices.
     pub fn apply(&mut self, at: Time, what: Intervention) -> Result<(), String> {
         let what = what.tidy();
         if !what.is_valid() {
@@ -54,7 +54,8 @@ impl Simulation {
         }
     }
 
-    /// What has been applied to this run and when, what is yet to happen included, in the order in which it was applied.
+    /// The interventions applied to this run with their times, including future ones, in the order in which they were
+    /// applied.
     pub fn applied(&self) -> &[(Time, Intervention)] {
         self.agenda.applied()
     }
@@ -118,7 +119,7 @@ impl Simulation {
                 let mut known = self.shared.way_points.iter();
                 known
                     .all(|point| point.name != *name)
-                    .then_some(("way-point", name))
+                    .then_some(("waypoint", name))
             }
             Intervention::RemoveThing { name } => {
                 let mut known = self.shared.things.names.iter();
@@ -369,7 +370,7 @@ impl Simulation {
             .record(digest, robot, at, Event::Moved(state.pose));
     }
 
-    /// Robots go for good, on record as crashes. What they hold stays where they were.
+    /// Robots leave permanently, recorded as crashes. Things that they hold stay where they were.
     fn leave(&mut self, at: Time, robots: &[RobotId]) {
         self.have_changed = true;
         self.shared.gone.resize(self.shared.bodies.len(), false);

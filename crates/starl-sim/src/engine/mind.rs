@@ -1,4 +1,4 @@
-//! What the simulator keeps of one robot apart from its physical state.
+//! The simulator's data of one robot apart from its physical state.
 
 use starl_core::event::Hit;
 use starl_core::motion::{Obstacles, Path};
@@ -52,8 +52,8 @@ impl Mind {
         self.senses.frozen = None;
     }
 
-    /// What other robots take this one to be: what its positioning says, or where it is if that says
-    /// nothing any more.
+    /// The robot as others perceive it: by its positioning, or its true position if that no longer
+    /// reports.
     pub fn perceived(&self, body: &Neighbour) -> Neighbour {
         if self.node.condition().down || self.senses.are_frozen {
             return *body;
@@ -67,10 +67,10 @@ impl Mind {
     }
 }
 
-/// What the robot senses of the world.
+/// The robot's sensors.
 #[derive(Clone, Debug, Default)]
 pub struct Senses {
-    /// What this robot knows of obstacles, where that differs from what all know.
+    /// The robot's knowledge of obstacles, if it differs from the common knowledge.
     pub knowledge: Option<Box<Knowledge>>,
     pub contact: Option<Contact>,
     pub touching: Option<Hit>,
@@ -82,7 +82,7 @@ pub struct Senses {
     pub frozen: Option<Box<Frozen>>,
 }
 
-/// What the robot has done, and what is still due to it.
+/// The account of the robot's past and pending actions.
 #[derive(Clone, Debug, Default)]
 pub struct Account {
     pub digest: Digest,
@@ -90,11 +90,11 @@ pub struct Account {
     pub radio_free: Time,
     /// Jobs of planning that are done, to be handed over at the next step.
     pub plans: Vec<(u32, Option<Path>)>,
-    /// What the robot keeps over a crash; none if it keeps nothing.
+    /// The robot's storage; none if it has none.
     pub store: Option<Box<Store>>,
-    /// What operators have told it and it has not heard yet, by time.
+    /// Orders of operators that it has not received yet, by time.
     pub orders: Vec<(Time, Order)>,
-    /// How many way-points ReachAvoid has reached.
+    /// How many waypoints ReachAvoid has reached.
     pub way_points: u32,
 }
 

@@ -30,7 +30,7 @@ pub use simulation::{Programs, Progress, Simulation, StartError};
 
 use starl_core::Random;
 
-/// What random draws are for; part of every key, so that no two purposes share a stream.
+/// The purpose of random draws; part of every key, so that no two purposes share a stream.
 #[derive(Clone, Copy, Debug)]
 enum Stream {
     Program = 1,

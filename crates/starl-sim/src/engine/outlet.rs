@@ -14,7 +14,7 @@ use starl_motion::{Neighbour, State};
 /// IP version 4 over Wi-Fi, rounded.
 const HEADER_BYTES: usize = 64;
 
-/// What one robot's node has to do with in its turn.
+/// The environment of one robot's node in its turn.
 pub struct Desk<'a> {
     pub robot: RobotId,
     pub shared: &'a Shared,

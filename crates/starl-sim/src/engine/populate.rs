@@ -11,7 +11,7 @@ use starl_host::hardware::Drive;
 use starl_host::{Clock, Hardware, Node, Store};
 use starl_motion::Neighbour;
 
-/// What the robots of each group have in common.
+/// The common properties of the robots of each group.
 pub fn kinds(scenario: &Scenario, programs: &Programs<'_>) -> Result<Vec<Kind>, StartError> {
     let kind = |(index, group): (usize, &Group)| {
         let program = programs(group).map_err(|message| StartError {

@@ -5,9 +5,9 @@ use super::{Stream, stream};
 use starl_core::{Estimate, Point, Pose, RobotId, Time, Twist, math};
 use starl_motion::State;
 
-/// An estimate of a robot's state, taken at `at`, which the state precedes by less than a step. The
-/// state is carried on to that time along its velocity; noise is drawn afresh for each estimate, and
-/// never touches the state.
+/// An estimate of a robot's state, taken at `at`, which is less than a step after the state. The
+/// state is extrapolated to that time along its velocity. Noise is drawn for each estimate, and
+/// never changes the state.
 pub fn estimate(shared: &Shared, robot: RobotId, state: &State, from: Time, at: Time) -> Estimate {
     let late = at.since(from).seconds();
     let twist = state.twist;

@@ -1,4 +1,4 @@
-//! What becomes of datagrams: who receives them, and when.
+//! The fate of datagrams: their receivers and arrival times.
 //!
 //! Every draw is keyed by (sender, receiver, sequence number), so that what happens on one link does
 //! not depend on any other traffic.
@@ -23,7 +23,7 @@ pub struct Posted {
     pub at: Time,
 }
 
-/// Decides who receives a datagram and when.
+/// Decides the receivers and the arrival time of a datagram.
 pub fn route(
     shared: &Shared,
     window: Window,
@@ -95,7 +95,8 @@ pub fn route(
             let others = shared.fleet.iter().filter(|&&to| to != from);
             others.copied().for_each(offer);
         }
-        // Who is out of range of a message to all is not listed: that may be nearly everyone.
+        // Robots out of range of a message to all are not listed, because they may be nearly the
+        // whole fleet.
         (Destination::All, Some(range)) => {
             let center = shared.bodies[from.index()].position;
             shared.grid.for_each_within(center, range, |entry| {

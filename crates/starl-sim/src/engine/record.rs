@@ -1,4 +1,5 @@
-//! What is kept of events: a digest a robot, counts, and the records themselves if wanted.
+//! The stored results of events: a digest per robot, counts, and the records themselves if
+//! requested.
 
 use starl_core::event::{DropReason, TransferEvent};
 use starl_core::{Digest, Event, Record, RobotId, Time};
@@ -14,8 +15,8 @@ pub struct Tally {
     pub lost: u64,
     /// Datagrams dropped for any other reason.
     pub dropped: u64,
-    /// What Broadcast, Geocast and Unicast sent again, for each receiver that had not acknowledged it. What other
-    /// primitives repeat does not show in events, and is not counted here.
+    /// Retransmissions of Broadcast, Geocast and Unicast, for each receiver without acknowledgement.
+    /// Retransmissions of other primitives do not appear in events, and are not counted here.
     pub retransmitted: u64,
     /// Times that two bodies, or a body and an obstacle, came to touch.
     pub collisions: u64,

@@ -30,11 +30,11 @@ pub struct Shard {
     pub states: Vec<State>,
     pub predicted: Vec<State>,
     pub outbox: Vec<Outgoing>,
-    /// What robots ask of their grippers in this step.
+    /// The requests of robots to their grippers in this step.
     pub grips: Vec<Grip>,
     pub posted: Vec<Posted>,
     pub log: Log,
-    /// Takes down what is done to the robots' software; none while nobody wants to know.
+    /// Records the inputs of the robots' software; none if not requested.
     pub journal: Option<Box<Journal>>,
     scratch: Scratch,
 }
@@ -189,7 +189,7 @@ impl Shard {
         }
     }
 
-    /// Decides who receives what this shard's robots have sent.
+    /// Decides the receivers of the datagrams that this shard's robots have sent.
     pub fn route(&mut self, shared: &Shared, window: Window) {
         self.posted.clear();
         for (index, outgoing) in self.outbox.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What all robots may read during a step; nothing here changes while robots act.
+//! The data that all robots may read during a step; nothing here changes while robots act.
 
 use super::grid::Grid;
 use super::inbox::Inboxes;
@@ -20,14 +20,14 @@ pub struct Window {
     pub to: Time,
 }
 
-/// What the robots of one group have in common.
+/// The common properties of the robots of one group.
 #[derive(Clone)]
 pub struct Kind {
     /// A fresh program.
     pub program: Box<dyn Program>,
     pub model: Arc<dyn Model>,
     pub hardware: Hardware,
-    /// What the body does when nobody commands it.
+    /// The command of the body without a command of the program.
     pub at_a_loss: Command,
     pub sensors: SensorSuite,
 }
@@ -79,7 +79,7 @@ impl Shared {
         }
     }
 
-    /// What disturbs a robot's motion during a step.
+    /// The disturbance of a robot's motion during a step.
     pub fn disturbance(&self, robot: RobotId, from: Time) -> Disturbance {
         let motion = &self.scenario.motion;
         let mut disturbance = Disturbance {

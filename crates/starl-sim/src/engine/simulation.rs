@@ -60,7 +60,7 @@ pub type Programs<'a> = dyn Fn(&Group) -> Result<Box<dyn Program>, String> + 'a;
 pub struct StartError {
     /// The group of robots concerned, by its place in the fleet.
     pub group: usize,
-    /// What is wrong with its program.
+    /// The error of its program.
     pub message: String,
 }
 
@@ -152,7 +152,7 @@ impl Simulation {
         self.parallel = parallel;
     }
 
-    /// What is simulated.
+    /// The scenario of the simulation.
     pub fn scenario(&self) -> &Scenario {
         &self.shared.scenario
     }
@@ -162,8 +162,8 @@ impl Simulation {
         self.now
     }
 
-    /// How long it is since the start and since the last fault began or was mended; zero while the network is
-    /// parted, a motor is stuck or sensors are frozen.
+    /// The time since the start or since the last fault began or ended; zero while the network is
+    /// partitioned, a motor is stuck or sensors are frozen.
     pub fn undisturbed(&self) -> Duration {
         if self.impaired > 0 || !self.shared.parts.is_empty() {
             return Duration::ZERO;
@@ -294,14 +294,15 @@ impl Simulation {
         self.journal.sort();
     }
 
-    /// What happened in the last step, ordered by time and robot; empty unless recording, but for
-    /// what concerns the world as a whole.
+    /// The records of the last step, ordered by time and robot. Unless recording, only those of the
+    /// world as a whole.
     pub fn records(&self) -> &[Record] {
         &self.records
     }
 
-    /// What was done to the robots' software in the last step, ordered by time and robot, then as it was
-    /// done; empty unless [`Simulation::set_journal`] was called. It is no part of the digest.
+    /// The inputs of the robots' software in the last step, ordered by time and robot, then in the order
+    /// of the calls; empty unless [`Simulation::set_journal`] was called. They are not part of the
+    /// digest.
     pub fn journal(&self) -> &Batch {
         &self.journal
     }
@@ -348,7 +349,7 @@ impl Simulation {
         &self.shards[robot.index() / SIZE].states[robot.index() % SIZE]
     }
 
-    /// What a robot believes of its state.
+    /// A robot's estimate of its state.
     pub fn estimate(&self, robot: RobotId) -> &Estimate {
         self.mind(robot).node.estimate()
     }
@@ -372,7 +373,7 @@ impl Simulation {
         })
     }
 
-    /// The application's way-points.
+    /// The application's waypoints.
     pub fn places(&self) -> &[WayPoint] {
         &self.shared.way_points
     }
@@ -387,7 +388,7 @@ impl Simulation {
         self.mind(robot).is_gone
     }
 
-    /// What a robot runs.
+    /// A robot's program.
     pub fn program(&self, robot: RobotId) -> &dyn Program {
         self.mind(robot).node.program()
     }
@@ -412,7 +413,7 @@ impl Simulation {
         self.mind(robot).distance
     }
 
-    /// How many way-points a robot's ReachAvoid has reached.
+    /// How many waypoints a robot's ReachAvoid has reached.
     pub fn way_points(&self, robot: RobotId) -> u32 {
         self.mind(robot).account.way_points
     }

@@ -7,7 +7,7 @@ use starl_core::{Point, RobotId, Time};
 /// A robot takes hold of what is this near to its body's edge, metres.
 const REACH: f64 = 0.15;
 
-/// What robots ask of their grippers in one step.
+/// The requests of robots to their grippers in one step.
 #[derive(Clone, Copy, Debug)]
 pub struct Grip {
     pub at: Time,
@@ -68,7 +68,7 @@ impl Things {
         Some(index as u32)
     }
 
-    /// Puts a thing somewhere, out of the hands of whoever holds it; gives that robot.
+    /// Puts a thing somewhere, out of the hands of its holder; returns that robot.
     pub fn set(&mut self, name: &str, position: Point) -> Option<RobotId> {
         match self.find(name) {
             Some(thing) => {

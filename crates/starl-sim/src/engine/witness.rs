@@ -1,4 +1,4 @@
-//! What monitors of properties are shown of a simulation.
+//! The simulation as monitors of properties see it.
 
 use super::Simulation;
 use starl_core::motion::Obstacles;

@@ -1,10 +1,9 @@
 //! Fault profiles: what a search for violations makes of a scenario.
 //!
-//! A profile is a function of a scenario, a span of time and a seed to a scenario. The faults that it adds
-//! are an explicit list, drawn from the seed, so that a run that fails can be shrunk by leaving some out;
-//! faults that the scenario itself has at random rates are drawn into the same list. Within the first three
-//! quarters of the span everything sets in and everything that mends is mended: what follows is calm, so
-//! that what is promised after faults can be asked for.
+//! A profile is a function of a scenario, a time span and a seed to a scenario. The faults that it adds are
+//! an explicit list, drawn from the seed, so that shrinking can remove some. Random faults of the scenario
+//! itself are drawn into the same list. All faults begin within the first three quarters of the span, and
+//! temporary faults end by then. The rest is calm, so that guarantees after faults can be checked.
 //!
 //! Every profile draws from a stream of its own, and what it draws does not depend on the run.
 
@@ -23,7 +22,7 @@ use starl_core::{Duration, Random, RobotId, Time};
 /// Names the draws of profiles among all draws from the seed.
 const PURPOSE: u64 = 0x7072_6f66_696c_6500; // "profile"
 
-/// What kind of trouble there is. The reference is `docs/reference/testing.md`.
+/// The kinds of faults. The reference is `docs/reference/testing.md`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Profile {
     /// None but what the scenario has itself.
@@ -40,9 +39,9 @@ pub enum Profile {
     Chaos,
     /// Variables are overwritten at random.
     Corruption,
-    /// Some of the above, copies that come seconds late, robots that are not heard by those whom they hear, robots that
-    /// restart again and again, and majorities that
-    /// crash at once: each run draws which, so that rare combinations meet (swarm testing, Groce et al. 2012).
+    /// Some of the above, duplicates that arrive seconds late, robots that receive but are not heard, robots that
+    /// restart repeatedly, and majorities that crash at once. Each run draws some of them, so that rare combinations
+    /// meet (swarm testing, Groce et al. 2012).
     Swarm,
 }
 
@@ -70,7 +69,7 @@ impl Profile {
         Profile::Swarm,
     ];
 
-    /// What it is called on the command line.
+    /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Profile::Calm => "calm",
@@ -116,8 +115,8 @@ impl Profile {
         }
     }
 
-    /// The scenario with the trouble that `seed` draws, and with that seed. What sets in does so within
-    /// `span`, best about as long as the run takes when nothing is wrong.
+    /// The scenario with the faults that `seed` draws, and with that seed. The faults begin within
+    /// `span`, which should be about as long as the run takes without faults.
     pub fn apply(self, scenario: &Scenario, span: Duration, seed: u64) -> Scenario {
         let mut changed = Scenario {
             seed,
@@ -166,7 +165,7 @@ fn swarm(trouble: &mut Trouble<'_>) {
         clocks::set_wrong,
     ];
     trouble.draw(0.5, &kinds);
-    // One way to go down at a time, so that whoever is down is known.
+    // Only one kind of crash at a time, so that the robots that are down are known.
     match trouble.random.below(5) {
         0 => crashes::crash(trouble),
         1 | 2 => restarts::repeat(trouble),
@@ -179,7 +178,7 @@ fn swarm(trouble: &mut Trouble<'_>) {
 struct Trouble<'a> {
     scenario: &'a mut Scenario,
     random: Random,
-    /// All that mends is mended by then.
+    /// Temporary faults have ended by then.
     until: Time,
 }
 
@@ -201,7 +200,7 @@ impl Trouble<'_> {
         self.scenario.faults.schedule.push(Fault { at, kind });
     }
 
-    /// A moment before everything is mended, in whole milliseconds.
+    /// A moment before the faults end, in whole milliseconds.
     fn moment(&mut self) -> Time {
         Time::ZERO + self.span(0.0, 1.0)
     }

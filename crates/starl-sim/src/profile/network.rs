@@ -4,9 +4,9 @@ use super::Trouble;
 use crate::scenario::{DelayDistribution, Link};
 use starl_core::Duration;
 
-/// Makes all links worse that the scenario does not describe one by one: 2 to 30 % loss, up to 20 %
-/// duplication, up to 30 % held back by up to half a second, and delays of up to 100 ms on average whose
-/// spread is anything from none to the delay itself.
+/// Degrades all links that the scenario does not describe individually. Loss is 2 to 30 %, duplication
+/// up to 20 %, and up to 30 % are held back by up to half a second. Delays are up to 100 ms on average
+/// with a spread from none to the delay itself.
 pub(super) fn lossy(trouble: &mut Trouble<'_>) {
     let delay = Duration::from_millis(trouble.count(5, 100).into());
     let jitter =

@@ -184,7 +184,7 @@ fn occasion(table: Section<'_>, duration: Duration) -> Option<Occasion> {
     }
 }
 
-/// Where a thing or way-point appears; anywhere will do where it is drawn.
+/// Where a thing or waypoint appears; anywhere will do where it is drawn.
 fn place(table: Section<'_>, kind: &str) -> Option<Point> {
     match (table.has("position"), table.has("within")) {
         (true, true) => {

@@ -6,7 +6,7 @@ use super::section::Section;
 use crate::scenario::{Fault, FaultKind, FaultRates, Faults};
 use starl_core::{Duration, Time};
 
-/// What breaks during a run of this duration, and when.
+/// The faults of a run of this duration, with their times.
 pub(super) fn read(root: Section<'_>, names: &Names, duration: Duration) -> Faults {
     let schedule = root.tables("fault", |table| fault(table, names, duration));
     let rates = root.table("fault_rates", |table| rates(table, names.count(), duration));

@@ -1,4 +1,4 @@
-//! What a scenario is read from, as plain data that a trace can hold.
+//! The inputs of a scenario, as plain data that a trace can contain.
 
 use super::problem::{Place, Problem};
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 pub struct Source {
     /// The file's name.
     pub name: String,
-    /// What it holds.
+    /// Its content.
     pub text: String,
 }
 
@@ -25,7 +25,7 @@ pub struct Override {
     pub value: String,
 }
 
-/// What to read.
+/// The inputs to read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Request {
     /// The scenario file.
@@ -41,13 +41,13 @@ pub struct Request {
 /// All that a scenario was read from.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Inputs {
-    /// What was read.
+    /// The request.
     pub request: Request,
     /// The files it named, by path.
     pub files: BTreeMap<String, Content>,
 }
 
-/// What a file holds; as text where it is text, so that a person can read it in a trace.
+/// The content of a file; as text if it is text, so that people can read it in a trace.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Content {
@@ -77,7 +77,7 @@ impl Source {
 }
 
 impl Override {
-    /// What `--set` is followed by: `network.loss=0.2`.
+    /// The argument of `--set`: `network.loss=0.2`.
     ///
     /// # Errors
     /// Where there is no `=` in it.

@@ -1,4 +1,4 @@
-//! The values of a table that are no tables: numbers, texts, points and lists of these.
+//! The values of a table that are not tables: numbers, texts, points and lists of these.
 //!
 //! Each method asks for a field of one kind; which kinds, ranges and defaults there are is the
 //! schema's to say.

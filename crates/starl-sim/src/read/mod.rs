@@ -53,7 +53,7 @@ use unit::{Dimension, Quantity};
 /// A scenario that was read.
 #[derive(Clone, Debug)]
 pub struct Resolved {
-    /// What it says.
+    /// The scenario.
     pub scenario: Scenario,
     /// All that it was read from.
     pub inputs: Inputs,

@@ -1,4 +1,4 @@
-//! Who is meant by a name in the scenario: a robot, a group, or all.
+//! Resolves a name in the scenario: a robot, a group, or all.
 
 use super::fleet::Draft;
 use super::report::{Origin, Report};
@@ -138,7 +138,7 @@ impl Names {
         }
     }
 
-    /// The robots that a field names; reports names that nobody has.
+    /// The robots that a field names; reports unknown names.
     pub fn robots(&self, table: Section<'_>, field: &str) -> Vec<RobotId> {
         match table.node(field) {
             Some(node) => self.of_node(node, &table.path_of(field), table.report),

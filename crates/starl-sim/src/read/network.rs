@@ -23,7 +23,7 @@ pub(super) fn read(table: Section<'_>, names: &Names) -> Network {
     }
 }
 
-/// What a link does; what is left out is as in `base`, or else as the schema says.
+/// The properties of a link; missing fields are as in `base`, or else as the schema says.
 fn link(table: Section<'_>, base: &Link) -> Link {
     let duration = |name, base| table.optional_duration(name).unwrap_or(base);
     let probability = |name, base| table.optional_number(name).unwrap_or(base);

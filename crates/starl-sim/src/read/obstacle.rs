@@ -114,7 +114,7 @@ fn polygon(table: Section<'_>) -> Option<Obstacle> {
     }
 }
 
-/// What is wrong with an outline, and how to mend it; points are counted from 1.
+/// The error of an outline, and a suggested fix; points are counted from 1.
 pub(super) fn explain(error: PolygonError) -> (String, &'static str) {
     match error {
         PolygonError::TooFew => (

@@ -33,7 +33,7 @@ pub(super) struct Placing<'a> {
 }
 
 impl<'a> Placing<'a> {
-    /// Nobody has a place yet.
+    /// No robot has a place yet.
     pub fn new(
         drafts: &[Draft],
         contents: &Contents,

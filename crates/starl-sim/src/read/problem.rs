@@ -1,4 +1,4 @@
-//! What is wrong with an input, where, and how to mend it.
+//! A problem of an input, with its place and a suggested fix.
 //!
 //! Invariant: every problem names a place a person can go to: a file with line and column, or a
 //! command-line option.
@@ -30,9 +30,9 @@ pub struct Problem {
     /// The field it concerns, as a dotted path such as `robots.0.count`; empty where the text is no
     /// field, as in a world file.
     pub field: String,
-    /// What is wrong.
+    /// The problem.
     pub message: String,
-    /// How to mend it.
+    /// The suggested fix.
     pub help: Option<String>,
 }
 

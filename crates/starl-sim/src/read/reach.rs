@@ -1,9 +1,9 @@
-//! Refuses way-points that no robot of the fleet can ever reach.
+//! Refuses waypoints that no robot of the fleet can ever reach.
 //!
-//! A way-point passes if some robot can get within its program's vicinity of it. What is searched is
-//! a grid that takes a cell as free as soon as any point in it could be: so a way-point is refused
-//! only if it is certainly out of reach, never because the grid is coarse. Obstacles that expire do
-//! not count, nor, for robots that fly, those they might fly over.
+//! A waypoint passes if some robot can get within its program's vicinity of it. The search uses a
+//! grid in which a cell is free if any point in it could be free. So a waypoint is refused only if
+//! it is certainly unreachable, never because the grid is coarse. Obstacles that expire do not
+//! count, nor, for robots that fly, those that they might fly over.
 
 use super::Placed;
 use super::report::Report;
@@ -21,7 +21,7 @@ const MOST_CELLS: f64 = 1_000_000.0;
 /// Straight lines are tried from so many starts.
 const STARTS_LOOKED_FROM: usize = 16;
 
-/// Looks at every way-point.
+/// Looks at every waypoint.
 pub(super) fn check(fleet: &Fleet, contents: &Contents, report: &Report) {
     let mut open: Vec<&Placed<WayPoint>> = contents.way_points.iter().collect();
     let mut standing = vec![false; open.len()];
@@ -43,11 +43,11 @@ pub(super) fn check(fleet: &Fleet, contents: &Contents, report: &Report) {
     for (place, stands) in contents.way_points.iter().zip(standing) {
         let name = &place.value.name;
         if !stands {
-            let message = format!("no robot of the fleet can stand near the way-point {name}");
+            let message = format!("no robot of the fleet can stand near the waypoint {name}");
             let help = "move it away from the obstacles around it";
             report.problem_with_help(place.origin, &place.field, message, help);
         } else if open.iter().any(|other| std::ptr::eq(*other, place)) {
-            let message = format!("no robot of the fleet can get to the way-point {name}");
+            let message = format!("no robot of the fleet can get to the waypoint {name}");
             let help = "open a way between the obstacles around it";
             report.problem_with_help(place.origin, &place.field, message, help);
         }
@@ -151,8 +151,8 @@ impl FreeSpace {
         self.could_be_free(point, self.vicinity)
     }
 
-    /// The way-points that are not at the end of a free straight line from a start or from another
-    /// such way-point; in most worlds there are none left, and the search can be saved.
+    /// The waypoints that are not at the end of a free straight line from a start or from another
+    /// such waypoint; in most worlds there are none left, and the search can be saved.
     fn not_in_sight<'p>(
         &self,
         group: &Group,

@@ -10,7 +10,7 @@ use std::fmt::Display;
 pub(super) struct Origin {
     /// Which text, by its number in the report.
     pub text: u32,
-    /// Byte offset therein.
+    /// Byte offset in the file.
     pub offset: u32,
 }
 
@@ -73,7 +73,7 @@ impl Report {
         self.push(origin, field, message.to_string(), None);
     }
 
-    /// Notes a problem and how to mend it.
+    /// Adds a problem with a suggested fix.
     pub fn problem_with_help(
         &self,
         origin: Origin,

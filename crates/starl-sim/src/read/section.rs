@@ -70,7 +70,7 @@ impl<'a> Section<'a> {
             let names: Vec<&str> = self.fields.iter().map(|field| field.name).collect();
             let message = "there is no such field".to_string();
             let help = suggest::help(name, &names, "there are");
-            // What a program calls a parameter is easily taken for a field.
+            // Parameters of programs are easily mistaken for fields.
             let parameter = || format!("is it a parameter of the program, `parameters.{name}`?");
             let is_top = names.contains(&"parameters") && names.contains(&"program");
             let help = help.or_else(|| is_top.then(parameter));
@@ -83,7 +83,7 @@ impl<'a> Section<'a> {
         self.fields.iter().map(|field| field.name)
     }
 
-    /// What the schema says of a field.
+    /// The schema of a field.
     pub fn field(&self, name: &str) -> &'static Field {
         self.fields
             .iter()

@@ -13,11 +13,11 @@ use toml::de::{DeTable, DeValue};
 pub(super) struct Node {
     /// Where.
     pub origin: Origin,
-    /// What.
+    /// The value.
     pub value: Value,
 }
 
-/// What a value is.
+/// A value.
 #[derive(Clone, Debug)]
 pub(super) enum Value {
     /// A text.

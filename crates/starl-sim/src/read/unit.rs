@@ -4,7 +4,7 @@
 
 use starl_core::math;
 
-/// What a quantity measures.
+/// The quantity that a number measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dimension {
     /// Seconds.
@@ -32,7 +32,7 @@ pub enum Dimension {
 }
 
 impl Dimension {
-    /// What it is called, with its article.
+    /// Its name, with the article.
     pub fn name(self) -> &'static str {
         match self {
             Dimension::Time => "a duration",
@@ -80,7 +80,8 @@ impl Dimension {
         })
     }
 
-    /// What a parameter of a model measures, whose unit the model calls so, and how scenarios write that unit.
+    /// The quantity of a model's parameter whose unit has this name in the model, and the unit's name in
+    /// scenarios.
     pub fn of_model_unit(unit: &'static str) -> (Dimension, &'static str) {
         match unit {
             "m" => (Dimension::Length, unit),

@@ -6,7 +6,7 @@ use super::tree::{Node, Value};
 use super::unit::Quantity;
 use starl_core::Point;
 
-/// Why a value does not do: what is wrong, and how to mend it.
+/// A complaint about a value: the problem, and a suggested fix.
 pub(super) type Complaint = (String, Option<String>);
 
 fn complain<T>(message: String, help: impl Into<String>) -> Result<T, Complaint> {

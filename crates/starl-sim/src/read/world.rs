@@ -9,7 +9,7 @@ use crate::scenario::{Bounds, Thing, World, WorldObstacle};
 use starl_core::{Point, Pose, WayPoint};
 use std::collections::BTreeMap;
 
-/// What is in the world, with the place of each thing for the checks that follow.
+/// The contents of the world, with the place of each for later checks.
 #[derive(Default)]
 pub(super) struct Contents {
     pub bounds: Option<Placed<Bounds>>,
@@ -21,7 +21,7 @@ pub(super) struct Contents {
     pub starts: Vec<Placed<(String, Pose)>>,
 }
 
-/// What is in the world.
+/// The contents of the world.
 pub(super) fn read(table: Section<'_>, names: &Names, files: &Recorder<'_>) -> Contents {
     let mut contents = Contents {
         bounds: table.optional_table("bounds", start::area),
@@ -105,7 +105,7 @@ impl Contents {
             )
         });
         for (kind, list) in [
-            ("way-point", way_points.collect::<Vec<_>>()),
+            ("waypoint", way_points.collect::<Vec<_>>()),
             ("thing", things.collect()),
         ] {
             let mut known = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! Reads world files: drawings in SVG, and those of StarL 1.5: way-points, starts, things and obstacles, a
+//! Reads world files: drawings in SVG, and those of StarL 1.5: waypoints, starts, things and obstacles, a
 //! line for each.
 //!
 //! Lengths are in millimetres, headings in degrees, times in milliseconds; see
@@ -64,7 +64,7 @@ pub(super) fn read(
             ..begin
         };
         if !line_of_fields.trim().is_empty() {
-            // What is wrong was reported; the next line may be right.
+            // The error was reported; the next line may be correct.
             let _ = file.line(line_of_fields, begin);
         }
         offset += line.len() + 1;
@@ -180,7 +180,7 @@ impl File<'_> {
             None => 0,
             Some(Ok(group)) => group,
             Some(Err(_)) => {
-                let message = format!("{:?} is not a group of way-points", words[5].text);
+                let message = format!("{:?} is not a group of waypoints", words[5].text);
                 let help = "give a whole number, at least 0";
                 return self.complain(words[5].origin, message, help);
             }

@@ -1,4 +1,4 @@
-//! What happens to a run besides faults: things and way-points appear, operators speak, the world changes.
+//! Events of a run besides faults: things and waypoints appear, operators send orders, the world changes.
 
 use super::Bounds;
 use starl_core::{Intervention, RobotId, Time};
@@ -8,7 +8,7 @@ use starl_core::{Intervention, RobotId, Time};
 pub struct ScenarioEvent {
     /// When it takes place.
     pub occasion: Occasion,
-    /// What happens.
+    /// The intervention.
     pub what: Intervention,
 }
 
@@ -17,12 +17,12 @@ pub struct ScenarioEvent {
 pub enum Occasion {
     /// Once, at this time.
     At(Time),
-    /// Again and again at random times, drawn from the seed as a Poisson process. Things and way-points get
+    /// Again and again at random times, drawn from the seed as a Poisson process. Things and waypoints get
     /// the number of the occasion appended to their names.
     Rate {
         /// Occasions per second.
         per_second: f64,
-        /// Things and way-points appear at random places in this rectangle; at one place if there is none.
+        /// Things and waypoints appear at random places in this rectangle; at one place if there is none.
         within: Option<Bounds>,
     },
 }

@@ -1,4 +1,4 @@
-//! What breaks, and when.
+//! The faults of a scenario, with their times.
 
 use starl_core::{Duration, FaultKind, Time};
 
@@ -16,12 +16,12 @@ pub struct Faults {
 pub struct Fault {
     /// When it sets in.
     pub at: Time,
-    /// What it is.
+    /// The kind of fault.
     pub kind: FaultKind,
 }
 
-/// Faults at random, as events per robot and second (partitions: per second); each drawn from the
-/// seed as a Poisson process, and mended after a while.
+/// Random faults, as events per robot and second (partitions: per second). Each is drawn from the
+/// seed as a Poisson process, and ends after a while.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaultRates {
     /// Crashes per robot and second; default 0.

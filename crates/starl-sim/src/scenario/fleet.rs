@@ -23,7 +23,7 @@ pub struct Group {
     pub first_number: u32,
     /// How they move.
     pub model: Arc<dyn Model>,
-    /// What they run.
+    /// Their program.
     pub program: String,
     /// The program's parameters.
     pub parameters: BTreeMap<String, Parameter>,
@@ -31,7 +31,7 @@ pub struct Group {
     pub starts: Vec<Pose>,
     /// Time between two activations of the program; default 100 ms.
     pub control_period: Duration,
-    /// What they sense.
+    /// Their sensors.
     pub sensors: SensorSuite,
     /// How wrong their clocks are.
     pub clock: Clock,
@@ -116,7 +116,7 @@ impl Fleet {
         self.len() == 0
     }
 
-    /// The group that a robot belongs to, and its index therein.
+    /// The group of a robot, and its index in it.
     pub fn group_of(&self, robot: RobotId) -> Option<(&Group, usize)> {
         let mut index = robot.index();
         for group in &self.groups {

@@ -1,4 +1,4 @@
-//! What a run consists of, as plain data: the world, the fleet, the network, the faults.
+//! A scenario as plain data: the world, the fleet, the network, the faults.
 //!
 //! Every knob is documented here with its unit and default; a scenario file sets them by the same
 //! names (see `read`).
@@ -25,7 +25,7 @@ use starl_motion::avoidance;
 /// A complete run, apart from the code of its programs.
 #[derive(Clone, Debug)]
 pub struct Scenario {
-    /// What is run; default the file's name.
+    /// The title; default the file's name.
     pub title: String,
     /// Decides every random draw of the run; default 1.
     pub seed: u64,
@@ -33,7 +33,7 @@ pub struct Scenario {
     pub duration: Duration,
     /// When the run has reached its goal.
     pub goal: Goal,
-    /// Obstacles, way-points and things.
+    /// Obstacles, waypoints and things.
     pub world: World,
     /// The robots.
     pub fleet: Fleet,
@@ -43,19 +43,19 @@ pub struct Scenario {
     pub positioning: Positioning,
     /// How exactly robots move.
     pub motion: Motion,
-    /// What robots keep over a crash.
+    /// The storage of robots.
     pub storage: Storage,
     /// Moving air.
     pub wind: Wind,
     /// How messages travel.
     pub network: Network,
-    /// What breaks, and when.
+    /// The faults, with their times.
     pub faults: Faults,
-    /// What happens besides, and when.
+    /// Other events, with their times.
     pub events: Vec<ScenarioEvent>,
-    /// What is checked while it runs.
+    /// The checked properties.
     pub properties: Properties,
-    /// What is recorded.
+    /// The options of the trace.
     pub trace: Trace,
 }
 
@@ -104,7 +104,7 @@ pub struct Motion {
     pub avoidance: Option<avoidance::Options>,
 }
 
-/// What robots keep over a crash.
+/// The storage of robots, which survives a crash.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Storage {
     /// Whether robots have storage that outlasts a crash; default false.
@@ -136,7 +136,7 @@ pub struct Wind {
     pub gust_period: Duration,
 }
 
-/// What is recorded.
+/// The options of the trace.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trace {
     /// Time between two records of each robot's true pose; default 100 ms.

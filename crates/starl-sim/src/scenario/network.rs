@@ -7,13 +7,14 @@ use starl_core::{Duration, RobotId};
 /// on its own account.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Network {
-    /// What links do unless overridden.
+    /// The default for links.
     pub link: Link,
     /// Radio range between robots' centres, metres; none: everywhere; default none.
     pub range: Option<f64>,
     /// Obstacles and other robots' bodies block the radio; default false.
     pub line_of_sight: bool,
-    /// What each robot can send, bits per second; datagrams queue; none: any amount; default none.
+    /// The send rate of each robot, bits per second; datagrams queue; none: unlimited; default
+    /// none.
     pub bandwidth: Option<f64>,
     /// How long a datagram may wait in the sender's queue before it is dropped; default 1 s.
     pub queue: Duration,
@@ -23,7 +24,7 @@ pub struct Network {
     pub overrides: Vec<LinkOverride>,
 }
 
-/// What one link does to datagrams.
+/// The properties of a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Link {
     /// Mean delay; default 15 ms.
@@ -49,7 +50,7 @@ pub struct LinkOverride {
     pub from: Option<Vec<RobotId>>,
     /// Receivers; none: all.
     pub to: Option<Vec<RobotId>>,
-    /// What these links do.
+    /// The properties of these links.
     pub link: Link,
 }
 
@@ -134,7 +135,7 @@ impl Network {
         }
     }
 
-    /// What the link between two robots does.
+    /// The properties of the link between two robots.
     pub fn link(&self, from: RobotId, to: RobotId) -> &Link {
         let names = |set: &Option<Vec<RobotId>>, robot| {
             set.as_ref().is_none_or(|robots| robots.contains(&robot))

@@ -2,12 +2,12 @@
 
 use starl_core::{ConvexPolygon, Obstacle, Point, Time, WayPoint};
 
-/// Obstacles, way-points and things.
+/// Obstacles, waypoints and things.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct World {
     /// Walls around everything; none by default.
     pub bounds: Option<Bounds>,
-    /// What is in the way.
+    /// The obstacles.
     pub obstacles: Vec<WorldObstacle>,
     /// Places handed to every program.
     pub way_points: Vec<WayPoint>,

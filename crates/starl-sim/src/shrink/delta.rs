@@ -18,7 +18,7 @@ pub(super) fn minimise<T: Clone>(list: &[T], does: &mut dyn FnMut(&[T]) -> bool)
             let end = (start + size).min(kept.len());
             let rest = [&kept[..start], &kept[end..]].concat();
             if !rest.is_empty() && does(&rest) {
-                // What comes next stands where the part stood.
+                // The rest moves to the place of the removed part.
                 kept = rest;
                 any = true;
             } else {

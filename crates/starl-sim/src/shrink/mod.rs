@@ -2,15 +2,15 @@
 //! shorter run, a milder network, clocks that are right, an emptier world.
 //!
 //! Every step proposes a smaller scenario and keeps it if it fails in the same way. Lists are reduced by
-//! delta debugging (Zeller and Hildebrandt 2002, "Simplifying and Isolating Failure-Inducing Input"), all
-//! kinds of steps in turn until none is of use any more, so that what is left is minimal in this sense:
-//! no single robot, fault or trouble of the network can be left out. That holds for the seeds that were
-//! tried: as fewer robots draw other numbers, a few seeds are tried where the first does not do.
+//! delta debugging (Zeller and Hildebrandt 2002, "Simplifying and Isolating Failure-Inducing Input"). All
+//! kinds of steps are tried in turn until none helps any more, so the result is minimal in this sense: no
+//! single robot, fault or network problem can be removed. This holds for the tried seeds: because fewer
+//! robots draw other numbers, a few seeds are tried where the first one does not fail.
 //!
 //! A smaller fleet may fail for another reason: two robots form no polygon. So where the fleet does not
 //! fail without trouble, with several seeds, no fleet is taken that does.
 //!
-//! What fails is for the caller to say; nothing here runs anything.
+//! The caller decides what fails; nothing here runs anything.
 
 mod delta;
 mod faults;
@@ -41,7 +41,7 @@ impl Default for Limits {
     }
 }
 
-/// What came of shrinking.
+/// The result of shrinking.
 #[derive(Clone, Debug)]
 pub struct Shrunk {
     /// The smallest scenario that was found to fail.
@@ -177,7 +177,7 @@ impl Search<'_> {
         })
     }
 
-    /// Proposes a scenario with its own seed and, should it not do with that, with others.
+    /// Proposes a scenario with its own seed and, if it does not fail with that, with others.
     fn with_seeds(
         &mut self,
         candidate: &Scenario,

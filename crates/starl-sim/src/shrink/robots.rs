@@ -4,9 +4,9 @@ use crate::Scenario;
 use crate::scenario::{Fault, FaultKind, LinkOverride};
 use starl_core::RobotId;
 
-/// The scenario with only these of its robots, by number and in ascending order. They are numbered through
-/// anew, and so are the names within a group; faults and links of the others go with them. What the
-/// parameters of programs say of robots stays as it is.
+/// The scenario with only these of its robots, by number and in ascending order. They are renumbered, and
+/// so are the names within a group; faults and links of the others are removed. References to robots in
+/// the parameters of programs stay unchanged.
 pub fn keep_robots(scenario: &Scenario, kept: &[usize]) -> Scenario {
     let mut smaller = scenario.clone();
     let mut number = 0;
@@ -55,7 +55,7 @@ pub fn keep_robots(scenario: &Scenario, kept: &[usize]) -> Scenario {
     smaller
 }
 
-/// A fault of robots with new numbers; none if it is nobody's any more.
+/// A fault of robots with new numbers; none if no robot remains.
 fn renumbered(fault: &Fault, new: &dyn Fn(&[RobotId]) -> Vec<RobotId>) -> Option<Fault> {
     let manned = |parts: &[Vec<RobotId>]| -> Vec<Vec<RobotId>> {
         let parts = parts.iter().map(|part| new(part));

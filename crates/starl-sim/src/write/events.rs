@@ -38,7 +38,7 @@ pub(super) fn write(events: &[ScenarioEvent], fleet: &Fleet, duration: Duration)
     out
 }
 
-/// What robots are called at a moment.
+/// The names of robots at a moment.
 struct Names<'a> {
     fleet: &'a Fleet,
     joins: Joins,
@@ -194,7 +194,7 @@ fn set_knob(table: &mut Table, knob: NetworkKnob) {
     table.set(name, value);
 }
 
-/// What an order carries.
+/// A value of an order.
 fn value(value: &Value, names: &Names<'_>) -> String {
     match value {
         Value::Bool(value) => flag(*value),

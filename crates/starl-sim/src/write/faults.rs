@@ -5,7 +5,7 @@ use super::table::{Table, list, quantity, text, time};
 use crate::scenario::{Fault, FaultKind, FaultRates, Faults, Fleet};
 use starl_core::{Duration, RobotId, Time};
 
-/// What breaks in a run of this duration.
+/// The faults in a run of this duration.
 pub(super) fn write(faults: &Faults, fleet: &Fleet, duration: Duration) -> String {
     let Faults { schedule, rates } = faults;
     let happens = |fault: &&Fault| fault.at < Time::ZERO + duration;
@@ -20,7 +20,7 @@ fn fault(fault: &Fault, fleet: &Fleet) -> String {
     let mut table = Table::element("fault");
     table.set("at", time(Duration(at.0)));
     if kind_of(kind).1.is_some_and(<[RobotId]>::is_empty) {
-        // A fault of nobody is none.
+        // A fault without robots has no effect.
         return String::new();
     }
     set_kind(&mut table, kind, |robots| names(fleet, robots));

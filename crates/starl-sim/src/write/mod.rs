@@ -1,10 +1,10 @@
 //! Writes a scenario as TOML: the other way round of [`crate::read`].
 //!
-//! Invariant: what is read from the text behaves as the scenario does, to the last bit of the run's
-//! digest. What a scenario was read from is not kept: the text is whole without world files and images,
-//! robots have the starts that were drawn for them, and what is at its default is left out. Only what has
-//! no effect is lost: faults and events after the end, faults of nobody, events that are not valid, and the
-//! jitter of a constant delay.
+//! Invariant: the scenario read from the text behaves like the original, to the last bit of the run's
+//! digest. The sources of a scenario are not kept: the text is complete without world files and images,
+//! robots have their drawn starts, and default values are omitted. Only parts without effect are lost:
+//! faults and events after the end, faults without robots, invalid events, and the jitter of a constant
+//! delay.
 //!
 //! The structures are taken apart field by field, so that a knob that is not written does not compile.
 

@@ -37,7 +37,7 @@ pub(super) fn write(network: &Network, fleet: &Fleet) -> String {
                 table.set(name, names(fleet, robots));
             }
         }
-        // What is left out would be the network's.
+        // Without the field it would be the network's.
         set_link(&mut table, link, None);
         out += &table.finish_element();
     }

@@ -105,7 +105,7 @@ pub(super) fn wind(wind: &Wind) -> String {
     table.finish()
 }
 
-/// What can be switched or bounded in `properties`.
+/// A value that can be switched or bounded in `properties`.
 trait Setting: Copy + PartialEq {
     fn show(self) -> String;
 }

@@ -5,7 +5,7 @@ use crate::scenario::{Bounds, Thing, World, WorldObstacle};
 use starl_core::geometry::{HeightSpan, Shape};
 use starl_core::{Duration, Obstacle, Time, WayPoint};
 
-/// Obstacles, way-points and things.
+/// Obstacles, waypoints and things.
 pub(super) fn write(world: &World) -> String {
     let World {
         bounds,

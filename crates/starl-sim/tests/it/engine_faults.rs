@@ -1,4 +1,4 @@
-//! Robots and network break, and mend, as the scenario says.
+//! Robots and network fail, and recover, as the scenario says.
 
 use crate::engine_support::{Chatter, Drive, count, exact_delay, run, scenario, simulate};
 use starl_core::event;

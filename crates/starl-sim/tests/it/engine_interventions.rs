@@ -122,7 +122,7 @@ fn a_robot_that_is_down_hears_no_order() {
 }
 
 #[test]
-fn programs_hear_of_new_way_points_and_read_them() {
+fn programs_hear_of_new_waypoints_and_read_them() {
     let mut simulation = listeners();
     let way_point = |x| {
         Intervention::SetWayPoint(WayPoint {
@@ -324,13 +324,13 @@ fn what_cannot_be_is_refused_with_a_reason_and_changes_nothing() {
         ),
         (
             Intervention::RemoveWayPoint { name: name() },
-            "there is no way-point C",
+            "there is no waypoint C",
         ),
     ] {
         assert_eq!(simulation.apply(at(0), what), Err(expected.into()));
     }
     assert_eq!(simulation.digest(), digest);
-    // What may be there by then is warned of when it is not.
+    // A missing target of a later intervention causes a warning.
     let later = Intervention::RemoveThing { name: name() };
     simulation
         .apply(at(1000), later)

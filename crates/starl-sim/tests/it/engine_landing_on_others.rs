@@ -27,7 +27,7 @@ fn overlap((a, here): (&Body, Point), (b, there): (&Body, Point)) -> f64 {
 }
 
 #[test]
-fn who_lands_on_a_robot_that_drives_off_does_not_enter_it() {
+fn a_drone_that_lands_on_a_departing_robot_does_not_enter_it() {
     let mut stopped = 0;
     for centimetres in 0..50 {
         let mut scenario = scenario("create", &[(0.0, 0.0)]);

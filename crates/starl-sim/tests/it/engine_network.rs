@@ -37,7 +37,7 @@ fn everyone_else_hears_a_broadcast_after_the_delay() {
     let mut scenario = scenario("create", &[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)]);
     exact_delay(&mut scenario, 30);
     let records = run(&mut simulate(scenario, Chatter::default()), 1.0);
-    // Ten activations, the last one's message included; nobody hears itself.
+    // Ten activations, including the last one's message; no robot hears itself.
     assert_eq!(count(&records, heard), 20);
     assert!(
         delays(&records)

@@ -1,4 +1,4 @@
-//! What robots believe of where they are is kept apart from where they are.
+//! Robots' estimates of their positions are separate from their true positions.
 
 use crate::engine_support::{Drive, run, scenario, simulate};
 use starl_core::{Command, Duration, Event, RobotId};

@@ -18,7 +18,7 @@ pub fn recorded(simulation: &mut Simulation, seconds: f64) -> Vec<(Time, Vec<u8>
     messages
 }
 
-/// What came of a replay.
+/// The result of a replay.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Replay {
     pub entries: u64,

@@ -1,5 +1,5 @@
-//! What profiles make of a scenario: the same for the same seed, within the time that there is, and no
-//! worse than they say.
+//! The scenarios of profiles: the same for the same seed, within the given time, and within their
+//! stated limits.
 
 use crate::broken::{self, robots};
 use starl_core::{Duration, RobotId, Time};
@@ -59,7 +59,7 @@ fn calm_adds_nothing() {
 }
 
 #[test]
-fn everything_sets_in_and_mends_within_three_quarters_of_the_time() {
+fn all_faults_begin_and_end_within_three_quarters_of_the_time() {
     let until = Time::ZERO + SPAN * 3 / 4;
     every_case(|profile, _, drawn| {
         let schedule = &drawn.faults.schedule;

@@ -59,7 +59,8 @@ const NAIVE: Port = Port::named("naive");
 struct Naive {
     copy: (u32, u32),
     number: u32,
-    /// What is under way, whether it is a write, who has answered, and the latest copy.
+    /// The pending operation: whether it is a write, the robots that have answered, and the latest
+    /// copy.
     under_way: Option<(bool, BTreeSet<RobotId>, (u32, u32))>,
 }
 

@@ -1,4 +1,4 @@
-//! Drawings in SVG are read as way-points: each line is a group, in millimetres, with y upwards.
+//! Drawings in SVG are read as waypoints: each line is a group, in millimetres, with y upwards.
 
 use crate::reading::{self, Files};
 use starl_core::{Point, WayPoint};

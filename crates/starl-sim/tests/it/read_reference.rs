@@ -1,5 +1,5 @@
 //! `docs/reference/scenario.md` lists exactly the fields that the reader knows, with their kinds and
-//! defaults. With `BLESS=1` its tables are written anew instead.
+//! defaults. `BLESS=1` rewrites its tables.
 
 #![allow(clippy::disallowed_methods)] // the test reads files
 

@@ -1,5 +1,5 @@
 //! World files of StarL 1.5 are read as they are: with Windows line ends, comments, walls, hidden and
-//! expiring obstacles, groups of way-points, and no newline at the end.
+//! expiring obstacles, groups of waypoints, and no newline at the end.
 
 use crate::reading::{self, Files};
 use starl_core::{Point, Time};
@@ -54,7 +54,7 @@ fn walls_and_polygons_hidden_and_expiring() {
 }
 
 #[test]
-fn way_points_and_things_in_metres() {
+fn waypoints_and_things_in_metres() {
     let world = town().world;
     let way_points: Vec<(&str, Point, u32)> = (world.way_points.iter())
         .map(|way| (way.name.as_str(), way.position, way.group))

@@ -1,5 +1,5 @@
-//! A witness tells for how long nothing has gone wrong: since the last fault began or was mended, and not while
-//! something lasts that robots cannot tell.
+//! A witness returns the time since the last fault began or ended, and zero during a fault that robots cannot
+//! detect.
 
 use crate::engine_support::scenario;
 use starl_core::event::Name;
@@ -59,7 +59,7 @@ fn one() -> Vec<RobotId> {
     vec![RobotId(1)]
 }
 
-/// What is said at a time.
+/// The value at a time.
 fn at(times: &[(u64, u64)], millis: u64) -> u64 {
     let found = times.iter().find(|(now, _)| *now == millis);
     found.expect("it is the end of a step").1

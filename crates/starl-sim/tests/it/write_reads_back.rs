@@ -6,7 +6,7 @@ use starl_core::Duration;
 use starl_sim::read::{self, Override};
 use starl_sim::{Scenario, write};
 
-/// What is read from what is written.
+/// The scenario read from the written one.
 fn again(scenario: &Scenario) -> Scenario {
     let text = write::scenario(scenario);
     match reading::read(&text, &[]) {

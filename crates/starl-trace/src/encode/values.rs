@@ -1,4 +1,4 @@
-//! Values, areas, obstacles and way-points as JSON. [`crate::wire`] reads what is written here.
+//! Values, areas, obstacles and waypoints as JSON. [`crate::wire`] reads what is written here.
 
 use crate::json::Json;
 use starl_core::event::ValueRef;
@@ -124,7 +124,7 @@ fn area(json: &mut Json, area: &Area) {
     json.mark(b'}');
 }
 
-/// Writes way-points as an array.
+/// Writes waypoints as an array.
 pub(crate) fn way_points(json: &mut Json, list: &[WayPoint]) {
     json.mark(b'[');
     for way_point in list {

@@ -44,7 +44,7 @@ impl<R: Read> Reader<R> {
         })
     }
 
-    /// What stands before the records.
+    /// The header.
     pub fn header(&self) -> &Header {
         &self.header
     }
@@ -159,7 +159,7 @@ impl<R: Read> Reader<R> {
 pub enum Item {
     /// Something that happened.
     Record(Record),
-    /// What was done to the software of robots.
+    /// The inputs of robots' software.
     Inputs(Inputs),
 }
 
@@ -190,7 +190,7 @@ impl<R: Read> Iterator for Reader<R> {
 /// A whole trace in memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace {
-    /// What stands before the records.
+    /// The header.
     pub header: Header,
     /// All records in the order in which they were written.
     pub records: Vec<Record>,

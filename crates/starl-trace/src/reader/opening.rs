@@ -34,7 +34,7 @@ pub fn read<R: Read>(container: &mut Container<R>) -> Result<Header, TraceError>
     }
 }
 
-/// What is wrong with a record of the header.
+/// Problems of a record of the header.
 enum Fault {
     Damaged(String),
     Version(String),

@@ -40,7 +40,7 @@ pub(crate) fn log() -> String {
         always("timestamp", time()),
         always("level", choice(&levels)),
         always("message", string("the line")),
-        always("name", string("who wrote it")),
+        always("name", string("its author")),
         always("file", string("always empty")),
         always("line", "{\"type\":\"integer\",\"minimum\":0}"),
     ];

@@ -5,7 +5,7 @@ use starl_core::event::{Hit, Level};
 use starl_core::{Event, Time};
 use std::borrow::Cow;
 
-/// What the log says of an event; none for events that only data is made of.
+/// The line of the log for an event; none for events that are only data.
 pub fn line(event: &Event) -> Option<(Level, Cow<'_, str>)> {
     Some(match event {
         Event::Log { level, text } => (*level, text.as_ref().into()),

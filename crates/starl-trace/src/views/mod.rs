@@ -55,7 +55,7 @@ impl ViewOptions {
     }
 }
 
-/// What the views have to remember; nothing where none are written.
+/// The state of the views; nothing if none are written.
 pub(crate) struct Views(Option<State>);
 
 struct State {

@@ -1,4 +1,4 @@
-//! What stands, moves and is drawn in the world, as entities.
+//! The content of the world, as entities: obstacles, robots and drawings.
 
 use super::primitive::{self, DARK, Entity, GREY, Primitive, RED};
 use super::{RobotView, WORLD};
@@ -15,7 +15,7 @@ const THIN: f64 = 0.02;
 /// Height of letters, metres.
 const LETTERS: f64 = 0.15;
 
-/// Writes the obstacles and way-points.
+/// Writes the obstacles and waypoints.
 pub fn world(json: &mut Json, header: &Header) {
     let obstacles = header.obstacles.iter().enumerate();
     let obstacles =

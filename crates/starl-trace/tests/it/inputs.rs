@@ -85,7 +85,7 @@ fn without_them_nothing_is_said_of_them() {
     assert!(!file.windows(12).any(|text| text == b"starl.Inputs"));
 }
 
-/// The topic is renamed in the file, so that its messages are those of a channel that nobody knows.
+/// The topic is renamed in the file, so that its messages are those of an unknown channel.
 #[test]
 fn inputs_that_are_missing_are_noticed() {
     let mut file = with_inputs();

@@ -1,4 +1,4 @@
-//! What is written is read back, equal to the last bit.
+//! A written scenario is read back, equal to the last bit.
 
 use crate::common;
 use starl_core::{Event, Record, RobotId, Time, Value};

@@ -1,4 +1,5 @@
-//! Race on a small host whose robots move as they like: who arrives first tells the others, and all finish.
+//! Race on a small host whose robots move as they like: the first to arrive tells the others, and all
+//! finish.
 
 use crate::harness::{Wire, World, int};
 use starl_core::{Duration, Event, Point, RobotId, Time, WayPoint};
@@ -40,7 +41,7 @@ fn indices(world: &World, name: &str, robot: u32) -> Vec<i64> {
         .collect()
 }
 
-/// The way-points that a robot arrived at or was told of, in the order of time.
+/// The waypoints that a robot arrived at or was told of, in the order of time.
 fn steps(world: &World, robot: u32) -> Vec<i64> {
     let step = |(_, id, event): &(Time, RobotId, Event)| match event {
         Event::Program { fields, .. } if id.0 == robot => Some(int(&fields[0].1)),
@@ -62,7 +63,7 @@ fn the_fastest_arrives_everywhere_and_the_others_are_told() {
 }
 
 #[test]
-fn all_finish_over_a_bad_wire_and_nobody_goes_back() {
+fn all_finish_over_a_bad_wire_and_no_robot_goes_back() {
     for seed in 0..100 {
         let mut world = race(6, seed, Wire::bad());
         world.run_for(Duration::from_seconds(60));
@@ -110,7 +111,7 @@ fn what_a_finished_robot_said_last_still_gets_through() {
 }
 
 #[test]
-fn a_robot_that_restarts_runs_again_and_a_dead_one_holds_nobody_up() {
+fn a_restarted_robot_runs_again_and_a_dead_one_blocks_no_robot() {
     let mut world = race(4, 1, Wire::perfect());
     world.crash(3);
     world.run_for(Duration::from_seconds(8));

@@ -1,11 +1,11 @@
-//! What breakpoints may name, so that one that could never be met is refused.
+//! The names that breakpoints may use, so that one that could never be met is refused.
 
 use crate::Application;
 use starl_lang::machine::Origin;
 use starl_sim::read::suggest;
 use std::collections::BTreeSet;
 
-/// What breakpoints may name.
+/// The names that breakpoints may use.
 pub struct Names<'a> {
     actions: BTreeSet<&'a str>,
     messages: BTreeSet<&'a str>,

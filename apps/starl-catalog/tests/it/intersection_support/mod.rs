@@ -6,14 +6,14 @@ use starl_core::{Event, RobotId, Time, Value};
 use starl_sim::{Outcome, Run};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What came of a run.
+/// The result of a run.
 #[derive(Debug, Default)]
 pub struct Traffic {
     /// When each car left the last critical zone of its way, and with how much delay, in the order of these times.
     pub through: Vec<(Time, RobotId, f64)>,
-    /// What the cars said last of whether they are stuck.
+    /// The last reports of the cars whether they are stuck.
     pub stuck: BTreeMap<RobotId, bool>,
-    /// The critical zones that each car holds by the mutex: when, who, and whether it was entered or given back.
+    /// The critical zones that each car holds by the mutex: time, car, and whether it was entered or released.
     pub locks: Vec<(Time, RobotId, Lock)>,
     /// The properties that were violated, with what was seen.
     pub violations: Vec<String>,
@@ -22,7 +22,7 @@ pub struct Traffic {
     pub outcome: Option<Outcome>,
 }
 
-/// What became of a lock.
+/// A change of a lock.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Lock {
     Held(String),

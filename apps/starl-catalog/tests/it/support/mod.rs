@@ -5,7 +5,7 @@ use starl_catalog::programs::Registry;
 use starl_sim::Run;
 use starl_sim::read::{Override, Request, Source};
 
-/// What is run.
+/// The case.
 #[derive(Clone, Copy, Debug)]
 pub struct Case<'a> {
     /// The example.

@@ -1,4 +1,4 @@
-//! What robots did, faults, and the first violation.
+//! Actions of robots, faults, and the first violation.
 
 use super::super::story::{MarkKind, Violation};
 use super::layout::Lanes;
@@ -41,7 +41,7 @@ impl Scene<'_> {
         }
     }
 
-    /// What went wrong first: a line through that moment, and a ring round the robot.
+    /// The first violation: a line through that moment, and a ring round the robot.
     pub(super) fn violation(&mut self) {
         let shown = |violation: &&Violation| self.axis.shows(violation.at);
         let Some(violation) = self.story.violations.iter().find(shown) else {

@@ -1,4 +1,4 @@
-//! Messages: arrows from those who sent them to those they reached, and crosses where they were lost.
+//! Messages: arrows from senders to receivers, and crosses where they were lost.
 
 use super::super::story::Message;
 use super::{Scene, WRONG};
@@ -36,7 +36,7 @@ impl Scene<'_> {
                 self.arrow(start, end, stroke);
                 self.drawing.cross(end, 3.5, Stroke::solid(WRONG, 1.6));
             }
-            // Its fate is known when it is sent; the line only shows whom it was for.
+            // Its fate is known when it is sent; the line only shows its receivers.
             Some(_) => {
                 let down = if end.1 > start.1 { 1.0 } else { -1.0 };
                 let stop = (start.0 + 7.0, start.1 + down * 21.0);

@@ -15,7 +15,7 @@ use layout::{colors, lanes, rows};
 use starl_core::{Port, RobotId};
 use std::collections::BTreeMap;
 
-/// What goes wrong.
+/// The colour of violations.
 const WRONG: Color = [200, 20, 20];
 /// Robots that are down.
 const DOWN: Color = [150, 150, 150];
@@ -85,7 +85,7 @@ impl Scene<'_> {
         });
     }
 
-    /// Times, robots' lines, partitions, and who is down.
+    /// Times, robots' lines, partitions, and robots that are down.
     fn background(&mut self) {
         let (top, bottom, right) = (self.top(), self.bottom(), self.axis.right());
         for (at, x) in self.axis.ticks(74.0) {

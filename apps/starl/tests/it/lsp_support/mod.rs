@@ -11,7 +11,7 @@ pub struct Editor {
     input: Option<ChildStdin>,
     output: BufReader<ChildStdout>,
     asked: u64,
-    /// What the server told besides answers, and has not been looked at.
+    /// Messages of the server besides answers that have not been read.
     told: Vec<Value>,
 }
 
@@ -128,7 +128,7 @@ impl Editor {
         self.tell("textDocument/didChange", params);
     }
 
-    /// What the server next says is wrong with a text, in a version if that matters.
+    /// The next problems of a text that the server reports, in a version if that matters.
     pub fn problems(&mut self, uri: &str, version: u32) -> Vec<Value> {
         loop {
             let message = match self.told.is_empty() {

@@ -76,12 +76,12 @@ pub fn status(output: &Output) -> i32 {
     output.status.code().expect("the command was not killed")
 }
 
-/// What it wrote to standard output.
+/// Its standard output.
 pub fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).expect("the output is text")
 }
 
-/// What it wrote to the error stream.
+/// Its error stream.
 pub fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).expect("the messages are text")
 }

@@ -13,7 +13,7 @@ use starl_core::{Duration, Event, Program, Record};
 use starl_explore::{Bounds, Clocks, End, Model, Report, Search, Setup, Walk};
 use starl_properties::{Checker, Properties, Setting, Violation};
 
-/// A fleet of robots that run the same program, and nobody who watches.
+/// A fleet of robots that run the same program, without checkers.
 pub fn setup(robots: usize, program: impl Program + Clone + 'static, bounds: Bounds) -> Setup {
     let programs = (0..robots).map(|_| Box::new(program.clone()) as Box<dyn Program>);
     Setup {

@@ -57,7 +57,7 @@ impl Checker for Agreement {
             Event::Fault(_) => {
                 self.shown.remove(&robot);
             }
-            // Who has promised another list shows none.
+            // A robot that has promised another list shows none.
             Event::Primitive {
                 event:
                     PrimitiveEvent::Registration(

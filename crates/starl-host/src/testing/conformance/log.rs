@@ -1,4 +1,4 @@
-//! What the records of a test say.
+//! The records of a test.
 
 use super::{Cue, Host};
 use alloc::format;
@@ -11,7 +11,7 @@ use starl_core::{Event, Record, RobotId, Time, Value};
 pub struct Told {
     /// When, by the host.
     pub at: Time,
-    /// What, as the text of a [`Cue`].
+    /// The text of a [`Cue`].
     pub what: String,
     /// When, by the robot's own clock.
     pub now: Time,
@@ -26,7 +26,7 @@ pub struct Log {
 }
 
 impl Log {
-    /// What has happened on a host.
+    /// The log of a host.
     pub fn of(host: &impl Host) -> Log {
         Log {
             records: host.records(),

@@ -30,8 +30,8 @@ use crate::Clock;
 use alloc::vec::Vec;
 use starl_core::{Duration, Record, RobotId, Time};
 
-/// All spans of the suite are multiples of this, but for those of [`Need::Milliseconds`]: a host may have no
-/// finer time.
+/// All time spans of the suite are multiples of this, except those of [`Need::Milliseconds`], because a host
+/// may have no finer time.
 pub const TICK: Duration = Duration::from_millis(10);
 
 /// How often programs are activated, and hear where they are.
@@ -43,9 +43,9 @@ pub const DELAY: Duration = Duration::from_millis(20);
 /// How long a write takes.
 pub const WRITE_TIME: Duration = Duration::from_millis(30);
 
-/// A host under test. What it does is called in the order of time.
+/// A host under test. Its methods are called in the order of time.
 pub trait Host: Sized {
-    /// What this host cannot do, and why.
+    /// The needs that this host cannot meet, with the reasons.
     const LACKS: &'static [(Need, &'static str)];
 
     /// A fleet that starts at time 0: programs are activated and located every [`PERIOD`], datagrams take
@@ -77,7 +77,7 @@ pub trait Host: Sized {
     }
 }
 
-/// What some behaviours need of a host.
+/// The needs of some behaviours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
     /// The host decides itself in which order things happen that are due at one moment.
@@ -110,7 +110,7 @@ pub struct Fleet {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Missing(pub &'static str);
 
-/// What comes of a test that did not fail.
+/// The result of a test that did not fail.
 pub type Outcome = Result<(), Missing>;
 
 /// The host can do this.

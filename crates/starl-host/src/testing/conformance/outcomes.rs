@@ -31,7 +31,7 @@ pub fn a_path_for_an_earlier_life_is_ignored<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// A path that is found after a crash is nobody's.
+/// A path that is found after a crash is discarded.
 pub fn a_path_for_a_robot_that_is_down_is_ignored<H: Host>() -> Outcome {
     need::<H>(Need::Paths)?;
     let robot = Probe::new().after(span(100), [Act::Plan(7)]);

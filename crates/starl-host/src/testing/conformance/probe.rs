@@ -20,14 +20,14 @@ pub struct Probe(Ear);
 /// Under which a number is saved.
 const KEY: &str = "number";
 
-/// What answers, as a primitive: programs do not see all inputs.
+/// A primitive that answers, because programs do not see all inputs.
 #[derive(Clone, Debug, Default)]
 struct Ear {
     rules: Vec<(Cue, Vec<Act>)>,
     count: u32,
 }
 
-/// What a robot is told.
+/// The cues for a robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cue {
     /// It starts.
@@ -48,7 +48,7 @@ pub enum Cue {
     Other,
 }
 
-/// What a robot does then.
+/// The responses of a robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Act {
     /// Arm a timer.

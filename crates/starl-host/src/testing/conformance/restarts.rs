@@ -27,7 +27,7 @@ pub fn a_robot_restarts_with_a_fresh_copy<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// What a robot has armed in a life does not fire in the next, nor while it is down.
+/// Timers that a robot armed in a life do not fire in the next, nor while it is down.
 pub fn nothing_of_an_earlier_life_comes_later<H: Host>() -> Outcome {
     let sender = Probe::new()
         .after(span(100), [Act::Send(ONE, 1)])
@@ -69,7 +69,7 @@ pub fn sequence_numbers_go_on_over_restarts<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// What a corruption overwrites stays so until the robot restarts; the robot goes on with it.
+/// Corrupted state stays corrupted until the robot restarts, and the robot continues with it.
 pub fn a_corrupted_robot_goes_on_until_it_restarts<H: Host>() -> Outcome {
     need::<H>(Need::Corruption)?;
     let mut host: H = start([Probe::new(), Probe::new()]);

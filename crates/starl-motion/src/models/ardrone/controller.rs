@@ -8,7 +8,7 @@ use super::dynamics::{Dynamics, Motion};
 use super::mode;
 use starl_core::Command;
 
-/// What the loops of attitude, yaw and climb are to follow.
+/// The references of the loops of attitude, yaw and climb.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct References {
     /// Radians.

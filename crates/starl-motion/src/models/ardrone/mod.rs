@@ -29,7 +29,7 @@ use starl_core::{Command, Duration, Point, Pose, Twist};
 pub(super) const NAME: &str = "drone";
 
 parameters! {
-    /// What can be set of an [`Ardrone`].
+    /// The parameters of an [`Ardrone`].
     pub struct ArdroneParameters {
         /// Radius of the upright cylinder it takes.
         radius: "m" = 0.34, 0.01 => 10.0;

@@ -1,4 +1,4 @@
-//! What an AR.Drone is about: [`crate::State::mode`], and how commands change it.
+//! The phases of an AR.Drone ([`crate::State::mode`]), and how commands change them.
 
 use starl_core::Command;
 

@@ -8,7 +8,7 @@ use crate::Disturbance;
 use starl_core::math::{atan, sincos, sqrt, tan, wrap_angle};
 use starl_core::{Point, Pose};
 
-/// What the wheels' angle makes of the car's motion.
+/// The car's motion for an angle of the wheels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Course {
     /// Angle from the heading to the velocity of the centre, radians.

@@ -31,7 +31,7 @@ use starl_core::{Command, Duration, Point, Pose, Twist};
 pub(super) const NAME: &str = "car";
 
 parameters! {
-    /// What can be set of a [`Car`].
+    /// The parameters of a [`Car`].
     pub struct CarParameters {
         /// Radius of the circle around the body, which is 0.58 m by 0.31 m.
         radius: "m" = 0.33, 0.01 => 10.0;

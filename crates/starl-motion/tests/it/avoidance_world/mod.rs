@@ -21,7 +21,7 @@ pub const VICINITY: f64 = 0.075;
 /// Deviation of estimated headings in worlds with noise, radians.
 const HEADING_NOISE: f64 = 0.0087;
 
-/// What there is at first.
+/// The initial scene.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     pub robots: Vec<Placed>,
@@ -36,7 +36,7 @@ pub struct Placed {
     pub goal: Point,
 }
 
-/// What robots are told of where they are.
+/// The robots' position estimates.
 #[derive(Clone, Copy, Debug)]
 pub struct Positioning {
     /// Deviation in each coordinate of the plane, metres.
@@ -143,7 +143,7 @@ impl World {
         }
     }
 
-    /// Moves everything on for so many seconds in which nobody gets an estimate.
+    /// Advances everything by a number of seconds without any estimate.
     pub fn lose_estimates(&mut self, seconds: f64) {
         self.silent = self.steps + (seconds / STEP.seconds()) as u64;
         self.run_for(seconds);
@@ -164,8 +164,7 @@ impl World {
         None
     }
 
-    /// Fails unless all robots have been at their goals within `bound` seconds, and nobody has touched
-    /// anything.
+    /// Fails unless all robots have been at their goals within `bound` seconds, without a contact.
     pub fn must_arrive(&mut self, bound: f64) {
         let took = self.run(bound);
         self.must_be_clear();

@@ -1,4 +1,4 @@
-//! What the conformance tests share: every model of the registry, and chance.
+//! Shared code of the conformance tests: every model of the registry, and randomness.
 
 use starl_core::geometry::{Point, Pose};
 use starl_core::math::PI;
@@ -153,7 +153,7 @@ impl Positioning {
     }
 }
 
-/// A robot that tracks way-points by itself.
+/// A robot that tracks waypoints by itself.
 pub struct Run<'a> {
     pub model: &'a dyn Model,
     pub state: State,

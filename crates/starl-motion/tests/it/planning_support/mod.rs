@@ -1,4 +1,4 @@
-//! What the planning tests share: requests, worlds and a judge of paths that uses none of the
+//! Shared code of the planning tests: requests, worlds and a judge of paths that uses none of the
 //! planners' own geometry.
 
 use starl_core::geometry::{ConvexPolygon, HeightSpan, Obstacle};
@@ -56,7 +56,7 @@ impl Case {
         planning::plan(model, &self.estimate(), &self.request, &[])
     }
 
-    /// The way-points with the start before them.
+    /// The waypoints with the start before them.
     pub fn whole(&self, model: &dyn Model, path: &Path) -> Vec<Point> {
         core::iter::once(model.body().reachable(self.from))
             .chain(path.iter().copied())

@@ -1,10 +1,10 @@
-//! What other robots are asked of their messages, and what follows from their answers.
+//! Questions to other robots about their messages, and the consequences of the answers.
 
 use super::vector::{After, Process, Standing};
 use super::{Causal, Look};
 use starl_core::{Robot, RobotId};
 
-/// What a robot was asked.
+/// A question to a robot.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Doubt {
     ticket: u32,

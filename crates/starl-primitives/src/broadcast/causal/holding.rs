@@ -1,4 +1,4 @@
-//! What is held back, and until when.
+//! The messages that are held back, with their deadlines.
 //!
 //! Each sender's messages are held in the order in which they came, so only the first of each can be ready.
 
@@ -15,7 +15,7 @@ use starl_core::{Robot, RobotId};
 #[derive(Clone, Debug)]
 pub(super) struct Held {
     pub arrival: Arrival,
-    /// What it comes after, the message before it from the same sender included.
+    /// The messages on which it depends, including the one before it from the same sender.
     pub after: Vec<Need>,
     /// Its place in the order in which messages arrived.
     pub place: u64,

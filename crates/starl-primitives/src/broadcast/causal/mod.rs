@@ -5,14 +5,14 @@
 //! holds it back until it has taken as much. Below is the acknowledged protocol in FIFO order, which
 //! says when a message of a sender will not come any more.
 //!
-//! Invariant: when a message is handed out, every message that it comes after has been handed out, or
-//! passed over for good, which is on record. What was passed over and comes after all is not handed out.
+//! Invariant: when a message is delivered, every message on which it depends has been delivered, or
+//! passed over permanently, which is recorded. A message that was passed over is not delivered later.
 //!
-//! Where ours differs: the clock counts the messages of robots' lives and not of robots, so that a restart is
-//! another sender. Of each robot it has the life that is heard; which of two lives is the later one is found out by asking
-//! the robot ([`asking`]), not by remembering. And nobody waits for ever: a message that others come after is passed
-//! over if its sender says that it will not come, has started anew, or is suspected of having failed and does not answer,
-//! and in any case when its sender must have given it up.
+//! Where ours differs: the clock counts the messages of robots' lives and not of robots, so that a restart is a
+//! different sender. It has the current life of each robot. The later of two lives is found by asking the robot
+//! ([`asking`]), not by remembering. No robot waits for ever: a message on which others depend is passed over if its
+//! sender reports that it will not arrive, has restarted, or is suspected and does not answer, and in any case when
+//! its sender must have given it up.
 
 mod asking;
 mod holding;
@@ -30,7 +30,7 @@ use starl_core::event::BroadcastEvent;
 use starl_core::{Duration, Input, Payload, Random, Robot, RobotId, TimerKey, message};
 use vector::{After, Process, Vector};
 
-/// What is held back is looked at this often.
+/// The interval at which held messages are checked.
 const LOOK: Duration = Duration::from_millis(250);
 
 /// A suspected sender's messages are waited for at least this many looks.
@@ -67,7 +67,7 @@ pub(super) struct Causal {
     is_looking: bool,
 }
 
-/// What travels.
+/// The content of a datagram.
 #[derive(Serialize, Deserialize)]
 struct Ordered<C> {
     after: Vec<After>,
@@ -98,7 +98,7 @@ impl Causal {
             .send_to_peers(robot, encode(&Ordered { after, content }))
     }
 
-    /// What was passed over since the last call.
+    /// The messages passed over since the last call.
     pub fn take_gaps(&mut self) -> Vec<Gap> {
         self.gaps.take()
     }
@@ -219,7 +219,7 @@ impl Causal {
         }
     }
 
-    /// Whose message has been held for longest.
+    /// The sender whose message has been held for longest.
     fn oldest(&self) -> Option<RobotId> {
         let firsts = self
             .held

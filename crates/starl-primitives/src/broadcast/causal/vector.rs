@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 use starl_core::RobotId;
 
-/// Of so many past lives of a robot it is remembered how much was taken. What is forgotten is asked for again.
+/// For this number of past lives of a robot the count of taken messages is stored. Forgotten counts are
+/// queried again.
 const PAST: usize = 16;
 
 /// A robot from one start to its next.
@@ -171,7 +172,7 @@ impl Vector {
         known.is_some_and(|known| !known.unheard.is_empty())
     }
 
-    /// Lives of a robot that were heard of by then are over, but for the present one.
+    /// Lives of a robot that were heard of by then are over, except the present one.
     pub fn forget_unheard(&mut self, robot: RobotId, by: u64) {
         if let Some(known) = self.0.get_mut(&robot) {
             let over = known.unheard.extract_if(.., |unheard| unheard.since <= by);

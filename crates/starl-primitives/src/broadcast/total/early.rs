@@ -45,7 +45,7 @@ impl Early {
         }
     }
 
-    /// What is missing between what is known and a place, apart from these parts: the first gaps.
+    /// The missing parts between the known prefix and a place: the first gaps.
     pub fn gaps(&self, known: u64, last: u64) -> Vec<(u64, u64)> {
         let mut gaps = Vec::new();
         let mut known = known;

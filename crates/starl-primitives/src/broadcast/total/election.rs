@@ -1,8 +1,9 @@
-//! Who leads: the one for whom a quorum voted in its term (Ongaro and Ousterhout 2014).
+//! The election of the leader: the robot for which a quorum voted in its term (Ongaro and
+//! Ousterhout 2014).
 //!
-//! Invariant: a life votes once in a term, and only for one whose log holds all that the voter's does up to
-//! the last term in it. Before a robot asks in earnest it asks whether it would be elected, and those
-//! who hear a leader say no: one that comes back from behind a wall unseats nobody.
+//! Invariant: a life votes once in a term, and only for a life whose log contains the voter's log up to its
+//! last term. Before a robot asks for votes it asks whether it would be elected, and robots that hear a
+//! leader refuse: a robot that returns from a partition does not replace a leader.
 
 use super::life::Life;
 use super::packet::{Body, Question};
@@ -11,10 +12,10 @@ use alloc::collections::BTreeSet;
 use starl_core::event::messaging::LeaveReason;
 use starl_core::{Destination, Robot};
 
-/// Who has heard the leader within so many ticks votes for nobody else.
+/// A robot that has heard the leader within this number of ticks votes for no other.
 const LOYALTY: u32 = 6;
 
-/// What a robot that wants to lead says of itself.
+/// The claim of a robot that wants to lead.
 #[derive(Clone, Copy)]
 pub(super) struct Claim {
     pub number: u32,
@@ -68,7 +69,8 @@ impl Total {
         self.say(robot, Destination::All, body);
     }
 
-    /// Asks for votes for a term, with a log of this end; or, outside of groups, who is there.
+    /// Asks for votes for a term, with a log of this end; or, outside of groups, asks which robots
+    /// are there.
     pub(super) fn question(&self, trial: bool, term: u32, (last_term, last): (u32, u64)) -> Body {
         Body::Ask {
             number: self.ask_number,

@@ -1,8 +1,8 @@
 //! How a leader sends single members what they lack: as much as may be on its way at once, and again what
 //! was lost.
 //!
-//! A member says up to where its log is the leader's and which parts it lacks after that. What it was last sent
-//! of these was lost if it has heard a round that came well after that one.
+//! A member reports the prefix in which its log equals the leader's, and the missing parts after that. If it
+//! has heard a round well after the leader sent it these parts, they were lost.
 
 use super::followers::Follower;
 use super::life::Life;
@@ -11,7 +11,7 @@ use super::{CHUNK, FURTHEST, Role, Total, WINDOW};
 use alloc::vec::Vec;
 use starl_core::{Destination, Robot};
 
-/// What a member says of its log.
+/// A member's report about its log.
 pub(super) struct Answer {
     pub term: u32,
     pub round: u64,

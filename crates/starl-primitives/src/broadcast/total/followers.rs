@@ -1,4 +1,4 @@
-//! What a leader knows of the other members, and what follows for the log.
+//! The leader's knowledge of the other members, and the consequences for the log.
 //!
 //! Invariant: of the lives of one robot the leader goes by the latest that it has heard. A life takes the place
 //! of another one only if it has answered a later call, and a call goes to one life, after that was heard:
@@ -27,14 +27,14 @@ pub(super) struct Leading {
     pub sent: u64,
     /// The decided part of the log of which all have been told.
     pub told: u64,
-    /// What was decided at the last ticks, and the round then, the oldest first.
+    /// The decided index at the last ticks, and the round then, the oldest first.
     pub past: [(u64, u64); 4],
     /// Counts what it has sent, datagrams that were sent together once.
     pub round: u64,
     /// Counts its calls.
     pub calls: u64,
     pub followers: BTreeMap<RobotId, Follower>,
-    /// Who may put messages after the last entry of the log.
+    /// The lives that may add messages after the last entry of the log.
     pub roll: Roll,
 }
 
@@ -103,7 +103,7 @@ impl Member {
         }
     }
 
-    /// What follows an entry, up to the size of a datagram, and the last that it holds.
+    /// The entries after a given one, up to the size of a datagram, and the index of the last.
     pub fn append_after(&self, previous: u64, last: u64, floor: u64, is_beat: bool) -> (Body, u64) {
         let mut entries = Vec::new();
         let (mut end, mut size) = (previous, 0);

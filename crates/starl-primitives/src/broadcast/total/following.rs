@@ -1,4 +1,4 @@
-//! What a member takes from its leader, and hands out.
+//! Entries that a member gets from its leader and delivers.
 //!
 //! Invariant: what is decided is never dropped from the log before it is handed out, nor replaced; what this
 //! robot has acknowledged to a leader stays in its log as long as that one leads; and messages are handed out in
@@ -41,7 +41,7 @@ impl Total {
             return self.say(robot, to, answer);
         }
         let had_leader = member.leader == Some(from);
-        // What comes late is no sign that the leader lives.
+        // Late duplicates are not a sign of life of the leader.
         if next.term > member.term || next.round > member.round {
             member.follow(from, next.term);
             member.round = next.round;
@@ -52,7 +52,7 @@ impl Total {
         let has_news = has_entries || next.is_beat;
         let previous = next.part.previous;
         if member.take(next.part).is_err() {
-            // What is decided cannot differ: the state is corrupt.
+            // Decided entries cannot differ, so the state is corrupt.
             return self.leave(robot, LeaveReason::Corrupt);
         }
         member.commit = member.commit.max(next.commit.min(member.agreed));
@@ -151,7 +151,7 @@ impl Member {
         self.agreed.max(self.commit)
     }
 
-    /// What it tells the leader.
+    /// Its report to the leader.
     pub(super) fn taken(&self, lacks: Vec<(u64, u64)>) -> Body {
         Body::Taken {
             term: self.term,

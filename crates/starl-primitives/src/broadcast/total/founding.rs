@@ -1,9 +1,9 @@
 //! How robots that are in no group come into one: they found it, or are let in.
 //!
-//! Robots keep nothing when they stop, so nobody knows at its start whether there is a group. All say that
-//! they are up. A leader that hears it lets the robot in. If nobody does, and a majority of the
-//! fleet is in no group, then no group has enough members left to decide anything, and one of them
-//! founds the next.
+//! Robots keep nothing when they stop, so at its start a robot does not know whether there is a group. All
+//! announce that they are up. A leader that hears this admits the robot. If no leader does, and a majority
+//! of the fleet is in no group, then no group has enough members left to decide anything, and one of the
+//! robots founds the next.
 
 use super::life::{Life, LifeName};
 use super::packet::{Body, Generation, Question};
@@ -25,7 +25,7 @@ const ATTEMPTS: u32 = 4;
 /// A robot that is about to found a group waits for so many ticks for answers that are missing.
 const MUSTER: u32 = 6;
 
-/// Who is in no group, as far as a robot that is in none knows.
+/// The robots without a group, as far as a robot without a group knows.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Idle {
     /// Ticks since it came to be in none, or last founded one.
@@ -35,7 +35,7 @@ pub(super) struct Idle {
     muster: Option<Muster>,
 }
 
-/// What the founder of a group asks all others: which lives are there now, in no group.
+/// The question of a group's founder to all others: which lives are there now without a group.
 #[derive(Clone, Debug, Default)]
 struct Muster {
     /// Ticks since it first asked.
@@ -56,7 +56,7 @@ impl Total {
         let rank = idle.others.range(..me).count() as u32;
         let quorum = robot.fleet().len() / 2 + 1;
         let is_time = idle.waited >= 2 * ATTEMPTS + (ATTEMPTS + MUSTER).saturating_mul(rank);
-        // Those who are heard of in time are there from the first message on.
+        // Robots that are heard in time get all messages from the first on.
         let are_all = rank == 0 && idle.others.len() + 1 == robot.fleet().len();
         if idle.others.len() + 1 < quorum || !is_time && !are_all {
             idle.muster = None;
@@ -123,7 +123,7 @@ impl Total {
         }
     }
 
-    /// Whether it asks who is there.
+    /// Whether it asks which robots are there.
     pub(super) fn is_mustering(&self) -> bool {
         self.idle.muster.is_some()
     }
@@ -153,7 +153,7 @@ impl Total {
         generation: Option<Generation>,
         (bound_to, answer): (Option<Generation>, Option<Question>),
     ) {
-        // The next group that is founded shall be one that it can join.
+        // The next group must be one that it can join.
         if bound_to.is_some_and(|bound_to| !self.learn(bound_to)) {
             return;
         }
@@ -253,7 +253,7 @@ impl Total {
     }
 }
 
-/// Those who may send at the beginning.
+/// The lives that may send at the beginning.
 fn founders(voters: Vec<Life>) -> Roll {
     Roll::new(voters.into_iter().map(|life| (life, 0)).collect())
 }

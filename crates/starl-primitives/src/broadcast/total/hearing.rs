@@ -1,4 +1,4 @@
-//! Who is to be told what has arrived.
+//! Routes arrived messages to the parts that need them.
 
 use super::early::Part;
 use super::election::Claim;
@@ -80,7 +80,7 @@ impl Total {
         self.note_contact(robot);
     }
 
-    /// Takes note of the counter of a group, unless that is none that there could be.
+    /// Stores the counter of a group, unless it is impossible.
     pub(super) fn learn(&mut self, generation: Generation) -> bool {
         let is_possible = generation.counter <= self.highest.saturating_add(FURTHEST);
         if is_possible {

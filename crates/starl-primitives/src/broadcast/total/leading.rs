@@ -1,8 +1,8 @@
-//! What the leader does: it puts messages into the log, sends it to all, and sees what is decided.
+//! The leader adds messages to the log, sends it to all, and determines which entries are decided.
 //!
 //! Invariant: an entry of the leader's term that a quorum of the voters has is decided, and with it all
-//! before (Ongaro and Ousterhout 2014, section 5.4). Who votes is changed by one life at a time, and only
-//! when the last change is decided, so that any quorum before meets any quorum after it.
+//! before (Ongaro and Ousterhout 2014, section 5.4). The list of voters changes by one life at a time,
+//! and only when the last change is decided, so that any quorum before intersects any quorum after it.
 
 use super::followers::Leading;
 use super::life::Life;

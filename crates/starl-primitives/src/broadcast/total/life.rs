@@ -1,4 +1,4 @@
-//! What tells the lives of robots apart.
+//! The identity of the lives of robots.
 
 use super::Total;
 use serde::{Deserialize, Serialize};

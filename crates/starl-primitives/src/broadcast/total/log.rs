@@ -17,7 +17,7 @@ pub(super) struct Log {
     entries: VecDeque<Entry>,
     /// About how much room they take.
     bytes: usize,
-    /// Who votes from which index on.
+    /// The voters from each index on.
     configurations: VecDeque<(u64, Vec<Life>)>,
 }
 
@@ -48,7 +48,7 @@ impl Log {
         self.bytes
     }
 
-    /// Whether it is to be kept for nobody.
+    /// Whether it is too long to be kept for absent robots.
     pub fn is_long(&self) -> bool {
         self.bytes >= MOST_BYTES
     }
@@ -119,7 +119,7 @@ impl Log {
         }
     }
 
-    /// Who votes, by the last entry that says so.
+    /// The voters, by the last entry that defines them.
     pub fn voters(&self) -> &[Life] {
         let last = self.configurations.back();
         last.map_or(&[], |(_, voters)| voters)
@@ -130,7 +130,7 @@ impl Log {
         self.configurations.back().map_or(0, |(at, _)| *at)
     }
 
-    /// Who votes by the entries up to this one.
+    /// The voters by the entries up to this one.
     pub fn voters_at(&self, index: u64) -> &[Life] {
         let mut all = self.configurations.iter().rev();
         let found = all.find(|(at, _)| *at <= index.max(self.base));

@@ -1,4 +1,4 @@
-//! What a robot knows as a member of a group.
+//! The state of a robot as a member of a group.
 
 use super::early::Early;
 use super::followers::Leading;
@@ -16,23 +16,23 @@ pub(super) struct Member {
     pub quorum: u32,
     /// The latest term that it has heard of.
     pub term: u32,
-    /// For whom it voted in that term.
+    /// The life for which it voted in that term.
     pub vote: Option<Life>,
     pub log: Log,
     /// The log is decided up to here.
     pub commit: u64,
     /// Messages up to here have been handed out.
     pub applied: u64,
-    /// Who may send up to there.
+    /// The lives that may send up to there.
     pub roll: Roll,
-    /// Who leads in that term, as far as known.
+    /// The leader in that term, as far as known.
     pub leader: Option<Life>,
     /// The last of that leader's rounds and calls that it has heard.
     pub round: u64,
     pub call: u64,
     /// The log is known to be that leader's up to here.
     pub agreed: u64,
-    /// What of that leader's log came too early.
+    /// Parts of that leader's log that arrived early.
     pub early: Early,
     /// Ticks since the leader was heard; of a leader, since it heard of a quorum.
     pub silence: u32,
@@ -45,7 +45,7 @@ pub(super) struct Member {
     pub gone: BTreeSet<Life>,
 }
 
-/// What a member does.
+/// The role of a member.
 #[derive(Clone, Debug)]
 pub(super) enum Role {
     Following,
@@ -115,7 +115,7 @@ impl Member {
             let left = voters.iter().filter(|voter| !self.gone.contains(voter));
             left.count() < self.needed_of(voters.len())
         };
-        // Who votes by an entry that is not decided may yet be who voted before.
+        // The voters by an undecided entry may still be the previous ones.
         is_dead(self.log.voters()) && is_dead(self.log.voters_at(self.commit))
     }
 

@@ -1,4 +1,4 @@
-//! Who votes: how new lives come to, in place of earlier ones.
+//! The voters: how new lives are added and replace earlier ones.
 //!
 //! Invariant: any quorum before a change meets any quorum after it, and a change follows only when the last
 //! one is decided (Ongaro and Ousterhout 2014, section 6, which changes one voter at a time for that). As
@@ -9,7 +9,7 @@ use super::packet::What;
 use super::{Member, Role};
 
 impl Member {
-    /// Takes voters off the list of which a later life is here, or else lets those vote who have come.
+    /// Removes voters of which a later life is present, or else adds the new lives as voters.
     pub fn admit(&mut self) {
         let Role::Leading(leading) = &self.role else {
             return;

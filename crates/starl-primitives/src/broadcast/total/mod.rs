@@ -2,18 +2,18 @@
 //! agrees.
 //!
 //! Within a group this is Raft (Ongaro and Ousterhout 2014), a relative of Viewstamped Replication (Liskov
-//! and Cowling 2012): a leader puts messages into a log, an entry that a majority of the fleet has is
-//! decided, and each robot hands out what is decided in the order of the log.
+//! and Cowling 2012). A leader adds messages to a log. An entry that a majority of the fleet has is
+//! decided, and each robot delivers the decided entries in the order of the log.
 //!
-//! Where ours differs: nothing is kept when a robot stops. A robot that starts again is another voter, which
-//! knows nothing; the leader lets it in with what it has to know, and takes its earlier life off the list of
-//! voters. So nobody votes twice or forgets what it acknowledged, which is what goes
-//! wrong where replicas come back under their old names (Michael et al. 2017). That list, an entry of the log
-//! itself, also says who may put messages into the log: see [`roll`]. If so many stop at once that
-//! those left can decide nothing more, the group is dead, which its members find out by asking: then
-//! a majority of the fleet founds the next group, with an empty log.
+//! Where ours differs: nothing is kept when a robot stops. A robot that restarts is a different voter without
+//! state. The leader sends it the necessary state, and removes its earlier life from the list of voters. So
+//! no robot votes twice or forgets its acknowledgements, which is the error of replicas that return under
+//! their old names (Michael et al. 2017). The list is an entry of the log itself, and also defines the lives
+//! that may add messages to the log: see [`roll`]. If so many stop at once that the rest can decide nothing
+//! more, the group is dead, which its members find out by asking. Then a majority of the fleet founds the
+//! next group, with an empty log.
 //!
-//! Properties, whatever the network does and whoever crashes and restarts:
+//! Properties, whatever the network does and whichever robots crash and restart:
 //! - order: no two robots hand out two messages in different orders. Logs are sequences that only grow at
 //!   their decided end, a message is proposed in one group only, and robots go from group to group
 //!   upwards only;
@@ -56,8 +56,8 @@ use starl_core::event::BroadcastEvent;
 use starl_core::event::messaging::LeaveReason;
 use starl_core::{Destination, Duration, Input, Port, Random, Robot, TimerKey, timers};
 
-/// A log that takes this many bytes is long: it is no longer kept for those who are away. Besides, it may
-/// hold as much that is not decided.
+/// A log of this number of bytes is long: it is no longer kept for absent robots. In addition, it may
+/// contain as many undecided bytes.
 const MOST_BYTES: usize = 1 << 21;
 
 /// Datagrams are not much longer than this, bytes, unless one message is.
@@ -66,7 +66,7 @@ const CHUNK: usize = 1000;
 /// So many bytes are sent to one robot, or by one to the leader, before it has answered.
 const WINDOW: usize = 16 * CHUNK;
 
-/// A count this far ahead is none that robots could have come to.
+/// Robots cannot have counted this far ahead.
 const FURTHEST: u32 = 1 << 20;
 
 /// After this many ticks without a leader a robot says that it has failed.

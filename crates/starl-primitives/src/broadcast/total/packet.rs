@@ -1,4 +1,4 @@
-//! What robots say to each other to agree on an order.
+//! The messages by which robots agree on an order.
 
 use super::life::{Life, LifeName};
 use alloc::vec::Vec;
@@ -20,7 +20,7 @@ pub(super) struct Entry {
     pub what: What,
 }
 
-/// What an entry says.
+/// The content of an entry.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum What {
     /// A leader begins.
@@ -52,7 +52,7 @@ pub(super) struct Question {
     pub number: u32,
 }
 
-/// What is said.
+/// The content of a message.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum Body {
     /// The sender is up.
@@ -120,7 +120,7 @@ pub(super) enum Body {
     },
     /// The leader wants a sign of life, which is a [`Body::Taken`] with this call.
     Call { to: LifeName, term: u32, call: u64 },
-    /// What a life has to know to go on from some place in the log.
+    /// The state that a life needs to continue from some place in the log.
     Snapshot {
         to: LifeName,
         /// A call as well.

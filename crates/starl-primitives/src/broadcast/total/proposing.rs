@@ -12,7 +12,7 @@ use starl_core::event::messaging::{LeaveReason, MessageNumber};
 use starl_core::event::{BroadcastEvent, TransferEvent};
 use starl_core::{Destination, Payload, Robot};
 
-/// Failures that nobody asks for are kept up to this number, the latest.
+/// The latest failures are kept up to this number.
 const MOST_FAILURES: usize = 64;
 
 /// About how much longer a message is among others in a datagram than its content, bytes.
@@ -182,7 +182,7 @@ impl Total {
         }
     }
 
-    /// What was proposed in a group that is given up may have a place there.
+    /// Messages proposed in a group that is given up may have a place there.
     pub(super) fn fail_bound(&mut self, robot: &mut Robot<'_>, generation: Generation) {
         self.sent = 0;
         self.fail_where(robot, &mut |proposal, _| proposal.bound == Some(generation));

@@ -1,4 +1,4 @@
-//! Who may put messages into the log at some place in it, and the last message of each.
+//! The lives that may add messages at some place of the log, and the last message of each.
 //!
 //! Invariant: a roll follows from the log up to its place alone, and so is the same on all robots. A message
 //! enters the log only on behalf of a life that votes there, and with a greater number than the last of that

@@ -63,7 +63,7 @@ impl Ballots {
         self.decide(scene);
     }
 
-    /// Ends the election if nobody is waited for any more.
+    /// Ends the election if no ballot is missing any more.
     pub(super) fn decide(&mut self, scene: &mut Scene<'_, '_>) {
         let Some(draw) = &self.draw else { return };
         let is_missing = |peer: &&RobotId| draw.is_missing(scene, **peer);

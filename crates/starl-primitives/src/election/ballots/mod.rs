@@ -1,12 +1,12 @@
 //! Election by random ballots (thesis, section 3.4.2, which says no more than that).
 //!
-//! Each participant draws a number and tells it to all. Whoever has the ballots of all that take part in the
-//! round knows the winner, the one with the greatest. Ties are drawn again, in the next round. Robots
-//! that are suspected are not waited for, nor are those that stay silent for the options' patience.
+//! Each participant draws a number and sends it to all. A robot that has the ballots of all participants in
+//! the round knows the winner, the one with the greatest. Ties are drawn again, in the next round. The
+//! election does not wait for suspected robots, nor for those that are silent for the options' patience.
 //!
-//! Invariant: whoever hears of two outcomes believes the greater one (later round, then greater ballot, then
-//! greater robot), so robots that did not wait for the same ballots agree as soon as they hear of each
-//! other's winner, who goes on saying that it leads.
+//! Invariant: of two outcomes a robot accepts the greater one (later round, then greater ballot, then
+//! greater robot). The winner announces itself repeatedly, so robots that did not wait for the same ballots
+//! agree as soon as they hear of each other's winner.
 
 mod draw;
 
@@ -31,7 +31,7 @@ pub(super) struct Ballots {
 }
 
 impl Ballots {
-    /// There is no leader any more, or none that this robot can believe in.
+    /// The leader is gone, or no longer acceptable to this robot.
     fn lose(&mut self, scene: &mut Scene<'_, '_>) {
         self.outcome = None;
         if scene.stands {
@@ -77,7 +77,7 @@ impl Ballots {
         }
     }
 
-    /// A robot says who was elected.
+    /// A robot announces the winner.
     fn hear(&mut self, scene: &mut Scene<'_, '_>, from: RobotId, outcome: Outcome) {
         let (me, leader) = (scene.me(), outcome.leader);
         if leader == me && !scene.stands {

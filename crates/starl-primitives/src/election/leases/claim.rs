@@ -1,7 +1,7 @@
 //! Standing for election, and leading.
 //!
-//! Invariant: this robot leads until the term after it sent the latest claim that a majority, itself included,
-//! has granted. What is given up is never taken up again: each leadership has an epoch of its own.
+//! Invariant: this robot leads until one term after it sent the latest claim that a majority, including
+//! itself, has granted. A leadership that was given up is never resumed: each leadership has its own epoch.
 
 use super::{Leases, Shown};
 use crate::election::epoch::Epoch;
@@ -14,7 +14,7 @@ use starl_core::{Duration, Random, RobotId, Time};
 /// Claims that are remembered; those before are too old to lead by.
 const MOST_CLAIMS: usize = 64;
 
-/// A claim to an epoch, and who has granted it.
+/// A claim to an epoch, and the robots that have granted it.
 #[derive(Clone, Debug)]
 pub(super) struct Standing {
     pub epoch: Epoch,

@@ -1,16 +1,16 @@
 //! Election by the votes of a majority, for an epoch, for the time of a lease.
 //!
 //! A robot that stands claims a new epoch. A vote for it is a promise for the time of a lease: to vote for no
-//! other robot, and for no earlier epoch ever. With the votes of a majority the robot leads, until a lease
-//! after it asked for them; it asks for the same votes again and again, and leads as long as it gets them.
-//! Leases are Gray and Cheriton's (1989), the votes those of Raft's terms (Ongaro and Ousterhout 2014) and
-//! of Paxos (Lamport 1998). Raft's pre-vote is not needed: a robot that stands against a leader is refused
-//! as long as the leader's lease runs, and its epoch counts for nobody who did not vote for it.
+//! other robot, and never again for an earlier epoch. With the votes of a majority the robot leads, until one
+//! lease after it asked for them; it asks for the same votes repeatedly, and leads as long as it gets them.
+//! Leases are those of Gray and Cheriton (1989), votes those of Raft's terms (Ongaro and Ousterhout 2014) and
+//! of Paxos (Lamport 1998). Raft's pre-vote is not needed: a robot that stands against a leader is refused as
+//! long as the leader's lease runs, and its epoch binds only robots that voted for it.
 //!
 //! A robot without storage that restarts has forgotten its promises. How it comes to vote again is told in
 //! `recovery.rs`; what one with storage keeps, in `saving.rs`.
 //!
-//! What rests on what:
+//! Guarantees and their assumptions:
 //! - one leader in each epoch: on nothing but its number, which names the leader (`epoch.rs`);
 //! - at most one leader at the same true time: on clocks that keep to the options' drift;
 //! - epochs grow from leader to leader: on that too, and on no majority forgetting at once. Where one does,
@@ -55,11 +55,11 @@ pub(super) struct Leases {
     stand_at: Time,
     /// Whether the robot stood for election when it last looked.
     stood: bool,
-    /// What is on storage: the promised epoch, and the latest heard of.
+    /// The stored values: the promised epoch, and the latest known one.
     saved: (Epoch, Epoch),
 }
 
-/// What this robot has promised.
+/// The promise of this robot.
 #[derive(Clone, Copy, Debug, Default)]
 struct Promise {
     /// It votes for no earlier epoch.
@@ -68,7 +68,7 @@ struct Promise {
     until: Time,
 }
 
-/// Who leads, as far as this robot knows; itself or another.
+/// The leader, as far as this robot knows; itself or another.
 #[derive(Clone, Copy, Debug)]
 struct Shown {
     epoch: Epoch,
@@ -109,7 +109,7 @@ impl Leases {
         self.give_up(scene);
     }
 
-    /// Nobody leads any more, as far as this robot knows.
+    /// There is no leader any more, as far as this robot knows.
     fn lose(&mut self, scene: &mut Scene<'_, '_>) {
         self.shown = None;
         self.postpone(scene);
@@ -147,7 +147,7 @@ impl Leases {
             no_later(&mut claim.repeat_at, now + options.timeout(u32::MAX));
             !claim.epoch.is_plausible(now) || claim.epoch.leader() != me || !scene.stands
         });
-        // Who leads asks for votes.
+        // A leader asks for votes.
         let leads_without = |shown: &mut Shown| shown.epoch.leader() == me && self.claim.is_none();
         self.shown.take_if(leads_without);
     }

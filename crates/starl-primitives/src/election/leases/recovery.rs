@@ -1,19 +1,19 @@
 //! How a robot that starts comes to vote, although it may have forgotten what it promised before.
 //!
-//! First it waits for the time of a lease, on its own clock, silently: whoever leads by its forgotten vote
-//! does not after that. Then it asks the others what they have promised, and takes the latest epoch for
-//! its own promise. It needs answers from so many that remember that each majority holds one of them.
+//! First it waits silently for one lease, on its own clock: a leader by its forgotten vote no longer leads
+//! after that. Then it asks the others for their promises, and takes the latest epoch as its own promise.
+//! It needs answers from so many robots with memory that each majority contains one of them.
 //!
-//! Invariant: an epoch in which someone has led by a vote that this robot forgot is learned, unless a majority
-//! has forgotten at once. The others' votes for that epoch were given while the robot waited, or before;
-//! that is why it asks only afterwards. (Recovery as in Viewstamped Replication Revisited, Liskov and
-//! Cowling 2012, may ask too early: see Michael, Ports, Sharma and Szekeres 2017, who cure it otherwise.)
+//! Invariant: the robot learns every epoch with a leader by its forgotten vote, unless a majority has
+//! forgotten at once. The others voted for that epoch while the robot waited, or before; therefore it asks
+//! only afterwards. Recovery as in Viewstamped Replication Revisited (Liskov and Cowling 2012) may ask too
+//! early: see Michael, Ports, Sharma and Szekeres 2017, with a different solution.
 //!
-//! Where a majority is recovering at once, all memory may be lost, and waiting for it would be in vain. That
-//! is so when a fleet starts. Then these robots begin anew, from the latest epoch that any of them has heard of
-//! and from their clocks. Who begins anew does not count as one that remembers for those that were up then. They do
-//! not all begin anew at the same moment; for one that started in between, those that have been up since the first
-//! of them did remember too: what was promised before may be lost, and since then they have forgotten nothing.
+//! If a majority is recovering at once, all memory may be lost, and waiting for it is useless. This is the case
+//! when a fleet starts. Then these robots start again, from the latest epoch that any of them has heard of and from
+//! their clocks. To the robots that were up then, such a robot does not count as one with memory. They do not all
+//! start again at the same moment. To one that started in between, those that have been up since the first of them
+//! count as robots with memory: earlier promises may be lost, and since then they have forgotten nothing.
 
 use super::{Leases, Promise};
 use crate::election::epoch::Epoch;
@@ -35,12 +35,12 @@ pub(super) enum Stage {
     Waiting(Time),
     /// It asks.
     Learning(Learning),
-    /// It remembers what it promised, since it learned it from others, or since this moment, when a majority
-    /// began anew.
+    /// It remembers its promises, because it learned them from others, or since this moment, when a majority
+    /// started again.
     Remembering(Option<Time>),
 }
 
-/// What others have answered.
+/// The answers of the others.
 #[derive(Clone, Debug)]
 pub(super) struct Learning {
     /// When the robot began.
@@ -55,14 +55,14 @@ pub(super) struct Learning {
     repetitions: u32,
 }
 
-/// What another robot remembers, in this robot's time.
+/// Another robot's memory, in this robot's time.
 #[derive(Clone, Copy, Debug)]
 struct Answer {
     /// Whether it remembers all that it promised before this robot started.
     remembers: bool,
     /// It has been up since then, or longer.
     up_since: Time,
-    /// It began anew then, or later.
+    /// It started again then, or later.
     anew_since: Option<Time>,
 }
 

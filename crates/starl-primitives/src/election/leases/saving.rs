@@ -1,5 +1,4 @@
-//! What a voter keeps over a restart, on robots with storage: the epoch that it has promised, and the latest that
-//! it has heard of.
+//! A voter's stored state, on robots with storage: the promised epoch, and the latest known one.
 //!
 //! A robot that finds its promise on storage votes and stands at once, and so does one that finds nothing on storage
 //! that never lost anything. All others wait and ask: see `recovery.rs`. How long the promise binds is not kept, since

@@ -1,6 +1,6 @@
 //! Voting for others.
 //!
-//! Invariant: as long as a promise binds, this robot votes for nobody else, itself included.
+//! Invariant: as long as a promise binds, this robot votes for no other robot, nor for itself.
 
 use super::{Leases, Promise};
 use crate::election::epoch::Epoch;

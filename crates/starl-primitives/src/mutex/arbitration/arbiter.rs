@@ -1,14 +1,13 @@
-//! A robot as an arbiter: who has asked it for what, and whom it has granted what.
+//! A robot as an arbiter: the requests to it, and its grants.
 //!
-//! Each robot asks for one set at a time, so there is one entry for each. An arbiter grants a request that
-//! overlaps neither with one that it has granted nor with an earlier one that waits; where an earlier one
-//! waits for a later one it asks that one to yield (Maekawa 1985, with sets in place of the one resource), which
-//! it does at once unless it has entered. So the earliest of those who wait for each other is never kept waiting by
-//! one that has not entered, and there is no deadlock (which Maekawa's original has: Sanders 1987).
+//! Each robot requests one set at a time, so there is one entry for each. An arbiter grants a request that overlaps
+//! neither with a granted request nor with an earlier waiting one. If an earlier request waits for a later one, the
+//! arbiter asks that one to yield (Maekawa 1985, with sets instead of the one resource), which it does immediately
+//! unless it has entered. So the earliest of a set of waiting requests waits only for robots that have entered, and
+//! there is no deadlock (which Maekawa's original has: Sanders 1987).
 //!
-//! Nothing is sent to those who wait, except where somebody has to be told that it waits in vain: a crowd of n
-//! that asks again and again would bring about n answers each time. Only what was granted and of which nothing was
-//! heard for a while is asked about.
+//! Waiting robots get no messages, except a robot that waits for a failed one: a crowd of n that asks repeatedly
+//! would cause n answers each time. Only a grant without news for a while is queried.
 //!
 //! Invariant: the requests that are granted are disjoint.
 
@@ -77,7 +76,7 @@ impl Arbiter {
                 }
             }
             Some(entry) if entry.is_granted && entry.wish.id.incarnation != id.incarnation => {
-                // One of the two is from before a restart, and nobody can say which.
+                // One of the two is from before a restart, and it is unknown which.
                 return inquire(from, entry, false, post);
             }
             _ => {
@@ -145,7 +144,7 @@ impl Arbiter {
         self.entries.insert(from, entry);
     }
 
-    /// What is to outlast a restart; `list` stands for the participants.
+    /// The state that must survive a restart; `list` identifies the participants.
     pub fn kept(&self, list: u32) -> Kept {
         let granted = self.entries.iter().filter(|(_, entry)| entry.is_granted);
         let grants = granted.map(|(&robot, entry)| {
@@ -183,7 +182,7 @@ impl Arbiter {
         }
     }
 
-    /// A robot has come to hold something: whoever held any of it before, with a lower number, holds it no longer.
+    /// A robot has entered: earlier holders of its resources, with lower numbers, hold them no longer.
     fn end_those_before(
         &mut self,
         from: RobotId,
@@ -228,14 +227,14 @@ impl Arbiter {
         }
     }
 
-    /// Those who wait are to be told again for whom.
+    /// Waiting robots must be told again for which robots they wait.
     pub fn tell_again(&mut self) {
         self.entries
             .values_mut()
             .for_each(|entry| entry.told = None);
     }
 
-    /// Forgets those who no longer take part.
+    /// Forgets robots that no longer participate.
     pub fn keep_only(&mut self, everyone: &[RobotId]) {
         self.entries.retain(|peer, _| everyone.contains(peer));
         self.finished.retain(|peer, _| everyone.contains(peer));
@@ -268,8 +267,8 @@ impl Arbiter {
         self.numbers.corrupt(random);
     }
 
-    /// A robot still waits: whoever is in its way and was not heard of for long is asked whether it still needs what
-    /// it has, and if it comes later to yield. Whether anybody is in its way.
+    /// A robot still waits: robots in its way that were not heard for long are asked whether they still need their
+    /// grants, and later ones to yield. Returns whether any robot is in its way.
     fn ask_those_in_the_way(&mut self, robot: RobotId, terms: Terms, post: &mut Post) -> bool {
         let Some(waiting) = self.entries.get(&robot).filter(|entry| !entry.is_granted) else {
             return false;
@@ -322,8 +321,8 @@ impl Arbiter {
         post.send(robot, grant);
     }
 
-    /// Tells a robot whom it waits for, once for each time that it asks. With leases nobody needs to know, as what a
-    /// robot has that dies comes to its end, but for an arbiter that cannot grant anything.
+    /// Tells a robot for which robots it waits, once for each time that it asks. With leases this is unnecessary,
+    /// because the grants of a dead robot end, except for an arbiter that cannot grant anything.
     fn tell(&mut self, robot: RobotId, behind: RobotId, terms: Terms, post: &mut Post) {
         let entry = self.entries.get_mut(&robot);
         let is_new = |entry: &&mut Entry| entry.told != Some(behind);
@@ -340,7 +339,7 @@ impl Arbiter {
         }
     }
 
-    /// Drops those of whom nothing was heard for a lease.
+    /// Drops requests without news for a lease.
     fn expire(&mut self, terms: Terms) {
         if terms.lease.is_some() {
             let longest = terms.until();

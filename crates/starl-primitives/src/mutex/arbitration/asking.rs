@@ -161,8 +161,8 @@ impl Arbitration {
         }
     }
 
-    /// An arbiter knows a later request of this robot than it has made, which only a fault brings about: the
-    /// robot counts anew, as after a restart.
+    /// An arbiter knows a later request of this robot than it has made, which only a fault can cause: the
+    /// robot restarts its numbers, as after a restart.
     pub(super) fn number_anew(
         &mut self,
         common: &mut Common,

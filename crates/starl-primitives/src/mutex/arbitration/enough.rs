@@ -72,7 +72,7 @@ impl Request {
             .unwrap_or(Time::ZERO)
     }
 
-    /// Whether it waits for somebody that is believed to have failed.
+    /// Whether it waits for a robot that is believed to have failed.
     pub fn is_stuck(&self, enough: Enough, common: &Common) -> bool {
         let is_hopeless = |(arbiter, asked): &(&RobotId, &Asked)| {
             let is_suspected = |robot: &RobotId| common.suspects.contains(robot);

@@ -1,15 +1,15 @@
-//! What an arbiter knows of one robot's request.
+//! An arbiter's knowledge of one robot's request.
 
 use super::Post;
 use super::packet::{Packet, Wish};
 use starl_core::{Duration, RobotId, Time};
 
-/// What a robot has asked for.
+/// A robot's request.
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
     pub wish: Wish,
     pub is_granted: bool,
-    /// For whom it was told last that it waits.
+    /// The robot that it was last told to wait for.
     pub told: Option<RobotId>,
     /// It was asked to yield.
     pub is_inquired: bool,
@@ -21,7 +21,7 @@ pub(super) struct Entry {
     pub number: u64,
 }
 
-/// What an arbiter goes by at one moment.
+/// The conditions of an arbiter at one moment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Terms {
     pub now: Time,
@@ -33,9 +33,9 @@ pub(super) struct Terms {
     pub patience: Duration,
     /// The same for what is waited for.
     pub patience_waiting: Duration,
-    /// For whom it waits before it grants anything; none if it is ready.
+    /// The robot for which it waits before it grants anything; none if it is ready.
     pub unready: Option<RobotId>,
-    /// Whether robots that wait are told for whom.
+    /// Whether waiting robots are told for which robots they wait.
     pub tells: bool,
 }
 
@@ -63,8 +63,8 @@ impl Entry {
         }
     }
 
-    /// Whether it is to be asked if it is still needed, by the time. What does not end by itself is asked for
-    /// whenever somebody waits for it.
+    /// Whether it is time to ask if the grant is still needed. A grant that does not end by itself is queried
+    /// whenever a robot waits for it.
     pub fn is_silent(&self, terms: Terms) -> bool {
         terms.lease.is_none()
             || terms.now.since(self.heard) >= self.patience(terms)
@@ -83,7 +83,7 @@ impl Entry {
         }
     }
 
-    /// Who goes first: the earlier request, by Lamport's clock.
+    /// The order of requests: the earlier request goes first, by Lamport's clock.
     pub fn rank(&self, robot: RobotId) -> (u64, RobotId) {
         (self.wish.clock, robot)
     }

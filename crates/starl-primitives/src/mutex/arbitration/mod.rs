@@ -1,9 +1,10 @@
 //! Arbiters: a request is granted once enough of the participants have granted it, each as an arbiter for
-//! itself. What quorums and leases share; they differ in how many are enough, and for how long.
+//! itself. This is the shared code of quorums and leases; they differ in how many grants are enough, and
+//! for how long.
 //!
-//! Every robot is both, one that asks ([`request`]) and an arbiter of what others ask ([`arbiter`]). What it
-//! says to itself is not sent. All is repeated at the wish of the one who asks: a word that is lost is said
-//! again when the request is repeated, so arbiters keep no timers.
+//! Every robot has both roles: it makes requests ([`request`]) and is an arbiter of others' requests
+//! ([`arbiter`]). Messages to itself are not sent. The requesting robot repeats its request, and arbiters
+//! repeat lost answers then, so arbiters need no timers.
 
 mod arbiter;
 mod asking;
@@ -56,7 +57,7 @@ impl Arbitration {
         self.make_request(common, robot, clock, resources);
     }
 
-    /// What is asked for.
+    /// The requested resources.
     pub fn wanted(&self) -> Option<&Resources> {
         let waiting = self.request.as_ref().filter(|request| !request.is_entered);
         waiting.map(|request| &request.resources)
@@ -143,7 +144,7 @@ impl Arbitration {
         self.recovery.corrupt(random);
     }
 
-    /// Mends what no run can have led to.
+    /// Fixes impossible states.
     fn stabilise(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         let longest = common.options.timeout(u32::MAX) * 2;
         let asks = self

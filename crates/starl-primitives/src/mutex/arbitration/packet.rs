@@ -1,4 +1,4 @@
-//! What robots and arbiters say to each other.
+//! The messages between robots and arbiters.
 
 use super::super::Resources;
 use super::super::common::RequestId;
@@ -38,7 +38,7 @@ pub(super) enum Packet {
     Inquire {
         id: RequestId,
         attempt: u32,
-        /// Somebody who goes before it wants one of the resources: it is to yield unless it has entered.
+        /// An earlier request wants one of the resources: the robot must yield unless it has entered.
         must_yield: bool,
     },
     /// To an arbiter: of what was granted only this is still needed.
@@ -56,7 +56,7 @@ pub(super) enum Packet {
     Recalled {
         nonce: u32,
         list: u32,
-        /// What the sender holds by the arbiter's grant.
+        /// The resources that the sender holds by the arbiter's grant.
         holds: Option<Wish>,
         /// The greatest number that the sender knows of as an arbiter.
         number: u64,
@@ -67,7 +67,7 @@ pub(super) enum Packet {
     },
 }
 
-/// What a robot wants.
+/// A robot's request.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Wish {
     pub id: RequestId,
@@ -87,7 +87,7 @@ pub(super) struct Wish {
     pub resources: Resources,
 }
 
-/// What a request waits for.
+/// The robot or arbiter that a request waits for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Behind {
     /// This robot holds or wants one of the resources, or is to tell the arbiter what it had granted.

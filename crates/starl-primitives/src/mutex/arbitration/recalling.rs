@@ -29,7 +29,7 @@ impl Arbitration {
             self.change_list(common, robot);
         }
         if self.everyone.binary_search(&robot.id()).is_err() {
-            // Who takes no part is no arbiter.
+            // A robot that does not participate is not an arbiter.
             self.recovery.is_ready = true;
         } else if is_first && self.restore(common, robot) {
             // It goes on where it was.
@@ -41,7 +41,7 @@ impl Arbitration {
         self.stabilise(common, robot);
     }
 
-    /// Asks those who have not said yet what this robot had granted them.
+    /// Asks robots that have not answered yet for this robot's earlier grants to them.
     pub(super) fn recall(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         let mut post = Post::default();
         self.review(common, robot, &mut post);
@@ -62,7 +62,7 @@ impl Arbitration {
         }
     }
 
-    /// This robot is an arbiter from now on; `is_anew` if nobody can know the last number.
+    /// This robot is an arbiter from now on; `is_anew` if the last number is unknown.
     pub(super) fn begin_to_grant(&mut self, common: &Common, robot: &mut Robot<'_>, is_anew: bool) {
         self.recovery.is_ready = true;
         self.recovery.remembers = true;
@@ -120,7 +120,7 @@ impl Arbitration {
         asks_anew
     }
 
-    /// An arbiter asks what it had granted this robot. What is only waited for is asked for anew.
+    /// An arbiter asks for its grants to this robot. A request that only waits is made again.
     pub(super) fn answer(
         &mut self,
         common: &mut Common,

@@ -3,21 +3,22 @@
 //! A robot cannot tell its first start from a restart, so every robot does this once. Until it is ready it
 //! grants nothing.
 //!
-//! When all others have answered, nobody can enter by a grant that was forgotten: they have said what they hold,
-//! and who waits has begun another attempt, to which such a grant is none. Without leases that is needed, and is
-//! enough. With leases a lease of silence shows as much, and what is missing then are the numbers, so it asks
-//! once more: a number that somebody entered with by a forgotten grant may have come to those who gave the
-//! others after they had answered. A number that somebody has entered with is known to a majority, so those who
-//! remember and have answered must be too many for such a majority to avoid. No clock has a part in that.
+//! When all others have answered, no robot can enter by a forgotten grant: they have reported what they hold,
+//! and waiting robots have begun another attempt, for which such a grant is invalid. Without leases this is
+//! necessary and sufficient. With leases one lease of silence has the same effect, and only the numbers are
+//! missing. So the robot asks once more: robots that granted the rest may have learned a number of a forgotten
+//! grant after they had answered. A majority knows every number with which a robot has entered. So the robots
+//! with memory that have answered must be so many that every majority contains one of them. Clocks play no part
+//! in this.
 //!
-//! Where so many cannot be, as a majority has forgotten, nobody can know the last number. A robot takes that for
-//! granted only if it has seen it: a majority, itself among them, that remembered nothing at one moment, since each
-//! said so in the same life before it and after it. That is so too when the fleet is new. Then numbers go on from
-//! the time in milliseconds, the latest of those who have forgotten: no counting is as fast, so they grow unless
-//! clocks are wrong. Robots that are silent, whether they are down or cut off, are waited for.
+//! If there cannot be so many, because a majority has forgotten, the last number may be unknown. A robot assumes
+//! this only if it has seen it: a majority, including itself, that remembered nothing at one moment, because each
+//! reported this in the same life before it and after it. This is also the case when the fleet is new. Then numbers
+//! continue from the time in milliseconds, the latest of those that have forgotten: no counting is as fast, so they
+//! grow unless clocks are wrong. The robot waits for silent robots, whether they are down or disconnected.
 //!
-//! After a change of participants all of the new ones have to answer, having changed too: two quorums of
-//! different lists need have nobody in common.
+//! After a change of participants all of the new ones must answer, after they have changed too: two
+//! quorums of different lists may be disjoint.
 
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
@@ -45,27 +46,27 @@ pub(super) struct Begun {
     stage_since: Time,
     /// Whether the participants have changed; otherwise the robot has started.
     is_change: bool,
-    /// Whether nobody can enter by a grant that was forgotten; with leases.
+    /// Whether no robot can enter by a forgotten grant any more; with leases.
     is_silence_over: bool,
-    /// Who has answered, and in which life if it has forgotten what it granted.
+    /// The robots that have answered, with the life of those that have forgotten their grants.
     answers: BTreeMap<RobotId, Option<u32>>,
-    /// Who had forgotten that before it asked with this nonce, and in which life.
+    /// The robots that had forgotten before this robot asked with this nonce, with their lives.
     forgot_before: BTreeMap<RobotId, u32>,
     /// How often it has asked.
     pub repetitions: u32,
 }
 
-/// What a look at the answers shows.
+/// The conclusion from the answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Outlook {
     Ready,
-    /// Ready, but numbers have to begin anew.
+    /// Ready, but numbers must start again.
     ReadyWithoutNumbers,
     Unready,
 }
 
 impl Recovery {
-    /// Whether it has to be begun, or begun anew.
+    /// Whether it must be started or restarted.
     pub fn is_idle(&self) -> bool {
         !self.is_ready && self.begun.is_none()
     }
@@ -96,7 +97,7 @@ impl Recovery {
         begun.is_some_and(|begun| now.since(begun.since) >= span)
     }
 
-    /// Who has not answered; none if all have.
+    /// The robots that have not answered; none if all have.
     pub fn silent(&self, others: &[RobotId]) -> Vec<RobotId> {
         let answered = |peer: &RobotId| {
             let begun = self.begun.as_ref();
@@ -109,7 +110,7 @@ impl Recovery {
             .collect()
     }
 
-    /// Who is to be asked: who has not answered, and whose answer may be another one by now.
+    /// The robots to ask: those that have not answered, and those whose answer may have changed.
     pub fn to_ask(&self, others: &[RobotId]) -> Vec<RobotId> {
         let answer = |peer: &RobotId| self.begun.as_ref()?.answers.get(peer).copied();
         let begun = self.begun.as_ref();
@@ -124,8 +125,8 @@ impl Recovery {
             .collect()
     }
 
-    /// Whether all are to be asked once more from now on: when nobody can enter by a forgotten grant any longer, and
-    /// later when somebody has forgotten since it asked.
+    /// Whether all must be asked once more: when no robot can enter by a forgotten grant any longer, and later when
+    /// a robot has forgotten since it was asked.
     pub fn ends_stage(&mut self, now: Time, others: &[RobotId], lease: Duration) -> bool {
         let all = self.silent(others).is_empty();
         let Some(begun) = self.asking() else {
@@ -206,7 +207,8 @@ impl Recovery {
 }
 
 impl Begun {
-    /// Who has forgotten what it granted, and in which life; and whether it had before this robot asked.
+    /// The robots that have forgotten their grants, with their lives; and whether they had before this
+    /// robot asked.
     fn forgetful(&self) -> impl Iterator<Item = ((RobotId, u32), bool)> {
         let answers = self.answers.iter();
         let forgot = answers.filter_map(|(&peer, forgot)| Some((peer, (*forgot)?)));

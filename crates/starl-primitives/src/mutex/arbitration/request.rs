@@ -1,7 +1,7 @@
-//! A robot's request: whom it has asked, what they answered, and when that is enough.
+//! A robot's request: the arbiters that it has asked, their answers, and when these are enough.
 //!
-//! Invariant: a grant counts only if it is to the latest attempt with its arbiter. Whoever yields, or hears
-//! that its arbiter has forgotten, begins another attempt.
+//! Invariant: a grant counts only if it is for the latest attempt with its arbiter. A robot that yields, or
+//! hears that its arbiter has forgotten, begins another attempt.
 
 use super::super::Resources;
 use super::super::common::{Common, RequestId};
@@ -91,7 +91,7 @@ impl Request {
         self.asked.contains_key(&arbiter)
     }
 
-    /// What is said to an arbiter.
+    /// The message to an arbiter.
     pub fn wish(&self, arbiter: RobotId, common: &Common) -> Wish {
         let resources = match self.is_entered {
             true => common.held.clone(),

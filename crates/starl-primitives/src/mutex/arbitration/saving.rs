@@ -1,5 +1,5 @@
-//! What an arbiter keeps over a restart, on robots with storage: what it has granted, which requests are over, and
-//! the numbers that it has given.
+//! An arbiter's stored state over a restart, on robots with storage: its grants, the ended requests, and its
+//! numbers.
 //!
 //! An arbiter that finds its grants on storage goes on at once, and so does one that finds nothing on storage that
 //! never lost anything. All others ask what they had granted: see [`super::recovery`]. A lease that was granted
@@ -18,12 +18,12 @@ use starl_core::{Digest, Robot, RobotId, message};
 /// Under which it is saved.
 const GRANTS: &str = "grants";
 
-/// What is kept.
+/// The stored state.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Kept {
     /// Stands for the participants.
     pub list: u32,
-    /// Who was granted what, under which number.
+    /// The grants: robot, request and number.
     pub grants: Vec<(RobotId, Wish, u64)>,
     /// The last request of each robot that is over.
     pub finished: Vec<(RobotId, RequestId)>,

@@ -20,14 +20,14 @@ pub(super) struct Standing {
     pub granted_before_it: Vec<RobotId>,
 }
 
-/// All that wait, the earliest first; `tells` if robots are told whom they wait for.
+/// All waiting requests, the earliest first; `tells` if robots are told for which they wait.
 pub(super) fn standings(entries: &BTreeMap<RobotId, Entry>, tells: bool) -> Vec<Standing> {
     let mut order: Vec<(RobotId, &Entry)> =
         entries.iter().map(|(&id, entry)| (id, entry)).collect();
     order.sort_unstable_by_key(|(robot, entry)| entry.rank(*robot));
     let mut granted: Vec<(RobotId, &Entry)> = order.clone();
     granted.retain(|(_, entry)| entry.is_granted);
-    // What all earlier ones want or have.
+    // The resources that all earlier ones request or hold.
     let mut claimed: BTreeSet<&Box<str>> = BTreeSet::new();
     let mut standings = Vec::new();
     for (robot, entry) in order {

@@ -75,7 +75,7 @@ impl Numbers {
         let number = match is_possible {
             true => wanted,
             false if counted <= GREATEST => counted,
-            // Only a corruption leads here: they begin anew.
+            // Only a corruption leads here: they start again.
             false => {
                 *self = Numbers::default();
                 1 << BITS | own

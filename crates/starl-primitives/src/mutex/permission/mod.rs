@@ -4,10 +4,10 @@
 //! resources, and then permits it when it has given those back. A request that all have permitted is
 //! granted.
 //!
-//! Where it differs: requests are repeated until they are permitted, so that it bears loss, duplication
-//! and reordering without another protocol below. And a robot that waits itself, and permits a request of a
-//! robot that has restarted or that it had not heard of, asks that robot's permission anew
-//! (an attempt of the same request): what was permitted before is forgotten there, or was never asked for.
+//! Where it differs: requests are repeated until they are permitted, so it tolerates loss, duplication and
+//! reordering without another protocol below. If a waiting robot permits a request of a restarted or
+//! unknown robot, it asks that robot for permission again (an attempt of the same request): earlier
+//! permissions are forgotten there, or were never asked for.
 //!
 //! Invariant: of two robots that wait for the same resource at most one has the other's permission.
 
@@ -60,7 +60,7 @@ impl Permission {
         self.enter_if_permitted(common, robot);
     }
 
-    /// Others are to be asked: those who were not are, and those who are participants no longer are not waited for.
+    /// The participants have changed: new ones are asked, and the request no longer waits for removed ones.
     pub fn ask_others(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         let others: BTreeSet<RobotId> = common.others(robot).into_iter().collect();
         let Some(waiting) = &mut self.waiting else {
@@ -69,7 +69,7 @@ impl Permission {
         if waiting.asked == others {
             return;
         }
-        // Who was not asked by this one may be missing as it has asked for the same.
+        // A robot that was not asked may be missing because it has requested the same.
         let asked = &waiting.asked;
         let is_left = |peer: &RobotId| others.contains(peer) || !asked.contains(peer);
         waiting.missing.retain(|peer, _| is_left(peer));
@@ -86,7 +86,7 @@ impl Permission {
         self.enter_if_permitted(common, robot);
     }
 
-    /// What is asked for.
+    /// The requested resources.
     pub fn wanted(&self) -> Option<&Resources> {
         self.waiting.as_ref().map(|waiting| &waiting.wish.resources)
     }
@@ -147,7 +147,7 @@ impl Permission {
             return;
         }
         if self.waiting.is_some() && !common.held.is_empty() {
-            // Who holds something asks for nothing, so a fault has made up what it holds.
+            // A robot that holds something requests nothing, so a fault has invented what it holds.
             let made_up = core::mem::take(&mut common.held);
             common.report_expired(robot, &made_up);
             self.permit_deferred(common, robot);
@@ -256,7 +256,7 @@ impl Permission {
             return;
         };
         let request = Packet::Request(waiting.wish.clone());
-        // Whoever hears it answers, so it goes to all only if most are asked.
+        // Every receiver answers, so it goes to all only if most are asked.
         if 2 * waiting.missing.len() > robot.peers().count() {
             robot.transmit(Destination::All, common.port, &request);
         } else {

@@ -1,4 +1,4 @@
-//! What robots say to each other about permissions.
+//! The messages between robots about permissions.
 
 use super::super::Resources;
 use super::super::common::RequestId;
@@ -18,12 +18,12 @@ pub(super) enum Packet {
     },
 }
 
-/// What a robot wants.
+/// A robot's request.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Wish {
     pub id: RequestId,
-    /// Counts how often permissions were asked for anew. An answer to an earlier attempt may be one
-    /// that its sender does not remember.
+    /// Counts how often permissions were requested again. The sender of an answer to an earlier
+    /// attempt may have forgotten it.
     pub attempt: u32,
     /// When it was first asked, on Lamport's clock: what was asked earlier is given first.
     pub clock: u64,

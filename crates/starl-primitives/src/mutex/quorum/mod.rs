@@ -1,10 +1,10 @@
-//! Quorums: each request asks some participants only, few enough that a request is cheap and enough that
-//! any two requests have somebody in common (Maekawa 1985).
+//! Quorums: each request asks only some participants, few enough to be cheap, and enough that any two
+//! requests have a participant in common (Maekawa 1985).
 //!
-//! The participants stand in a grid of about the square root of their number of columns. A quorum is one
-//! whole column and one robot of each other column (Cheung, Ammar and Ahamad 1990): of any two, the column of
-//! one has a robot of the other. Maekawa's own row and column is the case in which those robots stand in
-//! one row. There being many, a quorum can be chosen that leaves out who is believed to have failed.
+//! The participants form a grid with about the square root of their number of columns. A quorum is one whole
+//! column and one robot of each other column (Cheung, Ammar and Ahamad 1990): of any two, the column of one
+//! contains a robot of the other. Maekawa's own row and column is the case in which those robots are in one
+//! row. There are many quorums, so one without suspected robots can be chosen.
 
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
@@ -94,7 +94,7 @@ mod tests {
         for count in 1..=200 {
             let fleet = fleet(count);
             for me in &fleet {
-                let quorum = quorum(&fleet, *me, &BTreeSet::new()).expect("nobody is avoided");
+                let quorum = quorum(&fleet, *me, &BTreeSet::new()).expect("no robot is avoided");
                 assert!(quorum.contains(me));
                 assert!(quorum.len() <= 2 * columns(count as usize), "{count}");
             }

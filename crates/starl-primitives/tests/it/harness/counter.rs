@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Clone, Primitives)]
 pub struct Counter {
     pub register: Register,
-    /// What is under way, and the value that is being written, if it is.
+    /// The pending operation, and its value, if it writes.
     under_way: Option<(OperationId, Option<u64>)>,
     next: Time,
     /// The longest pause between two, milliseconds.
@@ -33,7 +33,7 @@ impl Counter {
         }
     }
 
-    /// What this robot's own copy shows.
+    /// The value of this robot's own copy.
     pub fn known(&self) -> u64 {
         number(self.register.known("x"))
     }
@@ -79,7 +79,7 @@ impl Program for Counter {
     }
 }
 
-/// What became of updates.
+/// The results of updates.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     /// How many of each robot's are done.
@@ -113,7 +113,8 @@ pub fn tally(world: &World) -> Result<Tally, String> {
                 operation, found, ..
             } => {
                 let key = (*robot, operation.operation);
-                // Whoever starts anew counts anew; what was under way then never ends.
+                // A restarted robot restarts its count; operations that were pending then never
+                // end.
                 tally.open += usize::from(begun.insert(key, *found).is_some());
             }
             RegisterEvent::Done { operation, .. } | RegisterEvent::Lost { operation, .. } => {

@@ -1,5 +1,5 @@
-//! A program that comes to a barrier, on command or by itself again and again; and what its events say of
-//! who passed what when.
+//! A program that arrives at a barrier, on command or by itself repeatedly; and the passes of all robots
+//! with their times, from its events.
 
 use super::World;
 use starl_core::event::{BarrierEvent, PrimitiveEvent};
@@ -110,9 +110,10 @@ pub fn barrier(world: &World, robot: usize) -> &Barrier {
     &crosser(world, robot).barrier
 }
 
-/// Judges a run by its events: nobody passes a generation before all have come to it or a later one, and
-/// what a robot passes in one life rises. Crashes are given with the number of records before each; when
-/// all have crashed generations begin anew. Gives how often each robot passed.
+/// Judges a run by its events: no robot passes a generation before all have arrived at it or a later
+/// one, and the generations that a robot passes in one life rise. Crashes are given with the number of
+/// records before each; when all have crashed generations start again. Returns how often each robot
+/// passed.
 pub fn crossings(world: &World, crashes: &[(usize, u32)]) -> BTreeMap<u32, u32> {
     let mut come: BTreeMap<RobotId, u64> = BTreeMap::new();
     // Robots that have come and do not know yet to which generation.

@@ -1,4 +1,4 @@
-//! A program that elects as a test tells it to; and what its events say of who led when.
+//! A program that elects on command of a test; and the leaders with their times, from its events.
 
 use super::World;
 use starl_core::event::{ElectionEvent, PrimitiveEvent};
@@ -96,13 +96,13 @@ pub fn election(world: &World, robot: usize) -> &LeaderElection {
     &world.inspect::<Elector>(robot).election
 }
 
-/// Whom these robots show as leader.
+/// The leader that these robots show.
 pub fn leaders(world: &World, robots: &[usize]) -> Vec<Option<u32>> {
     let shown = robots.iter().map(|&robot| election(world, robot).leader());
     shown.map(|leader| leader.map(|leader| leader.0)).collect()
 }
 
-/// The leader on whom these robots agree.
+/// The leader on which these robots agree.
 pub fn agreed(world: &World, robots: &[usize]) -> Option<u32> {
     let leaders = leaders(world, robots);
     let first = *leaders.first()?;
@@ -112,9 +112,9 @@ pub fn agreed(world: &World, robots: &[usize]) -> Option<u32> {
         .then_some(first?)
 }
 
-/// Judges a run by its events, as long as it is about leases: each epoch has one leader, epochs grow from
-/// leader to leader, no two robots lead at once, and who leads has called for an election. Crashes are given,
-/// since they leave no event, by the number of events before. Gives the epochs in which someone led, with the leaders, in the order of time.
+/// Judges a run with leases by its events: each epoch has one leader, epochs grow from leader to leader, no two robots
+/// lead at once, and a leader has called for an election. Crashes leave no event, so they are given by the number of
+/// events before. Returns the epochs with a leader, with the leaders, in the order of time.
 pub fn judge(world: &World, crashes: &[(usize, u32)]) -> Vec<(u64, u32)> {
     let mut crashes = crashes.iter().copied().peekable();
     let mut leads: BTreeMap<u32, u64> = BTreeMap::new();

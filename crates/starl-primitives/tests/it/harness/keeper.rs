@@ -172,7 +172,7 @@ pub fn status(world: &World, robot: usize) -> Status {
     keeper.register.status(last)
 }
 
-/// What a robot has read or written, as a number.
+/// The value that a robot has read or written, as a number.
 pub fn result(world: &World, robot: usize) -> Option<u32> {
     match status(world, robot) {
         Status::Done(value) => value.map(|bytes| number(&bytes)),
@@ -180,7 +180,7 @@ pub fn result(world: &World, robot: usize) -> Option<u32> {
     }
 }
 
-/// What a robot's own copy of `x` shows.
+/// The value of `x` in a robot's own copy.
 pub fn known(world: &World, robot: usize) -> Option<u32> {
     let register = &keeper(world, robot).register;
     register.known("x").map(number)
@@ -226,7 +226,8 @@ pub fn judge(world: &World) -> Result<BTreeMap<u32, usize>, String> {
         let key = (*robot, operation.operation);
         match event {
             RegisterEvent::Read { .. } | RegisterEvent::Write { .. } => {
-                // Whoever starts anew counts anew; what was under way then never ends.
+                // A restarted robot restarts its count; operations that were pending then never
+                // end.
                 let is_write = matches!(event, RegisterEvent::Write { .. });
                 let operation = (*at, is_write, operation.register.to_string(), value);
                 if let Some(lost) = begun.insert(key, operation) {

@@ -1,5 +1,5 @@
-//! A program that asks for resources, uses them for a while and gives them back, again and again; and
-//! what its events say of who held what when.
+//! A program that requests resources, uses them for a while and releases them, repeatedly; and the
+//! holders with their times, from its events.
 
 use super::World;
 use starl_core::event::{MutexEvent, PrimitiveEvent};
@@ -26,7 +26,7 @@ pub struct Locker {
     next_request: Time,
 }
 
-/// All ways to agree on who has what.
+/// All algorithms.
 pub const ALGORITHMS: [Algorithm; 3] = [Algorithm::Permission, Algorithm::Quorum, Algorithm::Lease];
 
 impl Locker {
@@ -98,7 +98,7 @@ pub fn release(resources: &[&str]) -> Command {
     Command::Release(bits(resources))
 }
 
-/// Tells a robot whom to ask from its next request on.
+/// Sets a robot's participants from its next request on.
 pub fn ask_only(robots: &[u32]) -> Command {
     Command::AskOnly(robots.iter().map(|robot| 1 << robot).sum())
 }
@@ -205,9 +205,9 @@ pub fn mutex(world: &World, robot: usize) -> &Mutex {
     &world.inspect::<Locker>(robot).mutex
 }
 
-/// Judges a run by its events: at no time two robots hold the same resource, and the numbers of those who
-/// hold it grow if they have any. Crashes are given, since they leave no event. Gives how many requests each
-/// robot was granted.
+/// Judges a run by its events: at no time two robots hold the same resource, and the numbers of successive
+/// holders grow if they have any. Crashes leave no event, so they are given. Returns how many requests of
+/// each robot were granted.
 pub fn entries(world: &World, crashes: &[(Time, u32)]) -> BTreeMap<u32, usize> {
     let mut holders: BTreeMap<String, u32> = BTreeMap::new();
     let mut numbers: BTreeMap<String, u64> = BTreeMap::new();

@@ -265,7 +265,7 @@ impl World {
         self.robots[robot].node.timers().iter().count()
     }
 
-    /// What [`Talker`]s received: sender, receiver and value, in the order of time.
+    /// The values that [`Talker`]s received: sender, receiver and value, in the order of time.
     pub fn received(&self) -> Vec<(u32, u32, i64)> {
         let got = self.events("got");
         got.iter()

@@ -18,7 +18,7 @@ pub struct Bench {
     pub known: Obstacles,
     /// All that was asked of the planner, in order.
     pub plans: Vec<PlanRequest>,
-    /// The way-point tracked and the one after it; none once halted.
+    /// The waypoint tracked and the one after it; none once halted.
     pub tracked: Option<(Point, Option<Point>)>,
     /// Names of the events.
     pub events: Vec<String>,

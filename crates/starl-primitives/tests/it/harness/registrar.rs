@@ -1,5 +1,5 @@
-//! A program that registers and leaves, on command or at random again and again; and what its events say
-//! of who showed what when.
+//! A program that registers and leaves, on command or at random repeatedly; and the shown lists with
+//! their times, from its events.
 
 use super::World;
 use starl_core::{
@@ -111,7 +111,7 @@ pub fn registration(world: &World, robot: usize) -> &Registration {
     &world.inspect::<Registrar>(robot).registration
 }
 
-/// What a robot shows.
+/// The list that a robot shows.
 pub fn list(world: &World, robot: usize) -> Option<Vec<u32>> {
     let members = registration(world, robot).members()?;
     Some(members.iter().map(|RobotId(number)| *number).collect())
@@ -129,7 +129,7 @@ pub fn agree(world: &World, robots: &[u32]) -> bool {
 /// The name of a list: its time, its coordinator, and the coordinator's incarnation.
 type Id = (Time, RobotId, i64);
 
-/// What a robot has said in its present life.
+/// The reports of a robot in its present life.
 #[derive(Default)]
 struct Life {
     is_registered: bool,
@@ -143,7 +143,7 @@ struct Life {
 /// Crashes are given, since they leave no event, each with the number of records before it. Gives how many lists were shown.
 pub fn judge(world: &World, crashes: &[(usize, u32)], apart: Duration) -> usize {
     let mut lives: BTreeMap<RobotId, Life> = BTreeMap::new();
-    // By name: who has accepted a list, in which life, registered.
+    // By name: the robots that have accepted a list, in which life, registered.
     let mut accepted: BTreeMap<Id, BTreeMap<RobotId, u32>> = BTreeMap::new();
     let mut lists: BTreeMap<Id, Vec<RobotId>> = BTreeMap::new();
     let mut crashes = crashes.iter().copied().peekable();

@@ -125,14 +125,14 @@ pub fn memory(world: &World, robot: usize) -> &SharedMemory {
     &world.inspect::<Sharer>(robot).memory
 }
 
-/// What a robot reads in the variable `x0`, `x1`, ...
+/// The value that a robot reads in the variable `x0`, `x1`, ...
 pub fn read(world: &World, robot: usize, variable: u16) -> Option<u32> {
     memory(world, robot)
         .read(&format!("x{variable}"))
         .map(number)
 }
 
-/// What a robot reads in the array `x0`, `x1`, ... as the element of another.
+/// The value that a robot reads in the array `x0`, `x1`, ... as the element of another.
 pub fn read_of(world: &World, robot: usize, array: u16, owner: u32) -> Option<u32> {
     let memory = memory(world, robot);
     memory

@@ -20,7 +20,7 @@ pub enum Victims {
     InTurn,
 }
 
-/// What a fleet goes through.
+/// The faults of a fleet.
 #[derive(Clone, Debug)]
 pub struct Storm {
     pub robots: usize,
@@ -37,7 +37,7 @@ pub struct Storm {
     pub downtime: Duration,
 }
 
-/// What came of it.
+/// The result.
 pub struct Aftermath {
     pub world: World,
     pub runs: Vec<(u32, Vec<(usize, Step)>)>,
@@ -111,7 +111,8 @@ impl Storm {
 }
 
 impl Aftermath {
-    /// What is wrong with the order, in time that grows with what was handed out, not with its square.
+    /// The violation of the order, in time that grows with the number of deliveries, not with its
+    /// square.
     pub fn violation(&self) -> Option<String> {
         let mut next: BTreeMap<Id, BTreeSet<Id>> = BTreeMap::new();
         let mut successor: BTreeMap<Id, Id> = BTreeMap::new();

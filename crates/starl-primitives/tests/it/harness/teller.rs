@@ -1,5 +1,5 @@
-//! A program that broadcasts in some order, by itself and when told to; and judges of what its events say
-//! of who was handed what when.
+//! A program that broadcasts in some order, by itself and on command; and judges of the deliveries in its
+//! events.
 
 use super::World;
 use starl_core::event::messaging::MessageNumber;
@@ -88,7 +88,7 @@ pub fn teller(world: &World, robot: usize) -> &Broadcast {
 /// A message: its sender, the sender's incarnation, its number.
 pub type Id = (u32, u32, u32);
 
-/// What happened to a robot from one start to the next.
+/// A step of a robot from one start to the next.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
     Sent(Id),
@@ -143,7 +143,7 @@ fn handed(steps: &[(usize, Step)]) -> Vec<Id> {
     handed.collect()
 }
 
-/// What each run was handed, after a judgement that nothing was handed out twice or made up.
+/// The deliveries of each run, after a check that nothing was delivered twice or invented.
 pub fn sequences(runs: &[(u32, Vec<(usize, Step)>)], seed: u64) -> Vec<(u32, Vec<Id>)> {
     let steps = runs.iter().flat_map(|(_, steps)| steps);
     let sent: BTreeSet<Id> = steps
@@ -182,8 +182,8 @@ pub fn is_fifo(sequence: &[Id]) -> bool {
     })
 }
 
-/// Some two messages that were handed out before something that comes before them. What a robot sent in an earlier
-/// life does not come any more after something of a later one.
+/// Two messages of which one was delivered before one that precedes it, if any. Messages of a robot's earlier life
+/// must not be delivered after one of a later life.
 pub fn causal_violation(runs: &[(u32, Vec<(usize, Step)>)]) -> Option<String> {
     let mut steps: Vec<(usize, usize, &Step)> = Vec::new();
     for (run, (_, of_run)) in runs.iter().enumerate() {
@@ -325,7 +325,7 @@ pub fn trouble(world: &mut World, robots: usize, seed: u64, span: Duration) -> V
         }
     }
     world.wire.cut.clear();
-    // What a robot does as it starts is told from what it did before it crashed by the time.
+    // Time distinguishes the actions of a robot at its start from those before its crash.
     world.run_for(Duration::from_millis(1));
     for robot in down {
         starts.push((world.now, robot));

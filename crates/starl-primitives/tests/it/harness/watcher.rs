@@ -62,7 +62,7 @@ pub fn suspected(world: &World, robot: usize) -> Vec<u32> {
     suspected.map(|RobotId(number)| number).collect()
 }
 
-/// What a robot's other primitives were told.
+/// The inputs of a robot's other primitives.
 pub fn told(world: &World, robot: usize) -> &[Input] {
     &watcher(world, robot).listener.0
 }

@@ -22,7 +22,7 @@ pub const FLYER: Body = Body {
     workspace: Workspace::Air { lowest: 1.0 },
 };
 
-/// What happens in a run, in any order.
+/// The events of a run, in any order.
 #[derive(Clone)]
 pub struct Story {
     pub setting: Setting,
@@ -220,8 +220,8 @@ impl Story {
         self.report(millis, robot, ("shared_memory", "start"), [])
     }
 
-    /// A robot's shared memory reports a write to a variable: when it was written by the writer's clock,
-    /// who wrote it, and what.
+    /// A robot's shared memory reports a write to a variable: its time by the writer's clock, its
+    /// writer, and its value.
     pub fn shows(
         &mut self,
         millis: u64,
@@ -314,7 +314,7 @@ impl Story {
         seen_live
     }
 
-    /// What is excused of a property until then, by reason.
+    /// The excuses of a property until then, by reason.
     pub fn excused(&self, end: u64, property: &str) -> Vec<(Excuse, u64)> {
         let mut records = self.records.clone();
         records.sort_by_key(|record| (record.at, record.robot));

@@ -132,7 +132,7 @@ fn png(bytes: &[u8]) -> Result<Image, String> {
     let darkness = |pixel: &[u8]| {
         let sum: f64 = pixel[..colours].iter().map(|&value| f64::from(value)).sum();
         let dark = 1.0 - sum / (255.0 * colours as f64);
-        // What is transparent is as if white.
+        // Transparent pixels count as white.
         if transparency {
             dark * f64::from(pixel[samples - 1]) / 255.0
         } else {

@@ -50,7 +50,7 @@ const FIRST: &[Field] = &[
         "within",
         Kind::Table(CORNERS),
         Default::Word("none"),
-        "With a `rate`: the rectangle in which things or way-points appear, each at a random place.",
+        "With a `rate`: the rectangle in which things or waypoints appear, each at a random place.",
     ),
     field(
         "kind",
@@ -96,15 +96,15 @@ const LAST: &[Field] = &[
     field(
         "name",
         Kind::Text,
-        Default::Depends("required for way-points, things and `join`"),
-        "The name of the way-point, thing or robot. With a `rate`, the number of the occasion is \
+        Default::Depends("required for waypoints, things and `join`"),
+        "The name of the waypoint, thing or robot. With a `rate`, the number of the occasion is \
          appended: `task0`, `task1`, ...",
     ),
     field(
         "position",
         Kind::Point,
         Default::Depends("required with `name`, but not with `within` or to remove something"),
-        "The place of the way-point, thing or robot.",
+        "The place of the waypoint, thing or robot.",
     ),
     field(
         "heading",
@@ -116,7 +116,7 @@ const LAST: &[Field] = &[
         "group",
         Kind::Count(0, u32::MAX as u64),
         Default::Value("0"),
-        "A number by which a program may tell way-points apart.",
+        "A number by which a program may tell waypoints apart.",
     ),
     field(
         "order",

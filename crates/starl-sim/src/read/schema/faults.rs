@@ -28,7 +28,7 @@ pub(super) const FAULT: &[Field] = &[
         "robots",
         Kind::Robots,
         Default::Depends("required, but not for `partition`, `one_way` and `heal`"),
-        "Whom it concerns.",
+        "The robots concerned.",
     ),
     field(
         "groups",

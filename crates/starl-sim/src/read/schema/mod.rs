@@ -20,15 +20,15 @@ pub use settings::SCENARIO;
 pub struct Field {
     /// Its name in the file.
     pub name: &'static str,
-    /// What it holds.
+    /// The kind of its value.
     pub kind: Kind,
-    /// What holds where it is left out.
+    /// The default.
     pub default: Default,
-    /// What it means, in a sentence.
+    /// The meaning, in a sentence.
     pub about: &'static str,
 }
 
-/// What holds where a field is left out.
+/// The default of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Default {
     /// This value, as it would be written in the file without quotes.
@@ -37,7 +37,7 @@ pub enum Default {
     Word(&'static str),
     /// Something that depends on other fields, in words.
     Depends(&'static str),
-    /// What held before, in a change; the word says that there is none from now on.
+    /// The previous value, in a change; the word removes it.
     Kept(Option<&'static str>),
     /// It must not be left out.
     Required,
@@ -59,7 +59,7 @@ pub enum Range {
 /// The least [`Range::Period`], seconds.
 pub const LEAST_PERIOD: f64 = 1e-4;
 
-/// What a field holds.
+/// The kind of a field's value.
 #[derive(Clone, Copy, Debug)]
 pub enum Kind {
     /// A text that is not empty.
@@ -182,7 +182,7 @@ pub fn model_names() -> impl Iterator<Item = &'static str> {
 }
 
 impl Kind {
-    /// What it holds, for the reference.
+    /// The kind in words, for the reference.
     pub fn describe(&self) -> String {
         let range = |range: Range| match range {
             Range::Any => "",

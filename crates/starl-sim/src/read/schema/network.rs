@@ -52,7 +52,7 @@ pub(super) const NETWORK: &[Field] = &join::<{ KNOBS.len() + 1 }>(&[
     )],
 ]);
 
-/// What can also be changed while a run goes on.
+/// Fields that can also be changed during a run.
 const KNOBS: &[Field] = &[
     DELAY,
     JITTER,

@@ -281,7 +281,7 @@ const PROPERTIES: &[Field] = &[
         "registration_bound",
         SPAN,
         Default::Value("35s"),
-        "Within this time, the thesis's d2, robots agree on who takes part.",
+        "Within this time, the thesis's d2, robots agree on the participants.",
     ),
     field(
         "barrier",
@@ -299,7 +299,7 @@ const PROPERTIES: &[Field] = &[
         "program",
         Kind::Flag,
         Default::Value("true"),
-        "What programs in the StarL language say of themselves: `invariant`, `always` and `eventually`.",
+        "The properties that programs in the StarL language declare: `invariant`, `always` and `eventually`.",
     ),
 ];
 

@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// What robots move in.
+/// The world that robots move in.
 pub(super) const WORLD: &[Field] = &[
     field(
         "files",
@@ -167,7 +167,7 @@ const WAY_POINT: &[Field] = &[
         "group",
         Kind::Count(0, u32::MAX as u64),
         Default::Value("0"),
-        "A number by which a program may tell way-points apart.",
+        "A number by which a program may tell waypoints apart.",
     ),
 ];
 

@@ -1,4 +1,4 @@
-//! Reads the lines of an SVG drawing as way-points: each line is a stroke, a group of its own.
+//! Reads the lines of an SVG drawing as waypoints: each line is a stroke, a group of its own.
 //!
 //! One unit of the drawing is a millimetre, as in the other world files. Its lower left corner is the
 //! origin, and y points up. Curves become straight lines no longer than about [`STEP`].
@@ -24,7 +24,7 @@ const NOT_LINES: [&str; 3] = ["image", "text", "use"];
 /// A stroke's points in units of the drawing.
 type Stroke = Vec<(f64, f64)>;
 
-/// Adds the strokes of a drawing to the way-points. They are numbered on from the groups that there are.
+/// Adds the strokes of a drawing to the waypoints. They are numbered on from the groups that there are.
 pub(super) fn read(text: &str, start: Origin, contents: &mut Contents, report: &Report) {
     let at = |offset: usize| Origin {
         offset: offset as u32,
@@ -95,7 +95,7 @@ fn lower_left(svg: Node<'_, '_>) -> Option<(f64, f64)> {
     Some((0.0, number(svg, "height").ok()?))
 }
 
-/// What an element draws.
+/// The strokes of an element.
 fn strokes(node: Node<'_, '_>) -> Result<Vec<Stroke>, String> {
     let get = |name| number(node, name);
     let name = node.tag_name().name();
@@ -231,7 +231,7 @@ fn transform_of(node: Node<'_, '_>) -> Result<Transform, String> {
     Ok(whole)
 }
 
-/// What first does `inner`, then `outer`.
+/// The transform that applies `inner` first, then `outer`.
 fn joined(outer: Transform, inner: Transform) -> Transform {
     let Transform { a, b, c, d, e, f } = inner;
     let turned = |x: f64, y: f64| (outer.a * x + outer.c * y, outer.b * x + outer.d * y);

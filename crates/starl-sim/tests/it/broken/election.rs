@@ -1,13 +1,13 @@
-//! Election by the bully algorithm (Garcia-Molina 1982) with time-outs for a failure detector, and without
-//! epochs: whoever hears nothing of a greater robot for a while leads. A partition has one leader in each
-//! part.
+//! Election by the bully algorithm (Garcia-Molina 1982) with timeouts as a failure detector, and without
+//! epochs: a robot that hears nothing of a greater robot for a while leads. A partition has one leader in
+//! each part.
 
 use starl_core::event::ElectionEvent;
 use starl_core::event::agreement::Algorithm;
 use starl_core::{Destination, Duration, Message, Port, Primitives, Program, Robot, RobotId, Time};
 
 const PORT: Port = Port::PROGRAM;
-/// Who has not been heard for so long is taken for dead.
+/// A robot that has not been heard for this time counts as dead.
 const PATIENCE: Duration = Duration::from_millis(1000);
 
 /// A robot that leads, or follows a greater one.

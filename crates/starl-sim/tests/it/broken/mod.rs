@@ -35,7 +35,7 @@ pub fn robots(count: usize) -> Scenario {
     scenario
 }
 
-/// What was found and what is left of it.
+/// The failure, and the result of shrinking.
 pub struct Quarry {
     /// As it was found.
     pub found: Scenario,
@@ -58,7 +58,7 @@ pub fn read(text: &str) -> Option<Scenario> {
     Some(resolved.scenario)
 }
 
-/// What comes of a run.
+/// The result of a run.
 pub fn trial(scenario: Scenario, program: &(impl Program + Clone + 'static)) -> Trial {
     let mut run = Run::new(scenario, &|_| Ok(Box::new(program.clone()))).expect("the run starts");
     Trial::of(&mut run, false)
@@ -76,7 +76,7 @@ pub fn hunt(
     let found = drawn
         .find(|drawn| trial(drawn.clone(), program).finding == finding)
         .unwrap_or_else(|| panic!("{property} holds for 500 seeds"));
-    // What fails is what is read from the file that it is written to.
+    // The candidate fails as read from the file that it is written to.
     let again = |candidate: &Scenario| Some(trial(read(&write::scenario(candidate))?, program));
     let mut fails = |candidate: &Scenario| -> Option<Time> {
         let trial = again(candidate)?;

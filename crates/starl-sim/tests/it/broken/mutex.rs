@@ -22,7 +22,7 @@ enum Packet {
 pub struct Locker {
     /// Lamport's clock.
     clock: u64,
-    /// The time of the request under way, and who has permitted it.
+    /// The time of the pending request, and the robots that have permitted it.
     wants: Option<(u64, BTreeSet<RobotId>)>,
     /// Activations for which it still holds the door.
     holds: u32,

@@ -1,5 +1,5 @@
-//! What primitives are tried in: robots that all hear each other, in worse and worse weather, and the
-//! verdicts of all checkers on it.
+//! The environment of primitives under test: robots that all hear each other, under increasing
+//! faults, and the verdicts of all checkers.
 
 use super::scenario;
 use starl_core::{Duration, Event, Program};

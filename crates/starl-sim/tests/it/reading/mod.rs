@@ -1,4 +1,5 @@
-//! What the tests of the scenario reader share: a loader in memory, and cases written in Markdown.
+//! Shared code of the tests of the scenario reader: a loader in memory, and cases written in
+//! Markdown.
 
 pub mod fields;
 
