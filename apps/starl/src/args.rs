@@ -190,6 +190,15 @@ pub enum EmulateArguments {
         #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:5554")]
         navdata: SocketAddr,
     },
+    /// A multicopter with PX4, over MAVLink 2
+    Mavlink {
+        /// Where it listens
+        #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:14580")]
+        address: SocketAddr,
+        /// Where it sends to
+        #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:14540")]
+        client: SocketAddr,
+    },
 }
 
 /// Arguments of `starl emulate fleet`.

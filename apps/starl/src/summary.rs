@@ -182,7 +182,10 @@ fn properties(text: &mut String, properties: &[Property]) -> fmt::Result {
     match properties.len() - used().count() {
         0 => Ok(()),
         1 => writeln!(text, "1 more property does not apply (unused primitive)"),
-        unused => writeln!(text, "{unused} more properties do not apply (unused primitives)"),
+        unused => writeln!(
+            text,
+            "{unused} more properties do not apply (unused primitives)"
+        ),
     }
 }
 

@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use starl_ardrone::{Ardrone, ArdroneOptions};
 use starl_core::Pose;
 use starl_create::{Create, CreateOptions, Generation};
+use starl_mavlink::{MavlinkOptions, MavlinkVehicle};
 use starl_natnet::{NatNet, NatNetOptions, UpAxis};
 use starl_node::DeviceError;
 use starl_node::motors::PositionSource;
@@ -48,6 +49,15 @@ pub fn connect(
             options.commands = commands.unwrap_or(options.commands);
             options.navdata = navdata.unwrap_or(options.navdata);
             Box::new(Ardrone::connect(&options).map_err(cannot)?)
+        }
+        Device::Mavlink { listen, vehicle } => {
+            let usual = MavlinkOptions::default();
+            let options = MavlinkOptions {
+                listen: listen.unwrap_or(usual.listen),
+                vehicle: *vehicle,
+                ..usual
+            };
+            Box::new(MavlinkVehicle::connect(&options).map_err(cannot)?)
         }
     };
     let positions = match &fleet.positions {

@@ -13,11 +13,14 @@ use starl_core::{Pose, RobotId};
 use starl_create::Generation;
 use starl_emulate::ardrone::EmulatedArdrone;
 use starl_emulate::create::{EmulatedCreate, model};
+use starl_emulate::mavlink::EmulatedVehicle;
 use starl_emulate::natnet::{Cameras, EmulatedNatNet};
 use starl_emulate::{BodyHandle, Noise, World};
-use starl_motion::models;
-use std::net::SocketAddr;
+use starl_mavlink::{Autopilot, MavlinkOptions};
+use starl_motion::{Model, models};
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
@@ -38,10 +41,13 @@ pub fn run(arguments: &EmulateArguments, registry: &Registry) -> Result<bool, Fa
         }
         EmulateArguments::Drone { commands, navdata } => {
             let world = World::new(Vec::new(), Noise::NONE);
-            let drone = models::by_name("drone")
-                .ok_or_else(|| Failure("there is no model drone".to_string()))?;
-            let body = add(&world, "drone", Pose::default(), drone)?;
+            let body = add(&world, "drone", Pose::default(), drone()?)?;
             vec![ardrone(body, *commands, *navdata)?]
+        }
+        EmulateArguments::Mavlink { address, client } => {
+            let world = World::new(Vec::new(), Noise::NONE);
+            let body = add(&world, "vehicle", Pose::default(), drone()?)?;
+            vec![mavlink(body, *address, *client)?]
         }
     };
     for device in &devices {
@@ -133,6 +139,14 @@ fn member_device(
             let body = add(world, &member.body, start, own)?;
             ardrone(body, *commands, *navdata).map_err(named)?
         }
+        Device::Mavlink { listen, vehicle } => {
+            let any = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 0);
+            let client = listen.unwrap_or(MavlinkOptions::default().listen);
+            // It sends to this machine, whatever networks the robot listens on.
+            let client = SocketAddr::new(any.ip(), client.port());
+            let body = add(world, &member.body, start, own)?;
+            mavlink(body, vehicle.unwrap_or(any), client).map_err(named)?
+        }
     };
     Ok(Some(Emulated {
         text: format!("{}: {}", member.name, device.text),
@@ -144,11 +158,25 @@ fn add(
     world: &World,
     name: &str,
     start: Pose,
-    model: std::sync::Arc<dyn starl_motion::Model>,
+    model: Arc<dyn Model>,
 ) -> Result<BodyHandle, Failure> {
     world
         .add(name, model, start)
         .map_err(|error| Failure(format!("{name}: {error}")))
+}
+
+fn drone() -> Result<Arc<dyn Model>, Failure> {
+    models::by_name("drone").ok_or_else(|| Failure("there is no model drone".to_string()))
+}
+
+fn mavlink(body: BodyHandle, address: SocketAddr, client: SocketAddr) -> Result<Emulated, Failure> {
+    let device = EmulatedVehicle::start(body, Autopilot::Px4, address, Some(client))
+        .map_err(|error| Failure(format!("{address}: {}", reason(&error))))?;
+    let address = device.address().map_err(|error| Failure(reason(&error)))?;
+    Ok(Emulated {
+        text: format!("a PX4 vehicle at {address}, which sends to {client}"),
+        _device: Box::new(device),
+    })
 }
 
 fn create(body: BodyHandle, link: Option<&Path>) -> Result<Emulated, Failure> {

@@ -166,6 +166,13 @@ pub enum Device {
         /// Where it gives navdata; default `192.168.1.1:5554`.
         navdata: Option<SocketAddr>,
     },
+    /// A multicopter with PX4 or ArduPilot, over UDP.
+    Mavlink {
+        /// The address of this computer that the vehicle sends to; default port 14540 of all networks.
+        listen: Option<SocketAddr>,
+        /// The vehicle's address, if it waits for the first message.
+        vehicle: Option<SocketAddr>,
+    },
 }
 
 /// The source of positions. Without it robots have only their odometry, from the scenario's starts.

@@ -138,7 +138,10 @@ impl Account {
         match self.properties.len() - used().count() {
             0 => {}
             1 => writeln!(text, "1 more property does not apply (unused primitive)")?,
-            many => writeln!(text, "{many} more properties do not apply (unused primitives)")?,
+            many => writeln!(
+                text,
+                "{many} more properties do not apply (unused primitives)"
+            )?,
         }
         for Property {
             property, first, ..

@@ -1,0 +1,126 @@
+"""Runs each example on each platform from the same files, and writes the table of docs/reference/portability.md.
+
+    python3 tools/portability.py STARL FOLDER [EXAMPLE...]
+
+STARL must be built with the feature `zenoh`. FOLDER receives the fleets' files and traces. Real time passes: all examples
+take about a quarter of an hour, several of them at once. Traffic stays on this machine.
+"""
+
+import concurrent.futures
+import json
+import pathlib
+import socket
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs/reference/portability.md"
+MARK = "<!-- tools/portability.py writes what follows -->\n"
+# Examples with more robots than this are too many processes for one small machine.
+MOST_ROBOTS = 10
+# How many fleets run at once, and how long one may take, in seconds.
+AT_ONCE = 6
+PATIENCE = 200
+PLATFORMS = ["simulator", "UDP", "Zenoh", "Create and AR.Drone", "MAVLink"]
+
+
+class Ports:
+    """Hands out ports that are free, each once."""
+
+    def __init__(self, first):
+        self.next = first
+
+    def take(self, count):
+        while True:
+            first, self.next = self.next, self.next + count
+            if all(self.is_free(port) for port in range(first, first + count)):
+                return first
+
+    @staticmethod
+    def is_free(port):
+        for kind in (socket.SOCK_DGRAM, socket.SOCK_STREAM):
+            with socket.socket(socket.AF_INET, kind) as tried:
+                try:
+                    tried.bind(("127.0.0.1", port))
+                except OSError:
+                    return False
+        return True
+
+
+def devices(robots, platform, ports):
+    """The tables of a fleet file that name the devices, or the reason why there are none."""
+    text = f'[positions]\nkind = "natnet"\nserver = "127.0.0.1:{ports.take(1)}"\n'
+    named = 0
+    for name, model in robots:
+        if platform == "MAVLink" and model == "drone":
+            device = f'{{ kind = "mavlink", listen = "127.0.0.1:{ports.take(1)}" }}'
+        elif platform == "Create and AR.Drone" and model == "drone":
+            first = ports.take(2)
+            device = f'{{ kind = "ardrone", commands = "127.0.0.1:{first}", navdata = "127.0.0.1:{first + 1}" }}'
+        elif platform == "Create and AR.Drone" and model == "create":
+            device = f'{{ kind = "create", port = "{name}.line" }}'
+        else:
+            continue
+        named += 1
+        text += f'[robots."{name}"]\ndevice = {device}\n'
+    return text if named else None
+
+
+def run_real(starl, folder, example, robots, platform, ports):
+    """The result of one example on one real platform."""
+    if len(robots) > MOST_ROBOTS:
+        return f"not tried: {len(robots)} robots"
+    place = folder / example / platform.replace(" ", "-")
+    place.mkdir(parents=True, exist_ok=True)
+    kind = "zenoh" if platform == "Zenoh" else "udp"
+    text = f'scenario = "{example}"\n[link]\nkind = "{kind}"\nfirst_port = {ports.take(len(robots))}\n'
+    arguments = []
+    if platform not in ("UDP", "Zenoh"):
+        tables = devices(robots, platform, ports)
+        if tables is None:
+            return "no such robots"
+        text += tables
+        arguments = ["--emulate"]
+    (place / "fleet.toml").write_text(text)
+    command = [starl, "fleet", "up", "fleet.toml", "--quiet", *arguments]
+    try:
+        done = subprocess.run(command, cwd=place, capture_output=True, text=True, timeout=PATIENCE)
+    except subprocess.TimeoutExpired:
+        return f"did not end within {PATIENCE} s"
+    (place / "output.txt").write_text(done.stdout + done.stderr)
+    if done.returncode == 0:
+        return "passes"
+    violated = [line.split()[0] for line in done.stdout.splitlines() if " VIOLATED" in line]
+    if violated:
+        return "violates " + ", ".join(violated)
+    if done.returncode == 1:
+        return "did not finish in time"
+    return "refused: " + done.stderr.strip().splitlines()[-1]
+
+
+def main():
+    starl, folder = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]).resolve()
+    listed = json.loads(subprocess.run([starl, "list", "--json"], capture_output=True, text=True, check=True).stdout)
+    names = sys.argv[3:] or [example["name"] for example in listed["examples"]]
+    ports, results = Ports(21000), {}
+    with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
+        waiting = {}
+        for name in names:
+            command = [starl, "run", name, "--json"]
+            report = json.loads(subprocess.run(command, capture_output=True, text=True).stdout)
+            results[name, "simulator"] = "passes" if report["outcome"] == "reached" else report["outcome"]
+            robots = [(robot["name"], robot["model"]) for robot in report["robots"]]
+            for platform in PLATFORMS[1:]:
+                job = pool.submit(run_real, starl, folder, name, robots, platform, ports)
+                waiting[job] = (name, platform)
+        for job in concurrent.futures.as_completed(waiting):
+            results[waiting[job]] = job.result()
+            print(*waiting[job], job.result(), flush=True)
+    rows = [" | ".join(["example", *PLATFORMS]), " | ".join(["---"] * (len(PLATFORMS) + 1))]
+    rows += [" | ".join([f"`{name}`", *(results[name, platform] for platform in PLATFORMS)]) for name in names]
+    head, _, _ = PAGE.read_text().partition(MARK)
+    PAGE.write_text(head + MARK + "\n" + "".join(f"| {row} |\n" for row in rows))
+
+
+if __name__ == "__main__":
+    main()
