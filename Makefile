@@ -92,6 +92,7 @@ devices:
 	cargo build --locked --profile test -p starl-emulate --example devices
 	$(VENV)/python $(FOREIGN)/create.py $(CARGO_TARGET_DIR)/debug/examples/devices
 	$(VENV)/python $(FOREIGN)/natnet_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
+	$(VENV)/python $(FOREIGN)/vrpn_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
 	$(VENV)/python $(FOREIGN)/mavlink_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
 	cd $(FOREIGN) && npm ci --silent --no-audit --no-fund
 	node --no-deprecation $(FOREIGN)/ardrone.mjs $(CARGO_TARGET_DIR)/debug/examples/devices

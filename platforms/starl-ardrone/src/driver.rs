@@ -43,6 +43,9 @@ const SILENCE: Duration = Duration::from_millis(1000);
 /// How often a drone that is silent is asked for navdata.
 const ASKING: Duration = Duration::from_millis(200);
 
+/// How long the drone may say that it hears nothing before its commands are numbered from 1 again, and how often.
+const UNHEARD: Duration = Duration::from_millis(300);
+
 /// An AR.Drone on the network.
 ///
 /// The drone flies on for 2 s after its last command; the driver sends some at each call. Readings come once the drone
@@ -54,6 +57,8 @@ pub struct Ardrone {
     options: ArdroneOptions,
     configuration: Configuration,
     sequence: u32,
+    /// When the commands were last numbered from 1, or the drone last said that it hears them.
+    counted: Instant,
     /// Whether it is to be in the air; unknown until the drone says whether it is.
     fly: Option<bool>,
     latest: Option<Navdata>,
@@ -83,6 +88,7 @@ impl Ardrone {
             options: *options,
             configuration: Configuration::new(entries),
             sequence: 0,
+            counted: Instant::now(),
             fly: None,
             latest: None,
             fresh: false,
@@ -140,6 +146,14 @@ impl Ardrone {
         self.heard = Instant::now();
         self.fresh = true;
         self.latest = Some(navdata);
+        // The drone passes over numbers that it has had already. The first command of a driver begins anew; if that is
+        // lost, or a stranger has sent a greater number, the drone hears nothing although commands are sent.
+        if navdata.state & state::WATCHDOG == 0 {
+            self.counted = self.heard;
+        } else if self.counted.elapsed() > UNHEARD {
+            self.counted = self.heard;
+            self.sequence = 0;
+        }
     }
 
     /// Takes what has arrived.

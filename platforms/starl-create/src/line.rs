@@ -79,7 +79,7 @@ impl Guard {
     /// Where `sh` cannot be started.
     pub fn start(path: &Path) -> io::Result<Guard> {
         let script = format!(
-            "trap '' INT TERM HUP QUIT; exec 3>\"$1\" || exit; cat; printf '{STOP}{STOP}' >&3"
+            "trap '' INT TERM HUP QUIT; [ -c \"$1\" ] && exec 3>\"$1\" || exit; cat; printf '{STOP}{STOP}' >&3"
         );
         let child = Command::new("sh")
             .args(["-c", &script, "starl-create-guard"])

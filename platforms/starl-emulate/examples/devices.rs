@@ -9,6 +9,7 @@ use starl_emulate::ardrone::EmulatedArdrone;
 use starl_emulate::create::{EmulatedCreate, model};
 use starl_emulate::mavlink::EmulatedVehicle;
 use starl_emulate::natnet::{Cameras, EmulatedNatNet};
+use starl_emulate::vrpn::EmulatedVrpn;
 use starl_emulate::{Noise, World};
 use starl_mavlink::Autopilot;
 use starl_motion::models::by_name;
@@ -38,6 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         EmulatedNatNet::start(world.clone(), any, cameras)
     };
     let (natnet_3, natnet_4) = (natnet((3, 1))?, natnet((4, 1))?);
+    let vrpn = EmulatedVrpn::start(world.clone(), any)?;
     let vehicle = |name, autopilot, y| {
         let start = Pose::level(Point::planar(-20.0, y), 0.3);
         let body = world.add(name, by_name("drone").ok_or("no model")?, start)?;
@@ -50,6 +52,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("navdata", drone.navdata()?),
         ("natnet_3", natnet_3.address()),
         ("natnet_4", natnet_4.address()),
+        ("vrpn", vrpn.address()),
         ("px4", px4.address()?),
         ("ardupilot", ardupilot.address()?),
     ];

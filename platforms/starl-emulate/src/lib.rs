@@ -28,6 +28,7 @@ pub mod create;
 pub mod mavlink;
 pub mod natnet;
 mod service;
+pub mod vrpn;
 pub mod world;
 
 pub use world::{AddError, BodyHandle, Noise, Odometer, World};

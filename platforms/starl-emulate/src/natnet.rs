@@ -191,7 +191,7 @@ impl Server {
 }
 
 /// The unit quaternion x, y, z, w of Rz(yaw) Ry(pitch) Rx(roll).
-fn quaternion(pose: &Pose) -> [f64; 4] {
+pub(crate) fn quaternion(pose: &Pose) -> [f64; 4] {
     let half = |angle: f64| (0.5 * angle).sin_cos();
     let ((sy, cy), (sp, cp), (sr, cr)) = (half(pose.yaw), half(pose.pitch), half(pose.roll));
     [

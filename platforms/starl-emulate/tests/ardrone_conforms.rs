@@ -173,3 +173,16 @@ fn drone_that_is_switched_off_and_on_is_configured_again() {
     let _again = EmulatedArdrone::start(body, commands, navdata).unwrap();
     assert_eq!(wait(&mut driver).height, Some(0.0));
 }
+
+#[test]
+fn greater_number_of_a_stranger_does_not_shut_the_driver_out() {
+    let (mut driver, body, emulated) = robot();
+    drive(&mut driver, Command::Hover, |_| true);
+    let stranger = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let forged = b"AT*COMWDG=4000000000\r";
+    stranger.send_to(forged, emulated.commands()).unwrap();
+    drive(&mut driver, Command::TakeOff, |reading| {
+        reading.height.unwrap() > 0.4
+    });
+    assert_ne!(body.state().mode, mode::LANDED);
+}

@@ -1,18 +1,17 @@
 //! The driver: commands of the platform to set-points, telemetry to readings.
 
+use crate::PX4_PORT;
 use crate::autopilot::{Autopilot, Mode};
 use crate::common::{
-    COMMAND_LONG_DATA, HEARTBEAT_DATA, MavAutopilot, MavCmd, MavFrame, MavMessage, MavModeFlag,
-    MavState, MavType, PositionTargetTypemask, SET_POSITION_TARGET_LOCAL_NED_DATA,
+    HEARTBEAT_DATA, MavAutopilot, MavCmd, MavFrame, MavMessage, MavModeFlag, MavState, MavType,
+    PositionTargetTypemask, SET_POSITION_TARGET_LOCAL_NED_DATA,
 };
+use crate::link::Link;
 use crate::state::Vehicle;
-use crate::{PX4_PORT, wire};
-use mavlink::MavHeader;
 use starl_core::math::tan;
 use starl_core::{Command, Estimate, Point};
 use starl_node::{Device, DeviceError, Reading};
-use std::io::ErrorKind;
-use std::net::{IpAddr, Ipv4Addr, SocketAddr, UdpSocket};
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::time::{Duration, Instant};
 
 /// How to fly a vehicle.
@@ -58,16 +57,14 @@ const GRAVITY: f64 = 9.80665;
 /// A multicopter with PX4 or ArduPilot.
 ///
 /// An attitude of the model `drone` means an acceleration; it is flown as the velocity from which the autopilot's own
-/// loop makes that acceleration. Where set-points stop, the autopilot holds its place after 1 s (PX4) or 3 s
+/// loop makes that acceleration. Where a pilot or a failsafe takes the vehicle over in the air, the driver leaves it to them
+/// until it stands, or is switched back to the mode that follows set-points. Where set-points stop, the autopilot holds its place after 1 s (PX4) or 3 s
 /// (ArduPilot), or does what its failsafe is set to.
 #[derive(Debug)]
 pub struct MavlinkVehicle {
-    socket: UdpSocket,
+    link: Link,
     options: MavlinkOptions,
-    peer: Option<(SocketAddr, u8)>,
     vehicle: Option<Vehicle>,
-    sequence: u8,
-    heard: Instant,
     greeted: Option<Instant>,
     asked: Option<Instant>,
     /// Whether it is to be in the air; unknown until the vehicle says whether it is.
@@ -80,15 +77,10 @@ impl MavlinkVehicle {
     /// # Errors
     /// Where the address is in use or not this machine's.
     pub fn connect(options: &MavlinkOptions) -> Result<MavlinkVehicle, DeviceError> {
-        let socket = UdpSocket::bind(options.listen)?;
-        socket.set_nonblocking(true)?;
         Ok(MavlinkVehicle {
-            socket,
+            link: Link::open(options.listen, options.vehicle)?,
             options: *options,
-            peer: None,
             vehicle: None,
-            sequence: 0,
-            heard: Instant::now(),
             greeted: None,
             asked: None,
             fly: None,
@@ -100,44 +92,7 @@ impl MavlinkVehicle {
     /// # Errors
     /// Where the system does not tell the port.
     pub fn address(&self) -> std::io::Result<SocketAddr> {
-        self.socket.local_addr()
-    }
-
-    fn send(&mut self, message: &MavMessage) -> Result<(), DeviceError> {
-        let known = self.peer.map(|(address, _)| address);
-        let Some(address) = known.or(self.options.vehicle) else {
-            return Ok(());
-        };
-        let header = MavHeader {
-            // By convention a computer beside the autopilot's has another system's number.
-            system_id: 245,
-            component_id: 191,
-            sequence: self.sequence,
-        };
-        self.sequence = self.sequence.wrapping_add(1);
-        let mut datagram = Vec::new();
-        wire::encode(header, message, &mut datagram);
-        match self.socket.send_to(&datagram, address) {
-            Err(error) if error.kind() != ErrorKind::ConnectionRefused => Err(error.into()),
-            _ => Ok(()),
-        }
-    }
-
-    fn command(&mut self, command: MavCmd, parameters: [f32; 7]) -> Result<(), DeviceError> {
-        let [param1, param2, param3, param4, param5, param6, param7] = parameters;
-        self.send(&MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
-            param1,
-            param2,
-            param3,
-            param4,
-            param5,
-            param6,
-            param7,
-            command,
-            target_system: self.peer.map_or(1, |(_, system)| system),
-            target_component: 1,
-            confirmation: 0,
-        }))
+        self.link.address()
     }
 
     /// Velocity forward, left and up, and rate of turn to the left.
@@ -152,19 +107,20 @@ impl MavlinkVehicle {
         // Newer names of the frame are not known to PX4 before 1.14.
         #[allow(deprecated)]
         let coordinate_frame = MavFrame::MAV_FRAME_BODY_NED;
-        self.send(&MavMessage::SET_POSITION_TARGET_LOCAL_NED(
-            SET_POSITION_TARGET_LOCAL_NED_DATA {
+        let target_system = self.link.system();
+        let message =
+            MavMessage::SET_POSITION_TARGET_LOCAL_NED(SET_POSITION_TARGET_LOCAL_NED_DATA {
                 vx: velocity.x as f32,
                 vy: -velocity.y as f32,
                 vz: -velocity.z as f32,
                 yaw_rate: -yaw_rate as f32,
                 type_mask: position | acceleration | Mask::POSITION_TARGET_TYPEMASK_YAW_IGNORE,
-                target_system: self.peer.map_or(1, |(_, system)| system),
+                target_system,
                 target_component: 1,
                 coordinate_frame,
                 ..SET_POSITION_TARGET_LOCAL_NED_DATA::DEFAULT
-            },
-        ))
+            });
+        Ok(self.link.send(&message)?)
     }
 
     /// Tells the vehicle that somebody is here, and what to send.
@@ -173,7 +129,7 @@ impl MavlinkVehicle {
             return Ok(());
         }
         self.greeted = Some(Instant::now());
-        self.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA {
+        self.link.send(&MavMessage::HEARTBEAT(HEARTBEAT_DATA {
             custom_mode: 0,
             mavtype: MavType::MAV_TYPE_ONBOARD_CONTROLLER,
             autopilot: MavAutopilot::MAV_AUTOPILOT_INVALID,
@@ -182,10 +138,11 @@ impl MavlinkVehicle {
             mavlink_version: 3,
         }))?;
         let complete = |vehicle: &Vehicle| vehicle.landed.is_some();
-        if self.peer.is_some() && !self.vehicle.as_ref().is_some_and(complete) {
+        if self.link.has_peer() && !self.vehicle.as_ref().is_some_and(complete) {
             for message in TELEMETRY {
                 let parameters = [message as f32, INTERVAL, 0.0, 0.0, 0.0, 0.0, 0.0];
-                self.command(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, parameters)?;
+                self.link
+                    .command(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, parameters)?;
             }
         }
         Ok(())
@@ -200,51 +157,34 @@ impl MavlinkVehicle {
         may
     }
 
-    /// Takes what has arrived. The first autopilot that is heard is the vehicle; others are not listened to.
     fn listen(&mut self) -> Result<(), DeviceError> {
-        let mut buffer = [0; 2048];
-        loop {
-            let (length, from) = match self.socket.recv_from(&mut buffer) {
-                Ok(received) => received,
-                Err(error) => match error.kind() {
-                    ErrorKind::WouldBlock => return Ok(()),
-                    ErrorKind::Interrupted | ErrorKind::ConnectionRefused => continue,
-                    _ => return Err(error.into()),
-                },
-            };
-            for (header, message) in wire::decode(&buffer[..length]) {
-                if self.peer.is_none()
-                    && let MavMessage::HEARTBEAT(data) = &message
-                    && let Some(autopilot) = Autopilot::of(data.autopilot)
-                    && let Ok(system) = u8::try_from(header.system_id)
-                {
-                    self.peer = Some((from, system));
-                    self.vehicle = Some(Vehicle::new(autopilot));
-                }
-                let known = self.peer == u8::try_from(header.system_id).ok().map(|id| (from, id));
-                if let Some(vehicle) = self.vehicle.as_mut().filter(|_| known) {
-                    vehicle.take(&message);
-                    self.heard = Instant::now();
-                    if self.fly.is_none() {
-                        self.fly = vehicle.landed.map(|landed| !landed);
-                    }
+        for (new, message) in self.link.receive()? {
+            if let Some(autopilot) = new {
+                self.vehicle = Some(Vehicle::new(autopilot));
+            }
+            if let Some(vehicle) = &mut self.vehicle {
+                vehicle.take(&message);
+                if self.fly.is_none() {
+                    self.fly = vehicle.landed.map(|landed| !landed);
                 }
             }
         }
+        Ok(())
     }
 
     fn check(&self) -> Result<(), DeviceError> {
         let fault = |text: String| Err(DeviceError::Fault(text));
-        if self.heard.elapsed() > SILENCE {
+        if self.link.silence() > SILENCE {
             return fault(format!(
                 "no autopilot is heard on {}; does the vehicle send there?",
                 self.options.listen
             ));
         }
         match &self.vehicle {
-            Some(vehicle) if vehicle.manual => {
-                fault("a pilot flies the vehicle by hand; it does not follow the program".into())
-            }
+            Some(vehicle) if vehicle.taken_over() => fault(format!(
+                "a pilot or a failsafe has taken over: the vehicle is in mode {}",
+                vehicle.autopilot.number(vehicle.mode)
+            )),
             Some(vehicle) => match vehicle.refusal() {
                 Some(refused) => fault(format!("the autopilot refuses {refused}")),
                 None => Ok(()),
@@ -264,11 +204,12 @@ impl MavlinkVehicle {
                 let [second, third] = autopilot.request(Mode::External);
                 let custom = MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED.bits();
                 let parameters = [f32::from(custom), second, third, 0.0, 0.0, 0.0, 0.0];
-                self.command(MavCmd::MAV_CMD_DO_SET_MODE, parameters)?;
+                self.link.command(MavCmd::MAV_CMD_DO_SET_MODE, parameters)?;
             }
         } else if !armed && self.may_ask() {
             let parameters = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-            self.command(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, parameters)?;
+            self.link
+                .command(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, parameters)?;
         }
         Ok(())
     }
@@ -294,7 +235,7 @@ impl MavlinkVehicle {
                 if ready && standing && self.may_ask() {
                     let height = take_off_height as f32;
                     let parameters = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, height];
-                    self.command(MavCmd::MAV_CMD_NAV_TAKEOFF, parameters)?;
+                    self.link.command(MavCmd::MAV_CMD_NAV_TAKEOFF, parameters)?;
                 }
             }
         }
@@ -306,14 +247,12 @@ impl MavlinkVehicle {
             return Ok(());
         };
         let landing = vehicle.mode == Mode::Land || vehicle.landed == Some(true);
-        if landing || !self.may_ask() {
+        if landing || vehicle.taken_over() || !self.may_ask() {
             return Ok(());
         }
         let nan = f32::NAN;
-        self.command(
-            MavCmd::MAV_CMD_NAV_LAND,
-            [0.0, 0.0, 0.0, nan, 0.0, 0.0, 0.0],
-        )
+        let parameters = [0.0, 0.0, 0.0, nan, 0.0, 0.0, 0.0];
+        Ok(self.link.command(MavCmd::MAV_CMD_NAV_LAND, parameters)?)
     }
 
     /// The velocity and rate of turn for a command in the air.
@@ -347,7 +286,7 @@ impl Device for MavlinkVehicle {
             _ => {}
         }
         if let Some(vehicle) = &self.vehicle
-            && !vehicle.manual
+            && !vehicle.taken_over()
         {
             let autopilot = vehicle.autopilot;
             match (self.fly, command) {
@@ -380,9 +319,9 @@ impl Device for MavlinkVehicle {
     fn read(&mut self) -> Result<Option<Reading>, DeviceError> {
         self.listen()?;
         self.greet()?;
-        if self.heard.elapsed() > SILENCE {
+        if self.link.silence() > SILENCE {
             // It may come back with another address, or have been switched off.
-            self.peer = None;
+            self.link.forget_peer();
             self.vehicle = None;
         }
         self.check()?;

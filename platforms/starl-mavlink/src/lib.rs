@@ -7,6 +7,7 @@
 
 pub mod autopilot;
 mod driver;
+mod link;
 mod state;
 pub mod wire;
 

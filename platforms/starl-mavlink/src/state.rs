@@ -32,8 +32,8 @@ pub(crate) struct Vehicle {
     pub autopilot: Autopilot,
     pub mode: Mode,
     pub armed: bool,
-    /// Whether a pilot steers it by hand.
-    pub manual: bool,
+    /// Whether it has followed set-points since it stood last.
+    followed: bool,
     pub landed: Option<bool>,
     position: Option<LOCAL_POSITION_NED_DATA>,
     attitude: Option<ATTITUDE_DATA>,
@@ -50,7 +50,7 @@ impl Vehicle {
             autopilot,
             mode: Mode::Other(0),
             armed: false,
-            manual: false,
+            followed: false,
             landed: None,
             position: None,
             attitude: None,
@@ -65,9 +65,9 @@ impl Vehicle {
         match message {
             MavMessage::HEARTBEAT(data) => {
                 self.mode = self.autopilot.mode(data.custom_mode);
-                let has = |flag| data.base_mode.contains(flag);
-                self.armed = has(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
-                self.manual = has(MavModeFlag::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED);
+                let armed = MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED;
+                self.armed = data.base_mode.contains(armed);
+                self.followed = self.armed && (self.followed || self.mode == Mode::External);
             }
             MavMessage::EXTENDED_SYS_STATE(data) => {
                 let landed = data.landed_state == MavLandedState::MAV_LANDED_STATE_ON_GROUND;
@@ -94,6 +94,12 @@ impl Vehicle {
             MavMessage::COMMAND_ACK(data) => self.acknowledge(data.command, data.result),
             _ => {}
         }
+    }
+
+    /// Whether it has followed set-points and is now in the air in a mode that nobody here asks for: a pilot's, or the
+    /// way home of a failsafe.
+    pub fn taken_over(&self) -> bool {
+        self.followed && self.landed == Some(false) && matches!(self.mode, Mode::Other(_))
     }
 
     fn acknowledge(&mut self, command: MavCmd, result: MavResult) {

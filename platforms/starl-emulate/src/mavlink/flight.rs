@@ -60,6 +60,15 @@ impl Flight {
         self.body.command(Command::Stop);
     }
 
+    /// A pilot's switch has all modes.
+    pub fn switch(&mut self, mode: u32) {
+        self.mode = self.autopilot.mode(mode);
+    }
+
+    pub fn mode(&self) -> u32 {
+        self.autopilot.number(self.mode)
+    }
+
     /// The datagrams that are due.
     pub fn outbox(&mut self) -> Vec<Vec<u8>> {
         self.telemetry.outbox()

@@ -60,6 +60,18 @@ impl EmulatedVehicle {
         self.socket.local_addr()
     }
 
+    /// Has a pilot switch to the mode with this number, in which the vehicle holds its place.
+    pub fn switch(&self, mode: u32) {
+        let mut flight = self.flight.lock().unwrap_or_else(PoisonError::into_inner);
+        flight.switch(mode);
+    }
+
+    /// The number of its mode.
+    pub fn mode(&self) -> u32 {
+        let flight = self.flight.lock().unwrap_or_else(PoisonError::into_inner);
+        flight.mode()
+    }
+
     /// Sends its client bytes between its messages.
     pub fn interfere(&self, bytes: &[u8]) {
         let flight = self.flight.lock().unwrap_or_else(PoisonError::into_inner);

@@ -147,6 +147,10 @@ impl Report {
         if self.armed {
             base_mode |= MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED;
         }
+        if self.autopilot == Autopilot::ArduPilot {
+            // ArduPilot says so whoever flies.
+            base_mode |= MavModeFlag::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED;
+        }
         MavMessage::HEARTBEAT(HEARTBEAT_DATA {
             custom_mode: self.autopilot.number(self.mode),
             mavtype: MavType::MAV_TYPE_QUADROTOR,
