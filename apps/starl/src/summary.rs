@@ -51,7 +51,7 @@ fn write(text: &mut String, report: &Report) -> fmt::Result {
         let repeated = grouped(messages.retransmitted);
         writeln!(
             text,
-            "            {repeated} sent again by Broadcast, Geocast or Unicast"
+            "            {repeated} retransmitted by Broadcast, Geocast or Unicast"
         )?;
     }
     writeln!(text, "collisions  {}", grouped(report.collisions))?;
@@ -182,7 +182,10 @@ fn properties(text: &mut String, properties: &[Property]) -> fmt::Result {
     match properties.len() - used().count() {
         0 => Ok(()),
         1 => writeln!(text, "1 more property does not apply (unused primitive)"),
-        unused => writeln!(text, "{unused} more properties do not apply (unused primitives)"),
+        unused => writeln!(
+            text,
+            "{unused} more properties do not apply (unused primitives)"
+        ),
     }
 }
 

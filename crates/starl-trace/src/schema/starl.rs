@@ -102,7 +102,9 @@ fn own_members(topic: Topic) -> Vec<Member<'static>> {
             let mut members = datagram();
             members.push(maybe(
                 "to",
-                count("number of the robot that does not receive it; absent if there is no receiver"),
+                count(
+                    "number of the robot that does not receive it; absent if there is no receiver",
+                ),
             ));
             members.push(always("reason", word("why", &reasons)));
             members
