@@ -9,6 +9,8 @@ import re
 import subprocess
 import sys
 import tomllib
+from fnmatch import fnmatch
+from typing import NamedTuple
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from prose.extract import Block, blocks_of, markdown  # noqa: E402
@@ -37,10 +39,24 @@ class Rule:
                 yield line, f'"{found}": write {self.write}'
 
 
+class Style(NamedTuple):
+    """All rules."""
+
+    rules: list
+    longest: int  # words of a sentence
+    verbs: set  # of which the first sentence of a page has one
+
+
+# A full stop that is not part of an abbreviation or an initial, and what follows it.
+SENTENCE_END = re.compile(
+    r"(?<![ (]e\.g)(?<![ (]i\.e)(?<!\bvs)(?<!\bpp)(?<! [A-Z])[.!?][\")\]*’”]*(?=\s+[^a-z\s]|\s*$)"
+)
+
+
 def sentences(block):
     """The sentences of a block, with their lines."""
     begin = 0
-    for end in re.finditer(r"(?<![ (]e\.g)(?<![ (]i\.e)(?<!\bvs)(?<!\bpp)(?<! [A-Z])[.!?][\")\]*’”]*(?=\s+[^a-z\s]|\s*$)", block.text):
+    for end in SENTENCE_END.finditer(block.text):
         yield block.line + block.text.count("\n", 0, begin), block.text[begin : end.end()].strip()
         begin = end.end() + 1
     if block.text[begin:].strip():
@@ -48,7 +64,7 @@ def sentences(block):
 
 
 def sentence_problems(block, longest):
-    """What is wrong with whole sentences."""
+    """Problems of whole sentences: too long, or no main clause."""
     if block.kind not in ("page", "comment"):
         return
     for line, sentence in sentences(block):
@@ -56,7 +72,7 @@ def sentence_problems(block, longest):
         if max(len(part.split()) for part in sentence.split(";")) > longest:
             yield line, f'a sentence of {len(words)} words, more than {longest}: "{" ".join(words[:6])} ..."'
         if re.match(r"(What|Who|Whom|Whoever|Whose)\b", sentence) and "?" not in sentence:
-            yield line, f'begins with "{words[0]}" and is no question: "{" ".join(words[:6])} ..."'
+            yield line, f'begins with "{words[0]}" and is not a question: "{" ".join(words[:6])} ..."'
 
 
 def opening_problem(blocks, verbs):
@@ -69,56 +85,63 @@ def opening_problem(blocks, verbs):
             yield line, f'the page begins with a sentence without a verb: "{sentence}"'
 
 
-def problems_of(name, text, rules, longest, verbs):
+def problems_of(name, text, style):
     blocks = list(blocks_of(name, text))
     for block in blocks:
-        for rule in rules:
+        for rule in style.rules:
             yield from rule.problems(block)
-        yield from sentence_problems(block, longest)
+        yield from sentence_problems(block, style.longest)
     if name.endswith(".md"):
-        yield from opening_problem(blocks, verbs)
+        yield from opening_problem(blocks, style.verbs)
 
 
-def test_rules(rules, longest, verbs):
-    """Every rule finds what it is there for and lets pass what it is not."""
-    for rule in rules:
+def failed_examples(style):
+    """The examples that a rule should find and does not, or should accept and does not."""
+    for rule in style.rules:
         kind = rule.where[0]
         if not list(rule.problems(Block(kind, 1, rule.finds))):
             yield f"rules.toml: {rule.name}: does not find: {rule.finds}"
-        if found := [text for block in markdown([rule.passes], 1, kind) for _, text in rule.problems(block)]:
+        accepted = list(markdown([rule.passes], 1, kind))
+        if found := [text for block in accepted for _, text in rule.problems(block)]:
             yield f"rules.toml: {rule.name}: finds {found} in: {rule.passes}"
     bad = {
-        "a sentence that is too long": "word " * (longest + 1) + "is long.",
+        "a sentence that is too long": "word " * (style.longest + 1) + "is long.",
         "a sentence that begins with What": "It stops. What it knows is lost.",
         "a page that begins without a verb": "Short texts about one question each.",
+        "a word in a comment": ("x.rs", "/// Mends it.\nfn x() {}"),
+        "a word in a message": ("x.rs", 'fn x() { panic!("the robot mends it") }'),
+        "a word in the name of a test": ("x.rs", "#[test]\nfn it_mends() {}"),
     }
-    for what, text in bad.items():
-        if not list(problems_of("page.md", text, [], longest, verbs)):
+    for what, example in bad.items():
+        name, text = example if isinstance(example, tuple) else ("page.md", example)
+        if not list(problems_of(name, text, style)):
             yield f"check_prose.py: does not find {what}: {text}"
-    for good in ["This page shows what a robot knows. What does it do?"]:
-        if list(problems_of("page.md", good, rules, longest, verbs)):
-            yield f"check_prose.py: does not let pass: {good}"
+    good = "This page shows what a robot knows. What does it do?\n\n```text\nmends\n```\n\nThe field `mend` is code."
+    if found := list(problems_of("page.md", good, style)):
+        yield f"check_prose.py: finds {found} in: {good}"
+
+
+def texts(names, excluded):
+    """The text files among these, with their texts."""
+    for name in names:
+        path = ROOT / name
+        if path.is_file() and not any(fnmatch(name, pattern) for pattern in excluded):
+            try:
+                yield name, path.read_text(encoding="utf-8")
+            except UnicodeDecodeError:
+                continue
 
 
 def main(arguments):
     settings = tomllib.loads((ROOT / "tools/prose/rules.toml").read_text(encoding="utf-8"))
     rules = [Rule(**rule) for rule in settings["rule"]]
-    longest = settings["longest_sentence"]
-    verbs = set(settings["verbs"].split())
-    problems = list(test_rules(rules, longest, verbs))
+    style = Style(rules, settings["longest_sentence"], set(settings["verbs"].split()))
     tracked = ["git", "ls-files", "--cached", "--others", "--exclude-standard"]
     names = arguments or subprocess.run(tracked, cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\n")
-    count = 0
-    for name in names:
-        path = ROOT / name
-        if not name or name.startswith(tuple(settings["exclude"])) or not path.is_file():
-            continue
-        try:
-            text = path.read_text(encoding="utf-8")
-        except UnicodeDecodeError:
-            continue
+    problems, count = list(failed_examples(style)), 0
+    for name, text in texts(names, settings["exclude"]):
         count += 1
-        problems += [f"{name}:{line}: {problem}" for line, problem in problems_of(name, text, rules, longest, verbs)]
+        problems += [f"{name}:{line}: {problem}" for line, problem in problems_of(name, text, style)]
     print("\n".join(problems) or f"{count} files: plain English by the rules of tools/prose/rules.toml")
     return bool(problems)
 

@@ -140,7 +140,7 @@ fn feed(
     if reader.inputs_version().is_none() {
         return Err(Failure::file(
             path,
-            "holds no inputs of robots; record it with `starl run --trace FILE --inputs`",
+            "contains no inputs of robots; record it with `starl run --trace FILE --inputs`",
         ));
     }
     Ok(Outcome { departure, cut })

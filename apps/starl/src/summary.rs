@@ -51,7 +51,7 @@ fn write(text: &mut String, report: &Report) -> fmt::Result {
         let repeated = grouped(messages.retransmitted);
         writeln!(
             text,
-            "            {repeated} sent again by Broadcast, Geocast or Unicast"
+            "            {repeated} retransmitted by Broadcast, Geocast or Unicast"
         )?;
     }
     writeln!(text, "collisions  {}", grouped(report.collisions))?;

@@ -1,4 +1,4 @@
-// What a person writes: programs, the scenario, and where to begin.
+// The editing side of the page: programs, the scenario, and where to begin.
 
 import { signal } from "@preact/signals";
 import { Editor } from "../editor/Editor.tsx";

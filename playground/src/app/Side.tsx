@@ -1,4 +1,4 @@
-// What there is to know of the run, and how to steer it.
+// Information about the run, and its steering.
 
 import { Properties } from "../inspect/Properties.tsx";
 import { Robots } from "../inspect/Robots.tsx";

@@ -1,4 +1,4 @@
-// What the title bar offers beside the title; each part of the page has its own file for what it offers.
+// Actions of the title bar beside the title; each part of the page has its own file for its actions.
 
 import { RunBar } from "../project/RunBar.tsx";
 import { Share } from "../share/Share.tsx";

@@ -1,4 +1,4 @@
-// What there is one of on the page: the run that is shown, and what the page is for.
+// The singletons of the page: the run that is shown, and the purpose of the page.
 
 import { signal } from "@preact/signals";
 import type { ServerRun } from "../engine/types.ts";
@@ -6,7 +6,7 @@ import { Run } from "../run/run.ts";
 
 export const run = new Run();
 
-/** What the page was opened for: by a static host or `starl web`, by `starl run --open`, or by `starl view`. */
+/** The purpose of the page: opened by a static host or `starl web`, by `starl run --open`, or by `starl view`. */
 export type Start =
   /** `static`: by a host of files, which can be done without once the page is loaded. */
   | { mode: "web"; static?: boolean }

@@ -168,7 +168,7 @@ function Expression() {
   );
 }
 
-/** What is wrong, under the place where it is wrong. */
+/** The error, under its place. */
 function Refusal() {
   if (!refusal.value) return null;
   const { text, expression, diagnostics } = refusal.value;

@@ -3,7 +3,7 @@
 import { countBefore } from "../messages/traffic.ts";
 import type { Event } from "../run/events.ts";
 
-/** What is known of a run: its records, and how far they reach. */
+/** The known part of a run: its records, and how far they reach. */
 export interface Known {
   list: Event[];
   /** s */

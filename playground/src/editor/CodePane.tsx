@@ -51,7 +51,7 @@ export function CodePane({
   }, [ready, file.key, file.text]);
 
   useEffect(() => {
-    // What others say of a text is shown with that text.
+    // Diagnostics of a text are shown with that text.
     if (ready && checked.value?.[path] === file.text) own.current?.mark(diagnostics.value);
   }, [ready, file.key, diagnostics.value]);
 

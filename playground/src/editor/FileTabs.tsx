@@ -98,7 +98,7 @@ function Naming() {
           </p>
         )}
         <p class="muted">
-          Programs and libraries end in .starl, scenarios in .toml, files of way-points and obstacles in .wpt.
+          Programs and libraries end in .starl, scenarios in .toml, files of waypoints and obstacles in .wpt.
         </p>
         <div class="row">
           <button type="submit" class="primary">

@@ -7,7 +7,7 @@ import type { Diagnostic } from "../engine/types.ts";
 import { project, show } from "../project/project.ts";
 import { type Range, units } from "./offsets.ts";
 
-/** A file that is no part of the project and is only read. */
+/** A file that is not part of the project and is only read. */
 export const reading = signal<{ path: string; text: string } | null>(null);
 
 /** The place that the editor is to show, until it does. */

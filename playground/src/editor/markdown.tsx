@@ -8,7 +8,7 @@ export function Markdown({ text, heading = 3 }: { text: string; heading?: 3 | 4 
   return (
     <div class="markdown">
       {blocks(text).map((block, index) => {
-        // The list is made anew with each text.
+        // The list is rebuilt for each text.
         const key = `${index}`;
         if (block.kind === "code") return <pre key={key}>{block.text}</pre>;
         if (block.kind === "heading") return <Heading key={key}>{inline(block.text)}</Heading>;

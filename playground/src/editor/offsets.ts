@@ -57,7 +57,7 @@ export function rangeOf(doc: Text, diagnostic: Diagnostic): { from: number; to: 
   };
 }
 
-/** What to replace to get from one text to the other. */
+/** The replacement that leads from one text to the other. */
 export function difference(
   before: string,
   after: string,

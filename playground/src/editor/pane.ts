@@ -1,4 +1,4 @@
-// A file in an editor. Loaded when the first file is shown. What was done to a file can be undone for as long as the
+// A file in an editor. Loaded when the first file is shown. Changes of a file can be undone for as long as the
 // page is open, also after another file was shown.
 //
 // The editor stands in a shadow tree: there it may bring its own style sheets, which the page's content security policy

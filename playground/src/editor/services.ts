@@ -1,4 +1,4 @@
-// What the language's own tools say of a place in a file.
+// Information of the language's tools about a place in a file.
 
 import { run } from "../app/context.ts";
 import { project } from "../project/project.ts";
@@ -14,7 +14,7 @@ export interface Completion {
   kind: string;
   detail: string | null;
   documentation: string | null;
-  /** What to put in the place of `range`; the cursor belongs after so many of its UTF-16 units. */
+  /** The text that replaces `range`, and the position of the cursor in it, in UTF-16 units. */
   insert: string;
   cursor: number;
   range: Range;

@@ -14,7 +14,7 @@ const TYPES = new Set(
   "Bool Int Float String Point Time Duration RobotId Area Obstacles List Set Map".split(" "),
 );
 const OWN = new Set("me position heading velocity now peers role".split(" "));
-/** What these words declare. */
+/** The kinds of declarations of these words. */
 const NAMED =
   /^(program|library|import|enum|record|message|function|role|invariant|always|eventually|input)$/;
 

@@ -1,4 +1,4 @@
-// What a new file begins with.
+// The initial text of a new file.
 
 import scenario from "../../../apps/starl-catalog/src/default.toml?raw";
 

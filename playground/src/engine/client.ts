@@ -2,7 +2,7 @@
 
 import type { Diagnostic, FromWorker, Request, ToWorker, Update } from "./types.ts";
 
-/** What the simulator refuses, with the single problems where there are any. */
+/** An error of the simulator, with its single problems if there are any. */
 export class EngineError extends Error {
   constructor(
     message: string,
@@ -37,7 +37,7 @@ export class Client {
     });
   }
 
-  /** Ends what runs at once, however busy it is, and begins anew with nothing open. */
+  /** Ends running requests at once, however busy the worker is, and restarts it with nothing open. */
   restart(reason: string): void {
     this.#worker.terminate();
     for (const { reject } of this.#waiting.values()) reject(new EngineError(reason));

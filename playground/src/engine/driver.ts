@@ -1,8 +1,8 @@
 // Runs one simulation as the page asks: plays, pauses, goes to a moment, steers. One thing at a time happens; between
 // two slices of a run that plays, everything else that is asked gets its turn.
 //
-// The run is deterministic, so to go back is to restore a kept moment and to run again from there. What is recorded
-// then is known already; only what comes after the furthest moment is new.
+// The run is deterministic, so the page goes back by restoring a snapshot and running again from there. Those
+// records are known already; only records after the furthest moment are new.
 
 import type { Engine, Status } from "./engine.ts";
 import { Snapshots } from "./snapshots.ts";
@@ -38,7 +38,7 @@ export class Driver {
   #snapshots: Snapshots;
   #inspected: number[] = [];
   #turn: Promise<unknown> = Promise.resolve();
-  /** What plays: another value each time, so that an earlier loop ends. */
+  /** The current playback: another value each time, so that an earlier loop ends. */
   #playing: symbol | null = null;
   #stepsPerMs = 1;
   #pace = 0;
@@ -142,7 +142,7 @@ export class Driver {
     return this.#exclusive(async () => this.engine.breakpoints(breakpoints));
   }
 
-  /** Steers the run at the moment shown. What was known of later moments is forgotten. */
+  /** Steers the run at the moment shown. Later moments are forgotten. */
   apply(intervention: Intervention): Promise<void> {
     return this.#exclusive(async () => {
       const at = this.#status.now;

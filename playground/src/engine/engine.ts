@@ -1,4 +1,4 @@
-// What runs a simulation: the WebAssembly module in this worker, or the `starl` command behind a socket. Both have
+// The engine of a simulation: the WebAssembly module in this worker, or the `starl` command behind a socket. Both have
 // the methods of `Simulation` in starl.d.mts; those of the command answer later.
 
 import type { Batch, Simulation, Status } from "../../../apps/starl-wasm/starl.d.mts";

@@ -127,7 +127,7 @@ export class Playback {
     this.#closed = true;
   }
 
-  /** What it takes to run it again. Waits until the trace is read. */
+  /** The inputs to run it again. Waits until the trace is read. */
   async recorded(): Promise<Recorded> {
     const { attachments } = this.start;
     const kept = [...attachments].filter(([name]) => name.startsWith(FILES));
@@ -318,7 +318,7 @@ function shape(obstacle: unknown): World["obstacles"][number]["obstacle"] {
   return { Polygon: { base: polygon ?? [], height } };
 }
 
-/** What stands before the messages. */
+/** The header before the messages. */
 interface Beginning {
   about: Map<string, string> | null;
   attachments: Map<string, string>;

@@ -5,7 +5,7 @@ import type { Engine } from "./engine.ts";
 
 type Waiting = { resolve: (value: never) => void; reject: (error: Error) => void };
 
-/** What the server refuses. */
+/** An error of the server. */
 export class Refused extends Error {
   constructor(
     message: string,

@@ -48,7 +48,7 @@ export interface ServerRun {
   warnings: starl.Diagnostic[];
 }
 
-/** What a run is. */
+/** The kind of a run. */
 export interface Opened {
   title: string;
   seed: string;
@@ -77,7 +77,7 @@ export interface Stopped {
   text: string;
 }
 
-/** What has changed since the last update. */
+/** The changes since the last update. */
 export interface Update {
   /** The moment shown, s. */
   now: number;
@@ -109,7 +109,7 @@ export interface Update {
   pace: number;
 }
 
-/** What the page asks of the worker; each is answered by its `id`. */
+/** The requests of the page to the worker; each is answered by its `id`. */
 export type Request =
   | { open: Source }
   /** Speed is in simulated seconds a second; Infinity is as fast as it goes. */
@@ -137,5 +137,5 @@ export type FromWorker =
   | { id: number; ok: unknown }
   | { id: number; error: { message: string; diagnostics: starl.Diagnostic[] } }
   | { update: Update }
-  /** Something that nobody asked for went wrong; the run cannot go on. */
+  /** An error without a request; the run cannot continue. */
   | { failed: string };

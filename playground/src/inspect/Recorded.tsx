@@ -1,4 +1,4 @@
-// What a trace tells of the chosen robots. It has no variables, timers or guards: only what left a record.
+// The chosen robots in a trace. It has no variables, timers or guards, only records.
 
 import { run } from "../app/context.ts";
 import { seconds } from "../app/format.ts";

@@ -1,10 +1,10 @@
-// What has changed of the robots that are looked into since the moment that was shown before.
+// The changes of the inspected robots since the previously shown moment.
 
 import type { Section } from "./facts.ts";
 
 interface Seen {
   value: string;
-  /** What it was before the last change; null for what is new. */
+  /** The value before the last change; null for a new one. */
   before: string | null;
   /** The number of the moment with the last change, -1 if there was none, and when it was shown, ms. */
   moment: number;

@@ -103,7 +103,7 @@ function body(robot: Robot): Fact[] {
     { name: "command", value: command(robot.command), restless: typeof robot.command !== "string" },
     { name: "distance covered", value: `${robot.distance.toFixed(2)} m`, restless: true },
     { name: "holds", value: robot.holding ?? "nothing" },
-    { name: "way-points reached", value: String(robot.way_points_reached) },
+    { name: "waypoints reached", value: String(robot.way_points_reached) },
   ];
   if (robot.motors_stuck) facts.push({ name: "motors", value: "stuck", mark: "bad" });
   if (robot.sensors_frozen) facts.push({ name: "sensors", value: "frozen", mark: "bad" });

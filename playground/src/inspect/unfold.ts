@@ -1,6 +1,6 @@
 // Long texts of nested values, broken into lines so that people can read them.
 
-/** What fits into a line stays in one. */
+/** Values that fit into a line stay in one. */
 const WIDTH = 46;
 const CLOSING: Record<string, string> = { "{": "}", "[": "]", "(": ")" };
 

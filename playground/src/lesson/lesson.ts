@@ -85,7 +85,7 @@ export function goTo(index: number): void {
   benchTab.value = "program";
 }
 
-/** What a person has who has done all steps before. */
+/** The files after all earlier steps. */
 function givenBefore(index: number): Record<string, string> {
   return STEPS[index]?.given ?? STEPS[index - 1]?.solution ?? STEPS[0]?.given ?? {};
 }

@@ -86,11 +86,11 @@ finish()
 `;
 
 export const ONCE = `
-/// Nobody looks where another one has looked.
+/// No two robots look at the same place.
 invariant once: forall r, s: r.id == s.id or r.found.intersection(s.found).size() == 0
 `;
 
-export const MESSAGE = `/// Somebody has looked at this place.
+export const MESSAGE = `/// A robot has looked at this place.
 message Found(place: Int)
 
 `;
@@ -126,7 +126,7 @@ robots = ["robot2"]
 /** A program that a beginner may write from nothing. */
 export const OWN = `program Mine
 
-/// Somebody is there.
+/// A robot is there.
 message Arrived()
 
 motion = ReachAvoid()

@@ -6,11 +6,11 @@ import type { Diagnostic, Outcome, Report } from "../engine/types.ts";
 import { isTable, type Table, tablesOf } from "../scenario/table.ts";
 import * as programs from "./programs.ts";
 
-/** What there is to see when a step is judged. */
+/** The view of a step when it is judged. */
 export interface Seen {
   /** The project's files. */
   files: Record<string, string>;
-  /** What its scenario says; null while it is no TOML. */
+  /** The content of its scenario; null while it is not valid TOML. */
   scenario: Table | null;
   /** Of these files; null while they are being checked. */
   diagnostics: Diagnostic[] | null;
@@ -174,13 +174,13 @@ export const STEPS: Step[] = [
     title: "Change the world",
     text: (
       <p>
-        On the map under <b>Scenario</b>, choose <b>Way-point</b> and click where a fifth place is to be. You
+        On the map under <b>Scenario</b>, choose <b>Waypoint</b> and click where a fifth place is to be. You
         can drag it with <b>Move</b>. Run it to the end.
       </p>
     ),
     solution: both(programs.TEAM, programs.FIVE),
     isDone: (seen) => wayPoints(seen) >= 5 && isOver(seen),
-    after: <p>The program knew nothing of a fifth place: it asks for the way-points when it starts.</p>,
+    after: <p>The program knew nothing of a fifth place: it asks for the waypoints when it starts.</p>,
   },
   {
     title: "Break it",

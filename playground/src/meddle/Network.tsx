@@ -80,7 +80,7 @@ interface KnobProps {
   label: string;
   unit: string;
   most: number;
-  /** What was applied; undefined if it is as in the scenario, null if unlimited. */
+  /** The applied value; undefined if it is as in the scenario, null if unlimited. */
   now: number | null | undefined;
   make: (value: number) => NetworkKnob;
 }

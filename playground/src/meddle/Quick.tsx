@@ -1,4 +1,4 @@
-// What can be done to a robot where it is looked into.
+// Actions on an inspected robot.
 
 import type { Condition } from "../engine/types.ts";
 import { nameOf } from "../inspect/names.ts";

@@ -1,4 +1,4 @@
-// What can be done to robots.
+// Actions on robots.
 
 import { useSignal } from "@preact/signals";
 import { run } from "../app/context.ts";

@@ -1,4 +1,4 @@
-// Obstacles, way-points and things: add, move and remove them.
+// Obstacles, waypoints and things: add, move and remove them.
 
 import { useSignal } from "@preact/signals";
 import { run } from "../app/context.ts";
@@ -29,7 +29,7 @@ export function WorldChanges() {
         <Choice label="What" value={kind}>
           <option value="round">round obstacle</option>
           <option value="box">rectangular obstacle</option>
-          <option value="way-point">way-point</option>
+          <option value="way-point">waypoint</option>
           <option value="thing">thing</option>
         </Choice>
         {!isObstacle && <Text label="Name" value={name} />}
@@ -60,12 +60,12 @@ export function WorldChanges() {
   );
 }
 
-/** What is there already, to be removed. */
+/** The existing items, which can be removed. */
 function Present() {
   const chosen = useSignal("");
   const { obstacles, way_points, things } = run.world.value;
   const removals = new Map<string, Intervention>([
-    ...way_points.map(({ name }) => [`way-point ${name}`, { remove_way_point: { name } }] as const),
+    ...way_points.map(({ name }) => [`waypoint ${name}`, { remove_way_point: { name } }] as const),
     ...things.map(({ name }) => [`thing ${name}`, { remove_thing: { name } }] as const),
     ...obstacles.map(({ index }) => [`obstacle ${index}`, { remove_obstacle: { index } }] as const),
   ]);

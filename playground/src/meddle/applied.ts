@@ -1,4 +1,4 @@
-// What was done to the run up to the moment shown, as its records tell.
+// The interventions in the run up to the moment shown, from its records.
 
 import { run } from "../app/context.ts";
 import type { Intervention, NetworkKnob } from "../engine/types.ts";

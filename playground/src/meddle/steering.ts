@@ -7,7 +7,7 @@ import type { Intervention } from "../engine/types.ts";
 import { nameOf } from "../inspect/names.ts";
 import { wordsOf } from "./words.ts";
 
-/** What became of the last act. */
+/** The result of the last action. */
 export const said = signal<{ good: boolean; text: string } | null>(null);
 
 /** Applies an intervention at the moment shown. Returns whether it was accepted. */

@@ -17,9 +17,9 @@ export function wordsOf(intervention: Intervention, name: Name): string {
   if ("remove_obstacle" in intervention) return `remove obstacle ${intervention.remove_obstacle.index}`;
   if ("set_way_point" in intervention) {
     const { name, position } = intervention.set_way_point;
-    return `set way-point ${name} at (${position.x}, ${position.y}, ${position.z})`;
+    return `set waypoint ${name} at (${position.x}, ${position.y}, ${position.z})`;
   }
-  if ("remove_way_point" in intervention) return `remove way-point ${intervention.remove_way_point.name}`;
+  if ("remove_way_point" in intervention) return `remove waypoint ${intervention.remove_way_point.name}`;
   if ("set_thing" in intervention) {
     const { name, position } = intervention.set_thing;
     return `put ${name} at (${position.x}, ${position.y}, ${position.z})`;

@@ -86,7 +86,7 @@ function At({ event }: { event: Event }) {
   );
 }
 
-/** What a port stands for: a primitive by its name in the program where that is known, or by its type. */
+/** The name of a port: the primitive's name in the program if known, or its type. */
 function receiver(port: number, traffic: Traffic): string {
   if (port === 0) return "the program";
   for (const robot of run.robots.value) {

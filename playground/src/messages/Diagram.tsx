@@ -15,7 +15,7 @@ import { paint } from "./paint.ts";
 import { type Arrow, hit, type Mark, type Scene, sceneOf } from "./scene.ts";
 import * as view from "./view.ts";
 
-/** What answers to a pointer, px; a finger is broader. */
+/** The radius in which a pointer hits, px; a finger is broader. */
 const NEAR = 7;
 const NEAR_FINGER = 16;
 

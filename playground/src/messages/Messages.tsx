@@ -1,4 +1,4 @@
-// The space-time diagram: who sent what to whom, and what happened in between.
+// The space-time diagram: the messages between robots, and the events in between.
 
 import { signal } from "@preact/signals";
 import { run } from "../app/context.ts";

@@ -1,4 +1,4 @@
-// What is known of the messages of the run that is shown, and the causal past that a person looks at.
+// The messages of the run that is shown, and the causal past of the chosen event.
 
 import { signal } from "@preact/signals";
 import { run } from "../app/context.ts";

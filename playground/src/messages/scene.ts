@@ -1,5 +1,5 @@
-// What is to be drawn of a stretch of the diagram, and what lies under a pointer. Only events of that stretch are
-// looked at; where they are too many, every so manyth one is.
+// The shapes of a stretch of the diagram, and those under a pointer. Only events of that stretch are
+// drawn; of too many events only a regular sample is.
 
 import type { Event, Events } from "../run/events.ts";
 import type { Datagram, Traffic } from "./traffic.ts";
@@ -98,7 +98,7 @@ function arrow(datagram: Datagram, end: Event | null, frame: Frame): Arrow {
   return { datagram, end, x1, y1, x2, y2, lost };
 }
 
-/** What lies within so many px of a place; marks lie over arrows. */
+/** The shapes within so many px of a place; marks lie over arrows. */
 export function hit(scene: Scene, x: number, y: number, near: number): Mark | Arrow | null {
   let [found, least]: [Mark | Arrow | null, number] = [null, near];
   for (const mark of scene.marks) {

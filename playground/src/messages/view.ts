@@ -1,4 +1,4 @@
-// What part of the space-time diagram is seen: time runs downwards, each robot has a column.
+// The visible part of the space-time diagram: time runs downwards, each robot has a column.
 
 import { signal } from "@preact/signals";
 import { run } from "../app/context.ts";

@@ -12,7 +12,7 @@ import { PAPER, pngOf, svgOf } from "./svg.ts";
 import { TimePlot } from "./TimePlot.tsx";
 import "../styles/plots.css";
 
-/** While a run plays, its plot is drawn anew so often, ms. */
+/** The interval at which the plot of a playing run is redrawn, ms. */
 const EVERY = 250;
 
 const KINDS: [Kind, string][] = [

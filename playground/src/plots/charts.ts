@@ -16,7 +16,7 @@ const MOST_ROBOTS = 12;
 
 /** A run that was kept to be drawn under the one that is shown. */
 export interface KeptRun {
-  /** What its lines are marked with. */
+  /** The marks of its lines. */
   number: number;
   name: string;
   frames: typeof run.history.frames;

@@ -14,7 +14,7 @@ export interface Step {
 }
 
 export class SharedVariables {
-  /** What robots came to hold, by variable. */
+  /** The values of robots, by variable. */
   steps = new Map<string, Step[]>();
   #values = new Map<string, Map<string, number>>();
   #scanned = 0;

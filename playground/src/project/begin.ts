@@ -1,4 +1,4 @@
-// What the page shows first: what its address names, or what was shown last.
+// The initial project of the page: the one in its address, or the last one.
 
 import { benchTab } from "../app/Bench.tsx";
 import { run } from "../app/context.ts";
@@ -16,7 +16,7 @@ export async function begin(): Promise<void> {
     await openExample(example, { play: false });
   } else if (returning) {
     benchTab.value = "program";
-    // What is not finished yet is no reason for a message.
+    // Unfinished input causes no message.
     if (!(await runProject({ play: false }))) run.problem.value = null;
   }
 }

@@ -1,4 +1,4 @@
-// What the compiler and the reader of scenarios say of the files, as one types.
+// The problems of the compiler and the scenario reader, as you type.
 
 import { effect, signal } from "@preact/signals";
 import { run } from "../app/context.ts";

@@ -45,7 +45,7 @@ export function pathProblem(path: string): string | null {
   return null;
 }
 
-/** What is opened of the files. */
+/** The opened target among the files. */
 export function optionsOf({ files, scenario, active }: Project, seed: string): Options {
   const options: Options = {};
   if (seed !== "") options.seed = seed;

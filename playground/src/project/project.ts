@@ -7,7 +7,7 @@ import * as storage from "./storage.ts";
 /** Between a change and its being kept, ms. */
 const REST = 300;
 
-const FIRST = `/// Robots drive to the first way-point.
+const FIRST = `/// Robots drive to the first waypoint.
 program Hello
 
 motion = ReachAvoid()
@@ -78,7 +78,7 @@ function change(changes: Partial<Project>): void {
   project.value = { ...project.value, ...changes, touched: true, changed: Date.now() };
 }
 
-/** Opens a new project. The one before is kept, unless nobody has changed it. */
+/** Opens a new project. The previous one is kept if it was changed. */
 export function start(draft: Draft): void {
   leave();
   project.value = make(draft);

@@ -1,4 +1,4 @@
-// What happened in a run, in order: the records of the trace but for poses. Memory is bounded: of too many records
+// The events of a run, in order: the records of the trace except poses. Memory is bounded: of too many records
 // the oldest datagrams are forgotten first, then the oldest of the others.
 
 import type { TraceRecord } from "../engine/types.ts";

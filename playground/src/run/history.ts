@@ -16,7 +16,7 @@ export interface Frame {
 
 export class History {
   frames: Frame[] = [];
-  /** Changes whenever frames are taken away, so that what is drawn from them is drawn anew. */
+  /** Changes whenever frames are removed, so that drawings of them are redrawn. */
   generation = 0;
   #numbers = 0;
 

@@ -22,7 +22,7 @@ import { History } from "./history.ts";
 /** The worker answers within this time, unless a program keeps it busy; ms. */
 const PATIENCE = 10_000;
 
-/** What stepping by event stops at. */
+/** The events at which stepping stops. */
 export const STORY = [
   "action",
   "program",
@@ -49,7 +49,7 @@ export class Run {
 
   /** Null while nothing is open. */
   readonly opened = signal<Opened | null>(null);
-  /** What was opened. */
+  /** The opened target. */
   readonly source = signal<Source | null>(null);
   readonly opening = signal(false);
   /** Why nothing could be opened, or why the run could not go on. */
@@ -64,7 +64,7 @@ export class Run {
   readonly playing = signal(false);
   /** Simulated seconds in a second. */
   readonly speed = signal(1);
-  /** What it comes to. */
+  /** The result. */
   readonly pace = signal(0);
   readonly over = signal(false);
   /** When the run ends, as far as that is known, s. */

@@ -1,4 +1,4 @@
-// A list of tables as a form: robots, way-points, faults.
+// A list of tables as a form: robots, waypoints, faults.
 
 import { edit } from "./document.ts";
 import { Fields } from "./Fields.tsx";
@@ -65,7 +65,7 @@ function schemasOf(table: Schema, model: string): Record<string, Schema> {
   return {};
 }
 
-/** What a new element needs to be accepted. */
+/** The required fields of a new element. */
 function first(name: string, fields: Field[], values: Table[]): Table {
   const made: Table = {};
   const taken = new Set(values.map((value) => value.name));

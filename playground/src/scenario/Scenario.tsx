@@ -108,7 +108,7 @@ function Without() {
       <p>
         A scenario says which robots there are, what their world looks like, how good the radio is, and what
         breaks. This project has none: its program runs with four robots on an empty floor with four
-        way-points.
+        waypoints.
       </p>
       <button type="button" class="primary" onClick={add}>
         Add a scenario

@@ -1,4 +1,4 @@
-// What the reader says of single fields, and what the program offers to set.
+// The reader's problems of single fields, and the parameters of the program.
 
 import { computed } from "@preact/signals";
 import { diagnostics } from "../project/checking.ts";

@@ -26,10 +26,10 @@ export interface Field {
   name: string;
   label: string;
   about: string;
-  /** What it holds, as the reader names it: `quantity`, `choice`, `tables` and so on. */
+  /** Its kind, as the reader names it: `quantity`, `choice`, `tables` and so on. */
   kind: string;
   required: boolean;
-  /** What holds if it is left out. */
+  /** The default. */
   default: string;
   /** The words that it may be, in place of another value or as the only ones. */
   choices: string[];

@@ -1,14 +1,14 @@
 // A project as the fragment of an address, `p=1.DATA`: the version of the form, and JSON, compressed, in base64url.
-// Fragments are not sent to any server. A link may come from anybody, so nothing in it is trusted.
+// Fragments are not sent to any server. A link may come from anyone, so nothing in it is trusted.
 
 import { deflateSync, Inflate, strFromU8, strToU8 } from "fflate";
 import { LIMITS, type Project, pathProblem } from "../project/model.ts";
 import * as base64 from "./base64.ts";
 
 const VERSION = "1";
-/** What a link unpacks to, bytes. */
+/** The maximum unpacked size of a link, bytes. */
 const MOST_BYTES = 2_000_000;
-/** What a link is long, characters. */
+/** The maximum length of a link, characters. */
 const LONGEST = 1_500_000;
 /** Compressed bytes that are unpacked at a time: no more than about 1,000 times as many come of them. */
 const PORTION = 256;

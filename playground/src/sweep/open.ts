@@ -28,7 +28,7 @@ export const shrinking = signal<Shrinking | null>(null);
 export interface OpenedTrial {
   path: string;
   text: string;
-  /** What shrinking came to; null for a run as it is. */
+  /** The result of shrinking; null for an unshrunk run. */
   shrunk: Shrunk | null;
 }
 

@@ -1,10 +1,10 @@
-// What a sweep asks of its workers. Each worker does one thing at a time.
+// The requests of a sweep to its workers. Each worker does one thing at a time.
 
 import type * as starl from "../../../apps/starl-wasm/starl.d.mts";
 
 export type { Profile, Shrunk, Tried } from "../../../apps/starl-wasm/starl.d.mts";
 
-/** What is tried. */
+/** The subject of the trials. */
 export interface Target {
   files: Record<string, string>;
   options: starl.TrialOptions;

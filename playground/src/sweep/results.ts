@@ -1,4 +1,4 @@
-// What came of the runs of a sweep: counts by profile, the distribution of a number, and a table of all runs.
+// The results of a sweep: counts by profile, the distribution of a number, and a table of all runs.
 
 import { quoted } from "../plots/chart.ts";
 import type { Tried } from "./protocol.ts";

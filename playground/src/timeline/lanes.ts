@@ -1,4 +1,4 @@
-// What the timeline marks, in lanes from top to bottom, each with a colour and a shape of its own.
+// The marks of the timeline, in lanes from top to bottom, each with a colour and a shape of its own.
 
 import type { TraceRecord } from "../engine/types.ts";
 import { recorded, wordsOf } from "../meddle/words.ts";
@@ -30,7 +30,7 @@ const LANE_OF = new Map(
 
 export const laneOf = ({ topic }: TraceRecord): number | undefined => LANE_OF.get(topic);
 
-/** What a mark says. */
+/** The text of a mark. */
 export function describe({ topic, message }: TraceRecord, name: (robot: number) => string): string {
   const who = message.robot === undefined ? "" : `${name(message.robot)}: `;
   const text = (member: string) => String(message[member] ?? "");

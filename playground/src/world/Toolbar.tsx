@@ -61,7 +61,7 @@ export function Toolbar({ fit, onlyFlat }: Props) {
       {run.live.value && (
         <Tool
           label="Move"
-          title="Drag robots, way-points, things and obstacles to another place"
+          title="Drag robots, waypoints, things and obstacles to another place"
           pressed={tool.value === "move"}
           act={() => {
             tool.value = tool.value === "move" ? "look" : "move";

@@ -51,7 +51,7 @@ export function WorldView() {
   );
 }
 
-/** What to do with the tool that is chosen. */
+/** Instructions for the chosen tool. */
 function Hint() {
   if (tool.value === "measure") {
     const text = ["Click the first place.", "Click the second place.", "Click to measure again."][
@@ -60,7 +60,7 @@ function Hint() {
     return <p class="world-note">{text}</p>;
   }
   if (tool.value === "move")
-    return <p class="world-note">Drag a robot, a way-point, a thing or an obstacle.</p>;
+    return <p class="world-note">Drag a robot, a waypoint, a thing or an obstacle.</p>;
   return null;
 }
 

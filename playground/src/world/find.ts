@@ -1,4 +1,4 @@
-// What is at a place of the screen.
+// Finds the item at a place of the screen.
 
 import { footprint } from "./fit.ts";
 import type { Target } from "./pick.ts";

@@ -1,4 +1,4 @@
-// What a view has to show: robots that move, where they were just now and where they mean to go, rather than the
+// The content that a view must show: robots that move, their recent and planned paths, rather than the
 // world's far corners.
 
 import { type Obstacle, POSE_NUMBERS, type World } from "../engine/types.ts";
@@ -13,7 +13,7 @@ const LOOKED_AT = 250;
 /** Of more robots than this, those far from the others do not count. */
 const FEW = 12;
 const SHARE_OF_MANY = 0.5;
-/** Way-points and obstacles around few robots, and around many, count while the view is at most so many times as large. */
+/** Waypoints and obstacles count while they enlarge the view around the robots by at most this factor. */
 const [AROUND_FEW, AROUND_MANY] = [6, 1.5];
 
 export function boxOf(places: Place[]): Box | null {

@@ -1,4 +1,4 @@
-// What a person does in the world: selects, measures, moves.
+// The tools of a person in the world: select, measure, move.
 
 import { run } from "../app/context.ts";
 import { EngineError } from "../engine/client.ts";
@@ -21,7 +21,7 @@ import type { WorldScreen } from "./world.ts";
 
 export class Hand implements Listener {
   #controls: Controls;
-  /** What a tool drags, and the place on its floor at which it was taken. */
+  /** The dragged item, and the place on its floor at which it was taken. */
   #dragged: { target: Target; from: Point; at: { x: number; y: number } } | null = null;
 
   constructor(

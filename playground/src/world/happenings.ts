@@ -1,4 +1,4 @@
-// What the records of a run say about the picture at a moment: what programs have drawn, where robots mean to go, the
+// The picture at a moment from the records of a run: drawings of programs, planned paths, the
 // datagrams under way, and what has just happened. Each record is read once.
 
 import type { Point } from "../engine/types.ts";
@@ -76,7 +76,7 @@ export class Happenings {
     for (const ledger of [this.marks, this.plans, this.areas, this.range]) ledger.go(position);
   }
 
-  /** What happened in the last `span` seconds before `now`, the newest first. */
+  /** The events of the last `span` seconds before `now`, the newest first. */
   flashes(now: number, span: number, each: (flash: Flash) => void): void {
     for (let index = this.#flashes.length - 1; index >= 0; index--) {
       const flash = this.#flashes[index];

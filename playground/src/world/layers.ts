@@ -1,4 +1,4 @@
-// What is shown of the world, as a person has chosen it; remembered by the browser.
+// The visible layers of the world, as chosen; remembered by the browser.
 
 import { type Signal, signal } from "@preact/signals";
 
@@ -10,7 +10,7 @@ export const LAYERS = {
   messages: "Messages",
   range: "Radio range of selected robots",
   marks: "Drawings of programs",
-  wayPoints: "Way-points",
+  wayPoints: "Waypoints",
   areas: "Areas",
   things: "Things",
   obstacles: "Obstacles",

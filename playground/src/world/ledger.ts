@@ -1,4 +1,4 @@
-// What holds at a moment of the run, by key, made from a list of changes in the order of the records. It goes forth and
+// The values at a moment of the run, by key, from a list of changes in the order of the records. It goes forth and
 // back by doing and undoing the changes in between, so a step costs what has changed.
 
 interface Change<Value> {
@@ -7,7 +7,7 @@ interface Change<Value> {
   key: string;
   /** Null takes the entry away. */
   value: Value | null;
-  /** What it took the place of, once it is done. */
+  /** The previous value, once it is done. */
   before: Value | undefined;
 }
 

@@ -21,7 +21,7 @@ export function placeOf(target: Target, { poses, world }: Scene): Point | null {
   }
 }
 
-/** What moves it by so much; null if it is not there any more. */
+/** The intervention that moves it by this distance; null if it no longer exists. */
 export function movedBy(target: Target, by: { x: number; y: number }, { world }: Scene): Intervention | null {
   const shifted = (point: Point): Point => ({ x: point.x + by.x, y: point.y + by.y, z: point.z });
   switch (target.kind) {

@@ -1,4 +1,4 @@
-// What the pointer is on, and what it is for: the interface between the view of the world and the parts of the page
+// The item under the pointer, and its use: the interface between the view of the world and the parts of the page
 // that let a person do something there.
 
 import { signal } from "@preact/signals";
@@ -11,7 +11,7 @@ export type Target =
   | { kind: "thing"; name: string }
   | { kind: "obstacle"; index: number };
 
-/** What the pointer does: selects robots, measures, moves what it drags; other parts may bring tools of their own. */
+/** The action of the pointer: selects robots, measures, moves items; other parts may add tools. */
 export type Tool = "look" | "measure" | "move" | (string & {});
 
 export interface Click {
@@ -23,7 +23,7 @@ export interface Click {
 
 export const tool = signal<Tool>("look");
 
-/** What is under the pointer. */
+/** The item under the pointer. */
 export const hovered = signal<Target | null>(null);
 
 /** The place on the floor under the pointer, m. */
@@ -38,7 +38,7 @@ export const followed = signal<number | null>(null);
 /** The ends of what is measured: none, one, or two. */
 export const measured = signal<Point[]>([]);
 
-/** What is being moved: where it was taken, and where it would be put. */
+/** The item being moved: where it was taken, and where it would be put. */
 export const moving = signal<{ target: Target; from: Point; to: Point } | null>(null);
 
 export const sameTarget = (one: Target | null, other: Target | null): boolean =>

@@ -16,7 +16,7 @@ import { rangeOf } from "./range.ts";
 import type { Painter, Scene } from "./scene.ts";
 import { type Box, View } from "./view.ts";
 
-/** How often a view that nobody has changed looks whether it still shows everything, ms. */
+/** The interval at which an unchanged view checks whether it still shows everything, ms. */
 const LOOK_EVERY = 400;
 /** How long what has just happened stays visible, s of real time at normal speed. */
 const LINGER = 0.45;
@@ -31,7 +31,7 @@ export class WorldScreen {
   #upper: HTMLCanvasElement;
   #ratio = 1;
   #requested = 0;
-  /** Whether the view goes with what moves, as nobody has changed it. */
+  /** Whether the view follows moving robots, because no person has changed it. */
   #free = true;
   #lookedAt = 0;
   #opened: unknown = null;
@@ -226,7 +226,7 @@ function enlargement({ count, fleet }: Scene, view: View): number {
   return Math.max(1, (seen * view.pixel) / (2 * radius));
 }
 
-/** What reaches to the sky is drawn a little higher than robots on the floor, and not so high that it hides them. */
+/** Unbounded obstacles are drawn slightly higher than robots on the floor, and low enough not to hide them. */
 function skyOf({ fleet, enlarged }: Scene): number {
   const tallest = fleet.reduce((most, { height, flies }) => Math.max(most, flies ? 0 : height), 0.1);
   return Math.min(2, tallest * 2.2 * Math.min(3, enlarged));

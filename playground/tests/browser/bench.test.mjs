@@ -133,7 +133,7 @@ test("what is drawn on the map is in the text, and the other way round", async (
   await tab(page, "Scenario");
   await page.waitForSelector(".text-side .cm-content");
   const before = await page.locator(".map .item.way-point").count();
-  await page.getByRole("button", { name: "Way-point" }).click();
+  await page.getByRole("button", { name: "Waypoint" }).click();
   const box = await page.locator(".map svg").boundingBox();
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   assert.equal(await page.locator(".map .item.way-point").count(), before + 1);

@@ -1,4 +1,4 @@
-// What the tests in a browser share: the built page, served from this machine, in a headless Chromium of the system.
+// Shared code of the browser tests: the built page, served from this machine, in a headless Chromium of the system.
 
 import { existsSync, readFileSync } from "node:fs";
 import { createServer } from "node:http";

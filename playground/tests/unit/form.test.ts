@@ -11,7 +11,7 @@ const SCHEMA: Schema = {
       "x-kind": "text",
     },
     duration: {
-      description: "The run ends here at the latest.",
+      description: "The time at which the run ends at the latest.",
       default: "120s",
       "x-kind": "quantity",
       "x-quantity": "duration",

@@ -1,4 +1,4 @@
-// What is marked as changed, what passes a filter, how long values are laid out, what a diagram draws.
+// Marks of changes, filters, the length of unfolded values, and the shapes of a diagram.
 
 import { expect, test } from "vitest";
 import { Changes } from "../../src/inspect/changes.ts";

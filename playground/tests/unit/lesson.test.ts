@@ -12,7 +12,7 @@ beforeAll(async () => {
   starl = await load(readFileSync(new URL("../../wasm/starl.wasm", import.meta.url)));
 });
 
-/** What there is to see when these files were run to the end. */
+/** The view after these files were run to the end. */
 function see(files: Record<string, string>): Seen {
   const diagnostics = starl.check(files);
   const scenario = files["hunt.toml"] === undefined ? null : (parse(files["hunt.toml"]) as Table);

@@ -1,4 +1,4 @@
-// What a person types to steer is read as what it looks like; what is done is said in words.
+// Steering input is parsed by its form; interventions are described in words.
 
 import { expect, test } from "vitest";
 import { readFields, readGroups, readRobots } from "../../src/meddle/fields.ts";

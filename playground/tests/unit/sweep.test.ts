@@ -1,4 +1,4 @@
-// What came of many runs is counted, ordered, distributed over bins and written as a table.
+// The results of many runs are counted, ordered, distributed over bins and written as a table.
 
 import { expect, test } from "vitest";
 import type { Tried } from "../../src/sweep/protocol.ts";

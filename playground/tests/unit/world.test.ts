@@ -1,4 +1,4 @@
-// What the view of the world works out: places on the screen, what holds at a moment, which datagrams are under way.
+// The computations of the view of the world: places on the screen, values at a moment, datagrams in transit.
 
 import { describe, expect, test } from "vitest";
 import { POSE_NUMBERS } from "../../src/engine/types.ts";

@@ -83,7 +83,7 @@ fn everything_that_happened_is_on_it() {
         ">acquire door<",
         ">crash<",
         ">restart<",
-        ">network in parts<",
+        ">network partitioned<",
         ">mutex<",
         "mutex.safety: a and b both hold &lt;door&gt;",
         ">2.5000 s<",

@@ -128,7 +128,7 @@ impl Account {
         line("depth", counted(self.depth as usize, "step"));
         line(
             "ends",
-            counted(self.terminal_states as usize, "state") + " from which nothing leads on",
+            counted(self.terminal_states as usize, "state") + " without a next step",
         );
         let per_second = f64::from(self.states) / self.seconds.max(1e-6);
         line(
@@ -144,7 +144,7 @@ impl Account {
             line(
                 "merging",
                 format!(
-                    "{} turns of robots that were taken for the same agree",
+                    "{} compared turns of robots agree",
                     grouped(self.compared_turns)
                 ),
             );
@@ -195,7 +195,7 @@ impl Account {
         match (self.outcome, &self.violation) {
             ("complete", _) => "complete: no behaviour within the bounds violates anything".into(),
             (_, Some(violation)) => format!(
-                "violated: {} after {}; no shorter way leads there",
+                "violated: {} after {}; there is no shorter path",
                 violation.property,
                 counted(violation.steps, "step")
             ),

@@ -62,7 +62,7 @@ struct Link {
     rehearse: Option<Rehearsal>,
 }
 
-/// What is done to packets that robots send.
+/// The impairment of packets that robots send.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Rehearsal {
@@ -118,7 +118,7 @@ pub struct Network {
     pub router: Option<String>,
     /// Certificates.
     pub tls: Option<Tls>,
-    /// What makes the network worse than it is.
+    /// The impairment that makes the network worse than it is.
     pub impairment: Option<Impairment>,
 }
 

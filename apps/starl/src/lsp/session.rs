@@ -130,7 +130,7 @@ impl Session {
                 // A fault of ours costs the editor one answer, not the server.
                 let answer = catch_unwind(AssertUnwindSafe(|| answers.to(method, params)));
                 answer.unwrap_or_else(|_| {
-                    let problem = format!("`{method}` failed by a fault of the server");
+                    let problem = format!("`{method}` failed because of an internal error");
                     Err((Fault::Internal, problem))
                 })
             }

@@ -97,7 +97,7 @@ fn describe(scenario: &Scenario) -> String {
 /// The head of the file.
 fn head(subject: &Subject, case: &Case, arguments: &TestArguments) -> String {
     format!(
-        "# Here {} goes wrong: {}.\n# Found by: {}\n\n",
+        "# {} fails here: {}.\n# Found by: {}\n\n",
         one_line(&subject.target),
         one_line(&case.finding.to_string()),
         one_line(&again(subject, case, arguments))

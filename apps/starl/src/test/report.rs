@@ -245,7 +245,7 @@ impl Finding {
             None => {
                 let why = match self.trials {
                     0 => "",
-                    _ => "it did not go wrong again when run from a scenario of its own; ",
+                    _ => "it did not fail again when run from its own scenario; ",
                 };
                 writeln!(text, "  {why}to find it again: {}", self.again)?;
             }

@@ -48,7 +48,7 @@ pub enum Reason {
 impl Reason {
     fn text(self) -> &'static str {
         match self {
-            Reason::Unused => "the trace does not use what it is about",
+            Reason::Unused => "the trace does not use its primitive",
             Reason::LiveProgram => "it needs the running program",
             Reason::CutShort => "the trace ends before its bound is over",
             Reason::MissingRecords => "the trace has no records of true poses",

@@ -67,7 +67,7 @@ impl Up {
         Up(command.spawn().expect("the command was built"))
     }
 
-    /// What it printed, once it has ended.
+    /// Its output, once it has ended.
     fn end(mut self) -> std::process::Output {
         let begun = Instant::now();
         while self.0.try_wait().expect("it can be asked").is_none() {
@@ -179,7 +179,7 @@ fn a_fleet_finishes_although_a_robot_is_killed() {
             "robot1.2.mcap"
         ]
     );
-    // What each life of a robot did is repeated at a desk.
+    // Each life of a robot is repeated at a desk.
     for (trace, robot) in [("robot0.1.mcap", "robot0"), ("robot1.2.mcap", "robot1")] {
         let output = starl(&run, &["replay", trace, "--robot", robot]);
         assert_eq!(status(&output), 0, "{}", stderr(&output));

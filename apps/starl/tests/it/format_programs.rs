@@ -103,7 +103,7 @@ fn a_file_that_cannot_be_written_is_told() {
     assert_eq!(status(&output), 2);
     let text = stderr(&output);
     assert!(
-        text.contains("untidy.starl: cannot be written: this user may not"),
+        text.contains("untidy.starl: cannot be written: permission denied"),
         "{text}"
     );
     assert!(text.contains("missing.starl: cannot be read"), "{text}");

@@ -149,7 +149,7 @@ fn an_invariant_of_a_program_is_found_and_shrunk() {
     let saved = "hasty-Hasty.shy-calm-1.toml";
     let text = fs::read_to_string(folder.join(saved)).expect("it was saved");
     assert!(
-        text.starts_with("# Here hasty.starl goes wrong: Hasty.shy.\n"),
+        text.starts_with("# hasty.starl fails here: Hasty.shy.\n"),
         "{text}"
     );
     assert_eq!(

@@ -92,7 +92,7 @@ fn corners(table: Section<'_>) -> Option<(Point, Point)> {
     }
     if low.x >= high.x || low.y >= high.y || (spatial && low.z >= high.z) {
         let message = "the lowest corner is not below the highest in all coordinates";
-        table.problem("low", message, "swap what is the wrong way round");
+        table.problem("low", message, "swap the corners");
         return None;
     }
     Some((low, high))

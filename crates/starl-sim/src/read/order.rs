@@ -46,7 +46,7 @@ fn value(node: &Node, path: &str, table: Section<'_>, names: &Names) -> Option<V
         };
         if value.is_none() {
             let help = "write { robot = \"name\" }, { robots = [...] } or { text = \"...\" }";
-            let message = "this table is no value of an order";
+            let message = "this table is not a value of an order";
             report.problem_with_help(node.origin, path, message, help);
         }
         return value;
@@ -61,7 +61,7 @@ fn value(node: &Node, path: &str, table: Section<'_>, names: &Names) -> Option<V
             Some(point) => Value::Point(point),
             None => {
                 let help = "write a point, [x, y] or [x, y, z], in metres";
-                let message = "this list is no value of an order";
+                let message = "this list is not a value of an order";
                 report.problem_with_help(node.origin, path, message, help);
                 return None;
             }

@@ -17,7 +17,7 @@ pub(super) fn read(text: &str, report: &Report) -> (Fleet, Origin) {
     for part in text.split(',').map(str::trim) {
         let Some((model, count)) = part.split_once('=') else {
             complain(
-                format!("{part:?} says no number"),
+                format!("{part:?} has no number"),
                 "write it like create=2,drone=2",
             );
             continue;

@@ -23,7 +23,7 @@ pub(super) fn area(table: Section<'_>) -> Option<Placed<Bounds>> {
     let ((low, _), (high, _)) = (low?, high?);
     if low.x >= high.x || low.y >= high.y {
         let message = "the lowest corner is not below the highest in both coordinates";
-        table.problem("low", message, "swap what is the wrong way round");
+        table.problem("low", message, "swap the corners");
         return None;
     }
     let field = table.path_of("");

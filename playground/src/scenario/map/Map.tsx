@@ -1,4 +1,4 @@
-// The world from above, to draw in: way-points, obstacles and where robots start.
+// The world from above, to draw in: waypoints, obstacles and the starts of robots.
 
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
@@ -22,7 +22,7 @@ import { drawn, snapped, type View, viewOf } from "./view.ts";
 
 const TOOLS = [
   ["move", "Move", "Drag things; press Delete to remove the chosen one"],
-  ["way-point", "Way-point", "Click where it is to be"],
+  ["way-point", "Waypoint", "Click where it is to be"],
   ["start", "Robot", "Click where the robot is to start"],
   ["rectangle", "Rectangle", "Drag from corner to corner"],
   ["circle", "Circle", "Drag from the centre"],
@@ -31,7 +31,7 @@ const TOOLS = [
 
 type Tool = (typeof TOOLS)[number][0];
 
-/** What the pointer does: it moves an item, or draws. */
+/** The action of the pointer: it moves an item, or draws. */
 interface Drag {
   from: Point;
   to: Point;
@@ -253,7 +253,7 @@ function Drawing({
   );
 }
 
-/** What the simulator reads besides: from world files, or placed at random. */
+/** Other items that the simulator reads: from world files, or placed at random. */
 function Behind({ unit, items }: { unit: number; items: Item[] }) {
   const shown = backdrop.value;
   if (!shown) return null;

@@ -1,4 +1,4 @@
-// What a scenario's text puts into the world, as things that can be drawn, moved and added. Metres.
+// The items of a scenario's world, which can be drawn, moved and added. Metres.
 
 import { isTable, type Table, tablesOf } from "../table.ts";
 import { append, remove, set, type Toml } from "../toml/edit.ts";

@@ -24,7 +24,7 @@ export interface Entry {
   value: Value;
 }
 
-/** What stands under one header; the first section has none. */
+/** The content under one header; the first section has none. */
 export interface Section {
   /** With numbers for the elements of arrays. */
   path: Path;

@@ -11,7 +11,7 @@ const FONT = '12px system-ui, "Segoe UI", Roboto, sans-serif';
 const BOLD = `600 ${FONT}`;
 /** Labels have room of their own in cells of so many pixels. */
 const CELL = 6;
-/** More robots are not named, nor more way-points. */
+/** More robots or waypoints get no names. */
 const [MOST_ROBOTS, MOST_PLACES] = [90, 30];
 const CONDITIONS = ["", "finished", "failed", "down", "left"];
 

@@ -85,7 +85,7 @@ function flight(
   const [bx = 0, by = 0, b = 0] = screen.subarray(to * 3, to * 3 + 3);
   if (a === 0 || b === 0) return;
   const { context } = pen;
-  // What is lost does not come to the end.
+  // A lost message does not reach the end.
   const along = lost ? 0.7 : share;
   const [x, y] = [ax + (bx - ax) * along, ay + (by - ay) * along];
   context.beginPath();

@@ -1,5 +1,5 @@
-// What is written and drawn over the picture: labels, messages, selection, conditions, what is measured or moved, and
-// the scale. It is the same whoever paints the world below.
+// The overlay of the picture: labels, messages, selection, conditions, measured or moved items, and
+// the scale. It is the same for both painters of the world below.
 
 import { POSE_NUMBERS } from "../../engine/types.ts";
 import { hovered, measured, moving, pointed, type Target, tool } from "../pick.ts";

@@ -1,4 +1,4 @@
-// What programs draw, and where robots mean to go.
+// Drawings of programs, and planned paths.
 
 import { POSE_NUMBERS } from "../../engine/types.ts";
 import { RUNNING, type Scene } from "../scene.ts";

@@ -37,7 +37,7 @@ void main() {
   vec4 a = modelViewMatrix * vec4(start, 1.0);
   vec4 b = modelViewMatrix * vec4(end, 1.0);
   if (projectionMatrix[2][3] == -1.0) {
-    // What is behind the eye is cut off.
+    // Parts behind the eye are cut off.
     float near = -0.5 * projectionMatrix[3][2] / projectionMatrix[2][2];
     near = min(near, -1e-4);
     if (a.z > near && b.z < near) a = mix(a, b, (a.z - near) / (a.z - b.z));
@@ -120,7 +120,7 @@ export function lineMaterial(palette?: Texture, width = 1): ShaderMaterial {
 
 const STRIDE = 12;
 
-/** Lines that are given anew whenever they change: `begin`, `add` each, `end`. */
+/** Lines that are replaced whenever they change: `begin`, `add` each, `end`. */
 export class Lines {
   readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
   #numbers = new Float32Array(64 * STRIDE);

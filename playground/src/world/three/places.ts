@@ -1,4 +1,4 @@
-// What stands in the world: obstacles, way-points, things and areas.
+// The contents of the world: obstacles, waypoints, things and areas.
 
 import {
   BoxGeometry,

@@ -138,7 +138,7 @@ function place(
   matrix[to + 10] = cp * cr * tall;
   matrix[to + 12] = poses[at] ?? 0;
   matrix[to + 13] = poses[at + 1] ?? 0;
-  // What leans over still lies on the floor.
+  // A tilted body still lies on the floor.
   matrix[to + 14] = (poses[at + 2] ?? 0) + Math.sin(lean) * size * 0.9;
   matrix[to + 15] = 1;
 }

@@ -12,7 +12,7 @@ impl Scene<'_> {
     pub(super) fn foot(mut self, lanes: &Lanes<'_>) -> Drawing {
         let story = self.story;
         let part = format!(
-            "from {:.3} s to {:.3} s; room for silence by its logarithm",
+            "from {:.3} s to {:.3} s; silences are drawn with logarithmic length",
             self.axis.start().seconds(),
             self.axis.end().seconds()
         );

@@ -132,7 +132,7 @@ impl Scene<'_> {
         self.drawing.text(
             (from + 3.0, top - 4.0),
             Anchor::Start,
-            "network in parts",
+            "network partitioned",
             10.5,
             INK,
         );

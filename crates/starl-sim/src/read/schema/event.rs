@@ -37,14 +37,13 @@ const FIRST: &[Field] = &[
         "at",
         TIME,
         Default::Depends("required, or else `rate`"),
-        "When it happens, once.",
+        "The time at which it happens, once.",
     ),
     field(
         "rate",
         Kind::Quantity(Dimension::Rate, Range::Positive),
         Default::Word("never"),
-        "How often it happens: again and again at random times, drawn from the seed as a Poisson \
-         process.",
+        "Its rate: it happens repeatedly at random times, drawn from the seed as a Poisson process.",
     ),
     field(
         "within",
@@ -80,7 +79,7 @@ const FIRST: &[Field] = &[
         "by",
         Kind::Point,
         Default::Depends("required for `push`"),
-        "How far and in which direction it is pushed.",
+        "The distance and direction of the push.",
     ),
 ];
 
@@ -116,7 +115,7 @@ const LAST: &[Field] = &[
         "group",
         Kind::Count(0, u32::MAX as u64),
         Default::Value("0"),
-        "A number by which a program may tell waypoints apart.",
+        "A number by which a program can group waypoints.",
     ),
     field(
         "order",
@@ -128,7 +127,7 @@ const LAST: &[Field] = &[
         "fields",
         Kind::Parameters,
         Default::Word("none"),
-        "The details of the order, under names of the program's own.",
+        "The fields of the order, under names that the program defines.",
     ),
     field(
         "like",

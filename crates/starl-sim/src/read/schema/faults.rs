@@ -17,12 +17,17 @@ const KINDS: &[&str] = &[
 
 /// A fault on the schedule.
 pub(super) const FAULT: &[Field] = &[
-    field("at", TIME, Default::Required, "When it sets in."),
+    field(
+        "at",
+        TIME,
+        Default::Required,
+        "The time at which it begins.",
+    ),
     field(
         "kind",
         Kind::Choice(KINDS),
         Default::Required,
-        "What happens; see the list below.",
+        "The kind of fault; see the list below.",
     ),
     field(
         "robots",

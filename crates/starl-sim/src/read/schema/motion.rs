@@ -20,7 +20,7 @@ pub(super) const MOTION: &[Field] = &[
         "noise_period",
         PERIOD,
         Default::Value("500ms"),
-        "How long one draw of these errors lasts.",
+        "The duration of one draw of these errors.",
     ),
     field(
         "avoidance",

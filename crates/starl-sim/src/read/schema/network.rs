@@ -13,9 +13,9 @@ const DISTRIBUTION: Field = field(
     "distribution",
     Kind::Choice(&["constant", "uniform", "normal", "exponential"]),
     Default::Value("normal"),
-    "How delays are distributed: always the mean; evenly over the mean plus and minus the square \
-     root of three times the jitter; normally, cut off at zero; or the mean less the jitter, plus \
-     an exponential part whose mean is the jitter.",
+    "The distribution of delays: always the mean; even over the mean plus and minus the square root of three \
+     times the jitter; normal, cut off at zero; or the mean less the jitter, plus an exponential part \
+     whose mean is the jitter.",
 );
 const LOSS: Field = field(
     "loss",
@@ -39,7 +39,7 @@ const REORDERING_DELAY: Field = field(
     "reordering_delay",
     TIME,
     Default::Value("50ms"),
-    "How long it is held back then, on top of its delay.",
+    "The time for which it is held back, in addition to its delay.",
 );
 
 /// How messages travel.
@@ -77,19 +77,19 @@ const KNOBS: &[Field] = &[
         "bandwidth",
         Kind::Quantity(Dimension::BitRate, Range::Positive),
         Default::Word("unlimited"),
-        "What each robot can send; datagrams queue.",
+        "The send rate of each robot; datagrams queue.",
     ),
     field(
         "queue",
         TIME,
         Default::Value("1s"),
-        "How long a datagram may wait in the sender's queue before it is dropped.",
+        "The longest wait of a datagram in the sender's queue before it is dropped.",
     ),
     field(
         "largest",
         Kind::Count(1, 1 << 30),
         Default::Value("65507"),
-        "Largest datagram in bytes; larger ones are dropped, and the trace says so.",
+        "Largest datagram in bytes; larger ones are dropped, and the trace records this.",
     ),
 ];
 

@@ -4,24 +4,29 @@ use super::*;
 
 /// Robots of the same kind.
 pub(super) const ROBOTS: &[Field] = &[
-    field("model", Kind::Model, Default::Required, "How they move."),
+    field(
+        "model",
+        Kind::Model,
+        Default::Required,
+        "The model of the robots.",
+    ),
     field(
         "count",
         Kind::Count(0, 10_000_000),
         Default::Depends("as many as `start` has, or 1"),
-        "How many there are.",
+        "The number of robots.",
     ),
     field(
         "name",
         Kind::Text,
         Default::Depends("the model's"),
-        "What they are called: this and a number.",
+        "Their name: this text and a number.",
     ),
     field(
         "numbered",
         Kind::Flag,
         Default::Value("true"),
-        "Whether the number is added; only a robot that is alone in its group can do without.",
+        "Whether the number is added; only a single robot can do without it.",
     ),
     field(
         "first_number",
@@ -33,25 +38,25 @@ pub(super) const ROBOTS: &[Field] = &[
         "program",
         Kind::Text,
         Default::Depends("the scenario's `program`"),
-        "What they run.",
+        "The program of the robots.",
     ),
     field(
         "parameters",
         Kind::Parameters,
         Default::Word("none"),
-        "Handed to their program, besides the scenario's `parameters` and before them.",
+        "The parameters of their program, which override the scenario's `parameters`.",
     ),
     tables(
         "start",
         START,
-        "Where they start, in the order of their numbers. A robot for which there is none starts \
-         where a world file says, or else at random in `area`, clear of obstacles and robots.",
+        "The starts of the robots, in the order of their numbers. A robot without one starts at the place in a \
+         world file, or else at random in `area`, clear of obstacles and robots.",
     ),
     field(
         "area",
         Kind::Table(CORNERS),
         Default::Depends("the world's `start_area`"),
-        "Where robots without a start are placed.",
+        "The area in which robots without a start are placed.",
     ),
     field(
         "spacing",
@@ -65,11 +70,11 @@ pub(super) const ROBOTS: &[Field] = &[
         Default::Value("100ms"),
         "Time between two activations of the program.",
     ),
-    table("sensors", SENSORS, "What they sense."),
+    table("sensors", SENSORS, "The sensors of the robots."),
     table(
         "clock",
         CLOCK,
-        "How wrong their clocks are. A robot's clock reads offset + (1 + drift) * time; both are \
+        "The errors of their clocks. A robot's clock reads offset + (1 + drift) * time; both are \
          drawn evenly for each robot.",
     ),
     field(
@@ -128,13 +133,13 @@ const PROXIMITY: &[Field] = &[
         "rays",
         Kind::Count(1, 1024),
         Default::Value("24"),
-        "How many.",
+        "The number of rays.",
     ),
     field(
         "range",
         SIZE,
         Default::Value("100mm"),
-        "How far they see beyond the body's edge.",
+        "Their range beyond the body's edge.",
     ),
 ];
 
@@ -142,7 +147,7 @@ const DETECTOR: &[Field] = &[field(
     "range",
     SIZE,
     Default::Value("600mm"),
-    "How far, from the robot's centre.",
+    "The range, from the robot's centre.",
 )];
 
 const CLOCK: &[Field] = &[

@@ -8,13 +8,13 @@ pub const SCENARIO: &[Field] = &[
         "title",
         Kind::Text,
         Default::Depends("the file's name"),
-        "What is run.",
+        "The title of the run.",
     ),
     field(
         "program",
         Kind::Text,
         Default::Depends("each group names its own"),
-        "What the robots run, unless their group says otherwise.",
+        "The program of the robots, unless their group names another.",
     ),
     field(
         "seed",
@@ -26,22 +26,22 @@ pub const SCENARIO: &[Field] = &[
         "duration",
         SPAN,
         Default::Value("120s"),
-        "The run ends here at the latest.",
+        "The time at which the run ends at the latest.",
     ),
     field(
         "goal",
         Kind::Choice(&["finished", "duration"]),
         Default::Value("finished"),
-        "When the run has reached its goal: when every robot that is up has finished, and it ends \
-         then; or when it has lasted its duration.",
+        "The goal of the run: every robot that is up has finished, and the run ends then; or the run has lasted \
+         its duration.",
     ),
     field(
         "parameters",
         Kind::Parameters,
         Default::Word("none"),
-        "Handed to every program, unless its group says otherwise.",
+        "The parameters of every program, unless its group overrides them.",
     ),
-    table("world", world::WORLD, "What robots move in."),
+    table("world", world::WORLD, "The world of the robots."),
     field(
         "robots",
         Kind::Tables(robots::ROBOTS),
@@ -49,31 +49,27 @@ pub const SCENARIO: &[Field] = &[
         "The fleet, a table for each group of robots of the same kind. They are numbered through \
          from 0 in the order of the file.",
     ),
-    table("physics", PHYSICS, "How finely motion is computed."),
-    table(
-        "positioning",
-        POSITIONING,
-        "How robots learn where they are.",
-    ),
+    table("physics", PHYSICS, "The resolution of motion."),
+    table("positioning", POSITIONING, "The positioning of the robots."),
     table(
         "motion",
         motion::MOTION,
-        "How exactly robots move, and how they keep clear of each other.",
+        "The accuracy of motion, and the avoidance of other robots.",
     ),
-    table("storage", STORAGE, "What robots keep over a crash."),
+    table("storage", STORAGE, "The storage of the robots."),
     table(
         "wind",
         WIND,
         "Moving air, the same everywhere: a steady part and a gust that swings as a sine. Robots \
          on the ground do not feel it.",
     ),
-    table("network", network::NETWORK, "How messages travel."),
-    tables("fault", faults::FAULT, "What breaks, and when."),
+    table("network", network::NETWORK, "The network."),
+    tables("fault", faults::FAULT, "The faults, with their times."),
     tables(
         "event",
         event::EVENT,
-        "Whatever else happens, and when: faults, changes of the world and of the network, orders, \
-         robots that join and leave.",
+        "Other events, with their times: faults, changes of the world and of the network, orders, robots that \
+         join and leave.",
     ),
     table(
         "fault_rates",
@@ -83,9 +79,9 @@ pub const SCENARIO: &[Field] = &[
     table(
         "properties",
         PROPERTIES,
-        "What is checked while the run goes on.",
+        "The properties that are checked during the run.",
     ),
-    table("trace", TRACE, "What is recorded."),
+    table("trace", TRACE, "The options of the trace."),
 ];
 
 const PHYSICS: &[Field] = &[
@@ -142,8 +138,8 @@ const STORAGE: &[Field] = &[
         "write_time",
         TIME,
         Default::Value("5ms"),
-        "How long a write takes. A crash before its end undoes it. A robot sends nothing that rests on \
-         what is not written yet.",
+        "The duration of a write. A crash before its end undoes it. A robot sends nothing that depends on \
+         unwritten values.",
     ),
     field(
         "loss",
@@ -221,7 +217,7 @@ const PROPERTIES: &[Field] = &[
         "unicast",
         Kind::Flag,
         Default::Value("true"),
-        "What is sent to one robot reaches it, once.",
+        "Messages to one robot reach it, once.",
     ),
     field(
         "unicast_bound",
@@ -245,7 +241,7 @@ const PROPERTIES: &[Field] = &[
         "election",
         Kind::Flag,
         Default::Value("true"),
-        "What leader elections promise.",
+        "The guarantees of leader elections.",
     ),
     field(
         "election_bound",
@@ -263,7 +259,7 @@ const PROPERTIES: &[Field] = &[
         "mutex_bound",
         SPAN,
         Default::Value("35s"),
-        "Within this time what is free is granted.",
+        "Within this time a free resource is granted.",
     ),
     field(
         "register",
@@ -275,7 +271,7 @@ const PROPERTIES: &[Field] = &[
         "registration",
         Kind::Flag,
         Default::Value("true"),
-        "What registrations promise.",
+        "The guarantees of registrations.",
     ),
     field(
         "registration_bound",
@@ -287,7 +283,7 @@ const PROPERTIES: &[Field] = &[
         "barrier",
         Kind::Flag,
         Default::Value("true"),
-        "What barriers promise.",
+        "The guarantees of barriers.",
     ),
     field(
         "barrier_bound",

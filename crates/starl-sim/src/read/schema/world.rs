@@ -20,22 +20,22 @@ pub(super) const WORLD: &[Field] = &[
         "start_area",
         Kind::Table(CORNERS),
         Default::Depends("`bounds`, or else everything in the world and 1 m around it"),
-        "Where robots without a start of their own are placed, their bodies wholly inside.",
+        "The area in which robots without a start are placed, with their whole bodies.",
     ),
     tables(
         "obstacle",
         OBSTACLE,
-        "What is in the way. Each has one of the four shapes.",
+        "The obstacles. Each has one of the four shapes.",
     ),
     tables(
         "occupancy",
         OCCUPANCY,
-        "Obstacles drawn in an image, as maps of buildings often are.",
+        "Obstacles from an image, such as a map of a building.",
     ),
     tables(
         "way_point",
         WAY_POINT,
-        "Places handed to every program, in this order.",
+        "The waypoints of every program, in this order.",
     ),
     tables("thing", THING, "Things that detectors see."),
 ];
@@ -48,7 +48,7 @@ const OBSTACLE: &[Field] = &join::<{ SHAPE.len() + 2 }>(&[
             "expires",
             SPAN,
             Default::Word("never"),
-            "It vanishes at this time.",
+            "It disappears at this time.",
         ),
     ],
 ]);
@@ -133,7 +133,7 @@ const OCCUPANCY: &[Field] = &[
         "origin",
         Kind::PlanarPoint,
         Default::Value("[0, 0]"),
-        "Where the lower left corner of the image lies.",
+        "The place of the lower left corner of the image.",
     ),
     field(
         "threshold",
@@ -160,14 +160,14 @@ const WAY_POINT: &[Field] = &[
         "name",
         Kind::Text,
         Default::Required,
-        "Its name; no two are called the same.",
+        "Its name, which must be unique.",
     ),
-    field("position", Kind::Point, Default::Required, "Where it is."),
+    field("position", Kind::Point, Default::Required, "Its position."),
     field(
         "group",
         Kind::Count(0, u32::MAX as u64),
         Default::Value("0"),
-        "A number by which a program may tell waypoints apart.",
+        "A number by which a program can group waypoints.",
     ),
 ];
 
@@ -176,7 +176,7 @@ const THING: &[Field] = &[
         "name",
         Kind::Text,
         Default::Required,
-        "Its name; no two are called the same.",
+        "Its name, which must be unique.",
     ),
-    field("position", Kind::Point, Default::Required, "Where it is."),
+    field("position", Kind::Point, Default::Required, "Its position."),
 ];
