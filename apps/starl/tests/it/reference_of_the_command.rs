@@ -1,9 +1,13 @@
-//! `docs/reference/command.md` has every subcommand with every option, and no others.
+//! `docs/reference/command.md` and, for real robots, `docs/reference/fleet.md` have every subcommand with every option, and
+//! no others.
 
 use crate::support::{folder, starl};
 use std::collections::BTreeSet;
 
-const REFERENCE: &str = include_str!("../../../../docs/reference/command.md");
+const REFERENCE: &str = concat!(
+    include_str!("../../../../docs/reference/command.md"),
+    include_str!("../../../../docs/reference/fleet.md")
+);
 
 /// The output of the command.
 fn printed(arguments: &[&str]) -> String {
