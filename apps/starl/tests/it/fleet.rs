@@ -97,6 +97,30 @@ impl Drop for Up {
     }
 }
 
+/// Sends a robot of the folder's fleet packets that make no sense, of every length and kind.
+fn disturb(folder: &Path) {
+    let text = std::fs::read_to_string(folder.join("fleet.toml")).expect("it is there");
+    let port = text
+        .lines()
+        .find_map(|line| line.strip_prefix("first_port = "));
+    let port: u16 = port
+        .and_then(|port| port.parse().ok())
+        .expect("a port is given");
+    let socket = UdpSocket::bind("127.0.0.1:0").expect("there is a free port");
+    let mut state = 1u64;
+    for count in 0..20_000u64 {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        let length = (state >> 33) as usize % 300;
+        let mut packet: Vec<u8> = (0..length).map(|i| (state >> (i % 50)) as u8).collect();
+        if let Some(kind) = packet.first_mut() {
+            *kind = (count % 6) as u8;
+        }
+        let _ = socket.send_to(&packet, ("127.0.0.1", port));
+    }
+}
+
 fn status_of(folder: &Path) -> Vec<Value> {
     let output = starl(folder, &["fleet", "status", "fleet.toml", "--json"]);
     json(&output).as_array().expect("it is a list").clone()
@@ -212,6 +236,13 @@ fn an_operator_sees_and_stops_a_fleet_and_a_stranger_does_not() {
         robots[0]["links"][0]["clock_offset"]
             .as_f64()
             .is_some_and(|s| s.abs() < 0.05)
+    );
+
+    disturb(&folder);
+    let robots = wait_until(&folder, hear_each_other);
+    assert!(
+        robots[0]["refused_packets"].as_u64() > Some(1000),
+        "{robots:?}"
     );
 
     // The same fleet file with another key.
