@@ -19,7 +19,7 @@ pub struct ProgramMonitor {
     robots: Arc<[RobotId]>,
     /// The robots of which a check was false although no fault had overwritten variables.
     unsound: BTreeSet<RobotId>,
-    /// The fleet and its way-points at first. Where an operator changes them checks may be false.
+    /// The fleet and its waypoints at the start. Where an operator changes them checks may be false.
     first: Option<(Arc<[RobotId]>, Arc<[WayPoint]>)>,
 }
 

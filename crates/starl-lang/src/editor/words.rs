@@ -93,7 +93,7 @@ pub(super) const DECLARATIONS: &[Word] = &[
     word(
         "check",
         "check condition",
-        "What the variables always satisfy; where a fault has overwritten them and it is false, the program begins anew.",
+        "A condition that the variables always satisfy; where a fault has overwritten them and it is false, the program starts again.",
     ),
     word(
         "invariant",
@@ -224,7 +224,7 @@ pub(super) const QUANTIFIERS: &[Word] = &[
     word(
         "assuming",
         "assuming condition",
-        "What has to hold for the property to be judged.",
+        "The property is judged only while this holds.",
     ),
     word(
         "despite",

@@ -233,8 +233,8 @@ pub struct Action {
     pub documentation: String,
 }
 
-/// What the program's variables always satisfy, as far as no fault has overwritten them. Where it is false the
-/// program begins anew.
+/// A condition that the program's variables always satisfy, as long as no fault has overwritten them. Where it is false the
+/// program starts again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Check {
     /// The local variables.

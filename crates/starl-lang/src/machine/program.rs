@@ -208,7 +208,7 @@ pub struct Action {
     /// The primitives that it must have for itself while it runs: linearizable variables.
     pub atomic: Vec<u32>,
     /// Whether it is a check: its guard holds where the program's variables are not as they always are, and its
-    /// effect begins anew. Checks come before all other actions.
+    /// effect starts the program again. Checks come before all other actions.
     pub is_check: bool,
     /// For how long its guard has to have held: a function like a guard whose results are a Bool and a Duration.
     pub hold: Option<u32>,

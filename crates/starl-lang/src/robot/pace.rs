@@ -5,7 +5,7 @@
 use crate::machine::{Action, Machine, RuntimeError};
 use starl_core::{Duration, Random, Time};
 
-/// What is remembered of an action that waits for a time.
+/// The state of an action that waits for a time.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Pace {
     /// Since when the guard has held at each activation; since the action fired, if that is later.
@@ -73,7 +73,7 @@ impl Pace {
     }
 }
 
-/// What a function of an action gives; nothing if it has none.
+/// The result of a function of an action; zero if it has none.
 fn duration(function: Option<u32>, machine: &mut Machine<'_>) -> Result<Duration, RuntimeError> {
     let Some(function) = function else {
         return Ok(Duration::ZERO);

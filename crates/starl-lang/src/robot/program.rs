@@ -98,7 +98,7 @@ impl RobotProgram {
         })
     }
 
-    /// How often it has begun anew because a check was false.
+    /// How often it has started again because a check was false.
     pub fn resets(&self) -> u32 {
         self.resets
     }
@@ -195,7 +195,7 @@ impl RobotProgram {
     }
 }
 
-/// Has the program begin anew if a check is false; gives the first one that is.
+/// Starts the program again if a check is false; returns the first one that is.
 fn check(code: &Code, machine: &mut Machine<'_>) -> Result<Option<u32>, RuntimeError> {
     let mut first = None;
     for number in 0..code.checks() {

@@ -40,7 +40,7 @@ impl<'p> Unit<'p> {
         Ok(body.finish(&name, Vec::new(), results))
     }
 
-    /// What gives how long a guard has to hold, or how often an action fires.
+    /// The function that gives how long a guard has to hold, or how often an action fires.
     pub fn time(
         &mut self,
         action: &'p ir::Action,

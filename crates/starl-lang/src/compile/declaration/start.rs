@@ -70,8 +70,8 @@ impl<'p> Unit<'p> {
         Ok(body.finish("start", Vec::new(), Vec::new()))
     }
 
-    /// What a program does where a check is false: primitives cease what they do for it, variables get their first
-    /// values, and `init` runs. The role stays.
+    /// Starts the program again where a check is false: primitives stop, variables get their initial values, and `init`
+    /// runs. The role stays.
     pub fn reset(&mut self) -> Compiled<Finished> {
         let program = self.program;
         let site = Site {

@@ -286,7 +286,7 @@ pub static BUILTINS: &[Builtin] = &[
         host.context.robot.halt();
         Ok(1)
     }),
-    // Not in the language's table: a program that begins anew does this first.
+    // Not in the language's table: a program that starts again does this first.
     effect("reset", &[], None, |host, _| {
         for seat in host.bound.iter_mut().flatten() {
             seat.is_stirred = true;

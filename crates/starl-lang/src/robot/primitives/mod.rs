@@ -163,7 +163,7 @@ pub trait Kind: Clone + fmt::Debug + Send + Sync + Sized + 'static {
         let _ = robot;
     }
 
-    /// Ceases what it does for the program, which begins anew. What it knows of other robots it keeps.
+    /// Stops everything that it does for the program, which starts again. It keeps what it knows of other robots.
     fn reset(&mut self, robot: &mut Robot<'_>) {
         let _ = robot;
     }

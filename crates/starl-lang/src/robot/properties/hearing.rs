@@ -162,7 +162,7 @@ impl Hearing<'_> {
         Ok(Some(Excuse::Assumption))
     }
 
-    /// Counts what is false and excused, once each time that it becomes so.
+    /// Counts a row for which the property is false and excused, once each time that it becomes so.
     fn forgive(&mut self, row: &[RobotId], is_true: bool, excuse: Excuse) {
         if is_true {
             self.docket.forgiven.remove(row);
@@ -171,7 +171,7 @@ impl Hearing<'_> {
         }
     }
 
-    /// Counts what would be too late but for a fault.
+    /// Counts a deadline that is missed only because of a fault.
     fn forgive_lateness(&mut self, row: &[RobotId], since: Time, within: Duration, is_true: bool) {
         if self.court.now.since(since) > within {
             self.forgive(row, is_true, Excuse::Recovery);

@@ -45,12 +45,12 @@ pub enum Excuse {
     Corruption,
     /// A fault came so shortly before that the time since is not up.
     Recovery,
-    /// What the property assumes is not so.
+    /// The property assumes something that is not so.
     Assumption,
 }
 
 /// So long after a fault has overwritten variables a property of them is not judged, unless it says otherwise: each
-/// robot is activated meanwhile, finds that a check is false, and begins anew.
+/// robot is activated meanwhile, finds that a check is false, and starts again.
 pub const RECOVERY: Duration = Duration::from_seconds(1);
 
 /// The true state of robots that run a program.
