@@ -28,7 +28,7 @@ def lines_of_code(path):
         code = re.sub(r"//.*", "", line).rstrip()
         if not code:
             continue
-        # What is indented belongs to the declaration above it.
+        # An indented line belongs to the declaration above it.
         if code[0] != " ":
             counts = not LEFT_OUT.match(code)
         count += counts

@@ -35,7 +35,7 @@ pub enum Excuse {
     Push,
     /// An obstacle appeared or moved to where a robot was.
     Obstacle,
-    /// What the property assumes was not so.
+    /// The assumption of the property did not hold.
     Assumption,
 }
 
