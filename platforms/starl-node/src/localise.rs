@@ -172,11 +172,10 @@ impl State {
         }
     }
 
-    /// Moves along an arc: the way is made half before and half after the turn.
+    /// Moves by `moved`, which is in the robot's frame before the turn.
     fn advance(&mut self, moved: Point, turned: f64, accuracy: &Accuracy) {
-        let middle = self.pose.yaw + turned / 2.0;
-        let way = rotated(moved, middle);
-        self.pose.position = self.pose.position + way;
+        let way = rotated(moved, self.pose.yaw);
+        self.pose.position += way;
         self.pose.yaw = wrap_angle(self.pose.yaw + turned);
         // The Jacobian is the identity but for how the heading turns the way.
         let jacobian = [[1.0, 0.0, -way.y], [0.0, 1.0, way.x], [0.0, 0.0, 1.0]];
@@ -299,9 +298,11 @@ mod tests {
         Time::ZERO + Duration::from_millis(ms)
     }
 
-    fn odometry(forward: f64, turned: f64) -> Reading {
+    /// A robot that drove so far along an arc.
+    fn odometry(driven: f64, turned: f64) -> Reading {
+        let (sin, cos) = (turned / 2.0).sin_cos();
         Reading {
-            moved: Some(Point::new(forward, 0.0, 0.0)),
+            moved: Some(Point::new(driven * cos, driven * sin, 0.0)),
             turned: Some(turned),
             ..Reading::default()
         }
@@ -339,6 +340,20 @@ mod tests {
         let fixed = drive(Some(4), 0.005);
         assert!(alone > 0.1, "{alone}");
         assert!(fixed < 0.02, "{fixed}");
+    }
+
+    #[test]
+    fn exact_odometry_needs_no_fixes() {
+        let start = Pose::level(Point::new(1.0, 0.0, 0.0), std::f64::consts::FRAC_PI_2);
+        let mut filter = Localiser::new(Accuracy::default(), Some(start), false, Time::ZERO);
+        let chord = 2.0 * 0.005_f64.sin();
+        for tick in 1..=1000u64 {
+            filter.measure(at(50 * tick), &odometry(chord, 0.01));
+            let (estimate, _) = filter.estimate().unwrap();
+            let truth = Point::polar(1.0, tick as f64 * 0.01);
+            let error = estimate.pose.position.planar_distance(truth);
+            assert!(error < 1e-9, "{error} m after {tick} readings");
+        }
     }
 
     #[test]

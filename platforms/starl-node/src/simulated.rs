@@ -115,7 +115,7 @@ impl Device for SimulatedDevice {
             )
         };
         Ok(Some(Reading {
-            moved: Some(in_frame(way, before.yaw + turned / 2.0)),
+            moved: Some(in_frame(way, before.yaw)),
             turned: Some(turned),
             velocity: Some(in_frame(state.twist.linear, now.yaw)),
             height: Some(now.position.z),
