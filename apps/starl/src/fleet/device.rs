@@ -11,6 +11,7 @@ use starl_node::DeviceError;
 use starl_node::motors::PositionSource;
 use starl_node::simulated::SimulatedBody;
 use starl_sim::scenario::Group;
+use starl_vrpn::{Vrpn, VrpnOptions};
 use std::net::{IpAddr, Ipv4Addr};
 use std::time::Instant;
 
@@ -60,23 +61,11 @@ pub fn connect(
             Box::new(MavlinkVehicle::connect(&options).map_err(cannot)?)
         }
     };
-    let positions = match &fleet.positions {
-        None => None,
-        Some(Positions::Natnet { server, up }) => {
-            let mut options = NatNetOptions::new(server.ip(), &member.body);
-            options.server = *server;
-            options.up = match up {
-                Up::Z => UpAxis::Z,
-                Up::Y => UpAxis::Y,
-            };
-            let client = NatNet::connect(options);
-            let client =
-                client.map_err(|error| Failure(format!("{}: positions: {error}", member.name)))?;
-            let source: Box<dyn PositionSource> = Box::new(Cameras(client));
-            Some(source)
-        }
-    };
-    Ok((device, positions))
+    let positions = fleet
+        .positions
+        .as_ref()
+        .map(|source| follow(source, member));
+    Ok((device, positions.transpose()?))
 }
 
 /// Which Create a device is.
@@ -87,6 +76,40 @@ pub fn generation(device: &Device) -> Generation {
             ..
         } => Generation::Create1,
         _ => Generation::Create2,
+    }
+}
+
+/// Follows the robot by motion capture.
+fn follow(source: &Positions, member: &Member) -> Result<Box<dyn PositionSource>, Failure> {
+    match source {
+        Positions::Natnet { server, up } => {
+            let mut options = NatNetOptions::new(server.ip(), &member.body);
+            options.server = *server;
+            options.up = match up {
+                Up::Z => UpAxis::Z,
+                Up::Y => UpAxis::Y,
+            };
+            let client = NatNet::connect(options)
+                .map_err(|error| Failure(format!("{}: positions: {error}", member.name)))?;
+            Ok(Box::new(Cameras(client)))
+        }
+        Positions::Vrpn { server } => {
+            let (server, tracker) = (*server, member.body.clone());
+            Ok(Box::new(Tracker(Vrpn::connect(VrpnOptions {
+                server,
+                tracker,
+            }))))
+        }
+    }
+}
+
+/// A tracker as a source of positions.
+struct Tracker(Vrpn);
+
+impl PositionSource for Tracker {
+    fn poll(&mut self) -> Result<Option<(Instant, Pose)>, DeviceError> {
+        let polled = self.0.poll();
+        polled.map_err(|error| DeviceError::Fault(format!("positions: {error}")))
     }
 }
 

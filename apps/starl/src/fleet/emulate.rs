@@ -15,9 +15,11 @@ use starl_emulate::ardrone::EmulatedArdrone;
 use starl_emulate::create::{EmulatedCreate, model};
 use starl_emulate::mavlink::EmulatedVehicle;
 use starl_emulate::natnet::{Cameras, EmulatedNatNet};
+use starl_emulate::vrpn::EmulatedVrpn;
 use starl_emulate::{BodyHandle, Noise, World};
 use starl_mavlink::{Autopilot, MavlinkOptions};
 use starl_motion::{Model, models};
+use starl_sim::Scenario;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::Path;
 use std::sync::Arc;
@@ -85,18 +87,8 @@ fn fleet(arguments: &EmulateFleet, registry: &Registry) -> Result<Vec<Emulated>,
     for member in &fleet.robots {
         emulated.extend(member_device(&world, &fleet, member)?);
     }
-    if let Some(Positions::Natnet { server, .. }) = &fleet.positions {
-        let cameras = Cameras {
-            deviation: scenario.positioning.position_noise,
-            seed: scenario.seed,
-            ..Cameras::default()
-        };
-        let device = EmulatedNatNet::start(world.clone(), *server, cameras)
-            .map_err(|error| Failure(format!("positions.server {server}: {}", reason(&error))))?;
-        emulated.push(Emulated {
-            text: format!("motion capture at {}", device.address()),
-            _device: Box::new(device),
-        });
+    if let Some(source) = &fleet.positions {
+        emulated.push(positions(&world, source, scenario)?);
     }
     match emulated.is_empty() {
         true => Err(Failure::file(
@@ -104,6 +96,36 @@ fn fleet(arguments: &EmulateFleet, registry: &Registry) -> Result<Vec<Emulated>,
             "names no device that could be emulated: all robots are simulated",
         )),
         false => Ok(emulated),
+    }
+}
+
+/// The motion capture of a world.
+fn positions(world: &World, source: &Positions, scenario: &Scenario) -> Result<Emulated, Failure> {
+    let cannot = |server: &SocketAddr, error: &std::io::Error| {
+        Failure(format!("positions.server {server}: {}", reason(error)))
+    };
+    match source {
+        Positions::Natnet { server, .. } => {
+            let cameras = Cameras {
+                deviation: scenario.positioning.position_noise,
+                seed: scenario.seed,
+                ..Cameras::default()
+            };
+            let device = EmulatedNatNet::start(world.clone(), *server, cameras)
+                .map_err(|error| cannot(server, &error))?;
+            Ok(Emulated {
+                text: format!("motion capture at {}", device.address()),
+                _device: Box::new(device),
+            })
+        }
+        Positions::Vrpn { server } => {
+            let device = EmulatedVrpn::start(world.clone(), *server)
+                .map_err(|error| cannot(server, &error))?;
+            Ok(Emulated {
+                text: format!("trackers at {}", device.address()),
+                _device: Box::new(device),
+            })
+        }
     }
 }
 

@@ -187,6 +187,11 @@ pub enum Positions {
         #[serde(default)]
         up: Up,
     },
+    /// Vicon and others that speak VRPN.
+    Vrpn {
+        /// Its address, e.g. `192.168.0.5:3883`.
+        server: SocketAddr,
+    },
 }
 
 /// Which axis points up.
