@@ -77,7 +77,7 @@ pub const EXAMPLES: &[Example] = &[
     ),
     example!(
         "intersection",
-        "four cars agree on which of them crosses which zone and when",
+        "four cars agree on the order in which they cross zones",
         "intersection",
         "intersection.toml",
         [

@@ -159,6 +159,9 @@ pub struct RobotArguments {
     /// The fleet file
     #[arg(long, value_name = "FILE")]
     pub fleet: PathBuf,
+    /// End with the process at the other end of standard input
+    #[arg(long, hide = true)]
+    pub supervised: bool,
     /// Where the robot keeps its trace and its storage [default: the fleet's last run, beside the fleet file]
     #[arg(long, value_name = "DIR")]
     pub folder: Option<PathBuf>,

@@ -62,6 +62,14 @@ pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Fail
         fleet.trace_limit,
         arguments.quiet,
     );
+    if arguments.supervised {
+        let halt = post.clone();
+        std::thread::spawn(move || {
+            // Nothing is ever written there: it ends with the process that holds the other end.
+            let _ = std::io::copy(&mut std::io::stdin(), &mut std::io::sink());
+            let _ = halt.send(Incoming::Halt);
+        });
+    }
     let halt = post.clone();
     on_interrupt(move || {
         let _ = halt.send(Incoming::Halt);

@@ -182,7 +182,8 @@ impl<'a> Robots<'a> {
         command
             .arg("--folder")
             .arg(self.folder)
-            .stdin(Stdio::null());
+            .arg("--supervised")
+            .stdin(Stdio::piped());
         if self.arguments.quiet {
             command.arg("--quiet");
         }

@@ -140,6 +140,12 @@ impl Code {
         self.checks() > 0
     }
 
+    /// Whether some action waits for time to pass.
+    pub fn waits_for_time(&self) -> bool {
+        let actions = &self.program().bytecode().actions;
+        actions.iter().any(Action::is_timed)
+    }
+
     /// How many of the actions, the first ones, are checks.
     pub(super) fn checks(&self) -> u32 {
         let actions = &self.program().bytecode().actions;
