@@ -21,6 +21,8 @@ MOST_ROBOTS = 10
 # How many fleets run at once, and how long one may take, in seconds.
 AT_ONCE = 6
 PATIENCE = 200
+# Programs without an end of their own run for so long.
+LONGEST = "100s"
 PLATFORMS = ["simulator", "UDP", "Zenoh", "Create and AR.Drone", "MAVLink"]
 
 
@@ -82,7 +84,7 @@ def run_real(starl, folder, example, robots, platform, ports):
         text += tables
         arguments = ["--emulate"]
     (place / "fleet.toml").write_text(text)
-    command = [starl, "fleet", "up", "fleet.toml", "--quiet", *arguments]
+    command = [starl, "fleet", "up", "fleet.toml", "--quiet", "--duration", LONGEST, *arguments]
     try:
         done = subprocess.run(command, cwd=place, capture_output=True, text=True, timeout=PATIENCE)
     except subprocess.TimeoutExpired:

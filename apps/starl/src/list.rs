@@ -165,8 +165,9 @@ fn write(text: &mut String, listing: &Listing<'_>) -> fmt::Result {
     } in &listing.examples
     {
         writeln!(text, "  {name:19}  {summary}")?;
-        if !programs.is_empty() {
-            writeln!(text, "{:23}runs {}", "", programs.join(", "))?;
+        for (line, names) in programs.chunks(3).enumerate() {
+            let word = if line == 0 { "runs" } else { "and" };
+            writeln!(text, "{:23}{word} {}", "", names.join(", "))?;
         }
     }
     writeln!(

@@ -119,11 +119,16 @@ impl TraceOutput {
             self.check(written)?;
         }
         self.now = now;
-        if self.ending.at.elapsed() >= PERIOD {
-            let saved = self.ending.save(self.writer.unfinished());
-            self.check(saved.map_err(|error| output_error(&error)))?;
+        match self.ending.at.elapsed() >= PERIOD {
+            true => self.save(),
+            false => Ok(()),
         }
-        Ok(())
+    }
+
+    /// Puts all that was written into the file now, so that it is there even if the process is killed.
+    pub fn save(&mut self) -> Result<(), Failure> {
+        let saved = self.ending.save(self.writer.unfinished());
+        self.check(saved.map_err(|error| output_error(&error)))
     }
 
     /// How many bytes the file has, without what is still in memory.

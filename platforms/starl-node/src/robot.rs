@@ -119,6 +119,9 @@ pub trait Recorder {
     /// All up to now was told.
     fn advance(&mut self, now: Time);
 
+    /// All that was told must outlast the process from now on: something is about to leave the robot that shows it.
+    fn commit(&mut self) {}
+
     /// The person in front of the robot should know this.
     fn notice(&mut self, at: Time, text: &str);
 
@@ -552,6 +555,10 @@ impl<R: Recorder> Robot<R> {
             ..
         } = desk;
         self.failure = failure.or(self.failure.take());
+        // A robot that is killed must not have sent what its trace does not show.
+        if !datagrams.is_empty() {
+            self.recorder.commit();
+        }
         for datagram in datagrams {
             self.transmit(datagram);
         }

@@ -125,6 +125,10 @@ impl Recorder for FleetRecorder {
         }
     }
 
+    fn commit(&mut self) {
+        self.keep(TraceOutput::save);
+    }
+
     fn notice(&mut self, at: Time, text: &str) {
         self.say(at, text);
         let level = Level::Warning;

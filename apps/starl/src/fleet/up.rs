@@ -26,7 +26,7 @@ const PERIOD: Duration = Duration::from_millis(500);
 const PAUSE: Duration = Duration::from_secs(1);
 
 /// A robot that was told to stop has so long to end.
-const PATIENCE: Duration = Duration::from_secs(3);
+const PATIENCE: Duration = Duration::from_secs(15);
 
 /// Starts a fleet, waits for its end, and judges it; whether its goal was reached and no property violated.
 pub fn up(arguments: &FleetUpArguments, registry: &Registry) -> Result<bool, Failure> {

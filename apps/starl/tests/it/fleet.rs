@@ -232,13 +232,15 @@ fn a_fleet_finishes_although_a_robot_is_killed() {
 fn an_operator_sees_and_stops_a_fleet_and_a_stranger_does_not() {
     let folder = fleet("fleet_operator");
     let up = Up::start(&folder, &["--keep"]);
-    let robots = wait_until(&folder, hear_each_other);
+    let offset = |robots: &[Value]| robots[0]["links"][0]["clock_offset"].as_f64();
+    let robots = wait_until(&folder, |robots| {
+        hear_each_other(robots) && offset(robots).is_some()
+    });
     assert_eq!(robots[0]["name"], "robot0");
     assert!(robots[0]["position"][0].as_f64().is_some(), "{robots:?}");
     assert!(
-        robots[0]["links"][0]["clock_offset"]
-            .as_f64()
-            .is_some_and(|s| s.abs() < 0.05)
+        offset(&robots).is_some_and(|s| s.abs() < 0.05),
+        "{robots:?}"
     );
 
     disturb(&folder);
