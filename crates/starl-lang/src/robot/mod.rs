@@ -20,7 +20,6 @@ mod inspection;
 mod joint;
 mod messages;
 mod orders;
-mod pace;
 mod parameter;
 mod primitives;
 mod program;

@@ -169,8 +169,7 @@ impl Mutex {
 
     /// Whether a request is under way.
     pub fn is_waiting(&self) -> bool {
-        // A fault may have left a request for nothing, which would wait for ever.
-        self.wanted().is_some_and(|wanted| !wanted.is_empty())
+        self.wanted().is_some()
     }
 
     /// Whether a request waits for a robot that is believed to have failed. The request stays, and

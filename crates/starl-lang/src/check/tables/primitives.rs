@@ -180,18 +180,11 @@ pub const PRIMITIVES: &[Primitive] = &[
     },
     Primitive {
         constructor: "FailureDetector()",
-        members: &[
-            member(
-                "suspects: Set[RobotId]",
-                Query,
-                "The robots that are believed to have failed; it may be wrong.",
-            ),
-            member(
-                "live: Set[RobotId]",
-                Query,
-                "All other robots of the fleet, and this one.",
-            ),
-        ],
+        members: &[member(
+            "suspects: Set[RobotId]",
+            Query,
+            "The robots that are believed to have failed; it may be wrong.",
+        )],
         events: &[
             Event {
                 text: "suspected(robot: RobotId)",
@@ -213,9 +206,9 @@ pub const PRIMITIVES: &[Primitive] = &[
                 "Asks for all resources at once (the thesis's do_mutex).",
             ),
             member(
-                "release(resources?: Set[String])",
+                "release(resources: Set[String])",
                 Effect,
-                "Gives back these resources, or all; those that are still waited for are no longer asked for.",
+                "Gives back resources, all or some.",
             ),
             member(
                 "held(resources: Set[String]) -> Bool",

@@ -117,9 +117,7 @@ impl Seen {
 
 fn first_function(claim: Claim) -> u32 {
     match claim {
-        Claim::Always(holds)
-        | Claim::Eventually { holds, .. }
-        | Claim::EventuallyAlways { holds, .. } => holds,
+        Claim::Always(holds) | Claim::Eventually { holds, .. } => holds,
         Claim::LeadsTo { cause, .. } => cause,
     }
 }

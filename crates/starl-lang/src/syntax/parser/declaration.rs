@@ -37,18 +37,13 @@ pub(super) fn parameter(parser: &mut Parser<'_>) {
     name(parser);
     if parser.expect(Colon) {
         types::any(parser);
-        range(parser);
+        if parser.at(InKeyword) {
+            parser.start(ParameterRange);
+            parser.bump();
+            expression::expression(parser);
+            parser.finish();
+        }
         value(parser);
-    }
-}
-
-/// `in from..before`, if that is next.
-fn range(parser: &mut Parser<'_>) {
-    if parser.at(InKeyword) {
-        parser.start(ParameterRange);
-        parser.bump();
-        expression::expression(parser);
-        parser.finish();
     }
 }
 
@@ -64,12 +59,11 @@ pub(super) fn constant(parser: &mut Parser<'_>) {
     }
 }
 
-/// `name: Type`, and a range and a value if it has them.
+/// `name: Type`, and a value if it has one.
 pub(super) fn variable(parser: &mut Parser<'_>) {
     name(parser);
     parser.expect(Colon);
     types::any(parser);
-    range(parser);
     value(parser);
 }
 
