@@ -5,7 +5,8 @@
 
 use starl_core::motion::{Body, Workspace};
 use starl_core::{
-    Duration, Message, Payload, Port, Pose, Primitives, Program, Random, Robot as Handle, RobotId,
+    Duration, Message, Payload, Port, Pose, Primitive, Primitives, Program, Random,
+    Robot as Handle, RobotId,
 };
 use starl_host::{Hardware, Observed};
 use starl_node::link::channel::Opened;
@@ -27,9 +28,13 @@ const PAUSE: Span = Span::from_micros(300);
 const KEY: [u8; 32] = [3; 32];
 
 /// Tells when its handler was called.
-#[derive(Clone, Primitives)]
+#[derive(Clone)]
 struct Witness {
     handled: Sender<Instant>,
+}
+
+impl Primitives for Witness {
+    fn primitives(&mut self, _: &mut dyn FnMut(&mut dyn Primitive)) {}
 }
 
 impl Program for Witness {

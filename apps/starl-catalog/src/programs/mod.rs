@@ -46,7 +46,7 @@ impl fmt::Debug for Entry {
 impl Default for Registry {
     /// The programs that StarL ships with.
     fn default() -> Registry {
-        let race = "drive through the waypoints; the first to arrive sends all to the next";
+        let race = "drive through waypoints; the first to arrive sends all on";
         let diffusion = "drive straight, turn away from what the proximity rays see";
         let keeper = "read, write and update registers at random";
         let radio = "drive in circles and broadcast four bytes at every activation";
