@@ -6,7 +6,7 @@
 use crate::at::AtCommand;
 use crate::navdata::state;
 
-/// What is still to be set.
+/// The settings of the drone, and how many of them it has confirmed.
 #[derive(Debug)]
 pub(crate) struct Configuration {
     entries: Vec<(&'static str, String)>,

@@ -184,7 +184,7 @@ impl Ardrone {
         Ok(())
     }
 
-    /// What to tell the drone for a command, and whether it is then to be in the air.
+    /// The AT command for a command of the model, and whether the drone is in the air afterwards.
     fn translate(&self, command: &Command) -> Option<(Option<Tilt>, Option<bool>)> {
         let ArdroneOptions {
             tilt,

@@ -30,7 +30,7 @@ pub mod state {
     pub const EMERGENCY: u32 = 1 << 31;
 }
 
-/// What the drone is about, in its own numbering.
+/// The state of the drone's flight control, in the drone's numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ControlState {
     /// It stands on the floor.
@@ -56,7 +56,7 @@ const CONTROL_STATES: [(u16, ControlState); 5] = [
     (8, ControlState::Landing),
 ];
 
-/// What the drone says of itself about 15 times a second.
+/// The status that the drone sends about 15 times a second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Navdata {
     /// Bits of [`state`].
@@ -70,7 +70,7 @@ pub struct Navdata {
 /// The measurements of the option `demo`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Demo {
-    /// What it is about.
+    /// The state of its flight control.
     pub control: ControlState,
     /// Per cent.
     pub battery: u32,
@@ -103,7 +103,7 @@ impl Navdata {
         out
     }
 
-    /// What a datagram says; `None` if it is no navdata, is cut off, or its checksum is wrong or missing.
+    /// Decodes a datagram. `None` if it is not navdata, is cut off, or has a wrong or missing checksum.
     pub fn decode(datagram: &[u8]) -> Option<Navdata> {
         if word(datagram, 0)? != HEADER {
             return None;

@@ -22,9 +22,7 @@ use starl_core::{
     Agent, Destination, Duration, Event, Message, Pose, Program, Random, RobotId, Sensors, Time,
     WayPoint,
 };
-use starl_host::{
-    Clock, Datagram, Happening, Hardware, Node, Observed, PlanJob, Snapshot, StoreJob, Workspace,
-};
+use starl_host::{Clock, Datagram, Happening, Hardware, Node, Observed, Snapshot, Workspace};
 use std::io;
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
@@ -563,11 +561,9 @@ impl<R: Recorder> Robot<R> {
             self.transmit(datagram);
         }
         for (job, neighbours) in plans {
-            let job: PlanJob = job;
             self.planner.find(job, neighbours);
         }
         for job in writes {
-            let job: StoreJob = job;
             if let Some(writer) = &self.writer {
                 writer.write(job);
             }

@@ -92,7 +92,7 @@ fn write(path: &Path, keys: &[Key]) -> Result<(), Failure> {
             .collect::<String>()
     };
     let mut text =
-        "# The key of a fleet, and below it the one before. Whoever has it can drive the robots.\n"
+        "# The first line is the key of the fleet, the second one its previous key. Anyone with a key can drive the robots.\n"
             .to_string();
     for key in keys {
         text.push_str(&digits(key));
