@@ -36,6 +36,8 @@ pub struct Disturbance {
 /// The cause of a stop of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
+    /// Where the body stops: where it touches what it met.
+    pub place: Point,
     /// Unit vector from the robot's centre towards what it met, in the floor plane.
     pub direction: Point,
 }
@@ -122,15 +124,13 @@ pub trait Model: Debug + Send + Sync {
         estimate.twist.linear.at_height(0.0) * self.limits().braking_time()
     }
 
-    /// Goes over to the predicted state; if an impact is given, the body stays where it was and
-    /// loses its speed into the obstacle.
+    /// Goes over to the predicted state; if an impact is given, the body stops at its place.
     fn update(&self, state: &mut State, predicted: &State, impact: Option<Impact>) {
         match impact {
             None => *state = *predicted,
-            Some(_) => {
-                let position = state.pose.position;
+            Some(Impact { place, .. }) => {
                 *state = *predicted;
-                state.pose.position = position;
+                state.pose.position = place;
                 state.twist.linear = Point::ZERO;
             }
         }

@@ -1,117 +1,159 @@
-//! Which motions would make bodies overlap, and so do not take place.
+//! Which motions bring bodies into contact within a step, and where those bodies stop.
 //!
-//! A body meets another if their predicted places overlap, unless the present ones do too and are
-//! nearer to each other: bodies that overlap already may part. A body that is stopped stays where it was, and
-//! may so stop others that counted on its leaving; [`settle`] follows that to its end. It ends since
-//! present places do not overlap and each round stops more bodies.
+//! Bodies move along straight lines from where they are to where they are predicted. One that touches
+//! another, or an obstacle, stays where it does so for the rest of the step, and may so stop others
+//! that counted on its going on. Contacts are settled in the order of their times, as in a
+//! discrete-event simulation of hard spheres (Alder and Wainwright 1959), so that no body is stopped by
+//! one that had stopped elsewhere before.
 
-use super::sense::same_height;
+use super::impact::{self, Leg};
 use super::shared::Shared;
 use starl_core::event::Hit;
 use starl_core::geometry::Bounds;
 use starl_core::{Point, RobotId};
+use starl_motion::Impact;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 
-/// The first contact of a robot's predicted motion, the deepest overlap first. No body moves
-/// farther than `reach` in the step.
-#[inline]
-pub fn first_hit(shared: &Shared, robot: RobotId, next: &[Point], reach: f64) -> Option<Hit> {
-    let body = &shared.bodies[robot.index()];
-    let (now, then) = (body.position, next[robot.index()]);
-    let mut deepest = 0.0;
-    let mut hit = None;
-    if now != then {
-        shared.map.any_near(
-            &Bounds::of_body(now, then, body.radius, body.height),
-            |index| {
-                let obstacle = &shared.map.obstacles()[index as usize];
-                let gap = obstacle.body_gap(then, body.radius, body.height);
-                if gap < deepest && gap < obstacle.body_gap(now, body.radius, body.height) {
-                    deepest = gap;
-                    hit = Some(Hit::Obstacle(shared.standing[index as usize]));
-                }
-                false
-            },
-        );
-    }
-    let reach = body.radius + shared.grid.greatest_radius() + 2.0 * reach;
-    shared.grid.for_each_near(now, reach, |entry| {
-        if entry.robot == robot.0 || entry.distance_squared(now) > reach * reach {
-            return;
-        }
-        if let Some(gap) = overlap(
-            shared,
-            robot,
-            then,
-            entry.robot(),
-            next[entry.robot as usize],
-        ) && gap < deepest
-        {
-            deepest = gap;
-            hit = Some(Hit::Robot(entry.robot()));
-        }
-    });
-    hit
+/// The contact that stops a body in the step.
+#[derive(Clone, Copy, Debug)]
+pub struct Contact {
+    pub with: Hit,
+    /// Fraction of the step after which the bodies touch.
+    pub after: f64,
+    pub impact: Impact,
 }
 
-/// How deep two bodies at new places would overlap, a negative number; none if they do not, or overlap
-/// already and are moving apart.
-fn overlap(shared: &Shared, a: RobotId, a_then: Point, b: RobotId, b_then: Point) -> Option<f64> {
-    let (first, second) = (&shared.bodies[a.index()], &shared.bodies[b.index()]);
-    let reach = first.radius + second.radius;
-    let gap = a_then.planar_distance(b_then) - reach;
-    if gap >= 0.0 {
-        return None;
-    }
-    let (mut a_moved, mut b_moved) = (*first, *second);
-    a_moved.position = a_then;
-    b_moved.position = b_then;
-    let nearing = a_then.distance(b_then) < first.position.distance(second.position);
-    // One that sinks onto another which drives off may enter it while their centres part.
-    let apart = first.position.planar_distance(second.position) >= reach;
-    let entering = nearing || apart || !same_height(first, second);
-    (entering && same_height(&a_moved, &b_moved)).then_some(gap)
+/// The motions of a step.
+#[derive(Clone, Copy)]
+pub struct Motions<'a> {
+    pub shared: &'a Shared,
+    /// Where bodies would be at the end.
+    pub next: &'a [Point],
+    /// No body moves farther, metres.
+    pub reach: f64,
 }
 
-/// Stops the robots that run into robots that have been stopped, until there are no more.
-pub fn settle(shared: &Shared, next: &mut [Point], reach: f64, hits: &mut [Option<Hit>]) {
-    let mut stopped: Vec<u32> = (0..hits.len() as u32)
-        .filter(|&robot| hits[robot as usize].is_some())
-        .collect();
-    for &robot in &stopped {
-        next[robot as usize] = shared.bodies[robot as usize].position;
+impl Motions<'_> {
+    fn leg(&self, robot: usize, until: f64) -> Leg {
+        Leg::new(&self.shared.bodies[robot], self.next[robot], until)
     }
-    let mut done = 0;
-    while done < stopped.len() {
-        let robot = RobotId(stopped[done]);
-        done += 1;
-        let body = &shared.bodies[robot.index()];
-        let reach = body.radius + shared.grid.greatest_radius() + 2.0 * reach;
-        shared.grid.for_each_within(body.position, reach, |entry| {
-            let other = entry.robot as usize;
-            if entry.robot == robot.0 || hits[other].is_some() {
-                return;
-            }
-            if overlap(shared, entry.robot(), next[other], robot, body.position).is_some() {
-                hits[other] = Some(Hit::Robot(robot));
-                next[other] = shared.bodies[other].position;
-                stopped.push(entry.robot);
+
+    /// Visits the robots that may touch one in this step.
+    fn for_each_near(&self, robot: usize, mut visit: impl FnMut(usize)) {
+        let Shared { bodies, grid, .. } = self.shared;
+        let body = &bodies[robot];
+        let reach = body.radius + grid.greatest_radius() + 2.0 * self.reach;
+        grid.for_each_within(body.position, reach, |entry| {
+            if entry.robot as usize != robot {
+                visit(entry.robot as usize);
             }
         });
     }
+
+    /// A robot's first contact, not before `since`, if each robot moves `until` this fraction of the step.
+    #[inline]
+    pub fn first_contact(
+        &self,
+        robot: RobotId,
+        since: f64,
+        until: impl Fn(usize) -> f64,
+    ) -> Option<Contact> {
+        let Shared { map, standing, .. } = self.shared;
+        let leg = self.leg(robot.index(), 1.0);
+        let mut first = f64::INFINITY;
+        let mut with = None;
+        if leg.from != leg.to {
+            let around = Bounds::of_body(leg.from, leg.to, leg.radius, leg.height);
+            map.any_near(&around, |index| {
+                let obstacle = &map.obstacles()[index as usize];
+                if let Some(after) = impact::of_obstacle(&leg, obstacle).filter(|&t| t < first) {
+                    first = after;
+                    with = Some(Hit::Obstacle(standing[index as usize]));
+                }
+                false
+            });
+        }
+        self.for_each_near(robot.index(), |other| {
+            let path = self.leg(other, until(other));
+            if let Some(after) = impact::of_bodies(&leg, &path).filter(|&t| t < first) {
+                first = after;
+                with = Some(Hit::Robot(RobotId(other as u32)));
+            }
+        });
+        let after = first.max(since);
+        let place = leg.at(after);
+        let touched = match with? {
+            Hit::Robot(other) => self.leg(other.index(), until(other.index())).at(after),
+            Hit::Obstacle(world_index) => match standing.binary_search(&world_index) {
+                Ok(index) => map.obstacles()[index].nearest_point(place),
+                Err(_) => place,
+            },
+        };
+        Some(Contact::new(with?, after, place, touched))
+    }
+
+    /// When a robot that moves on runs into one that has stopped at `now`.
+    fn meeting(&self, robot: usize, stopped: usize, now: f64) -> Option<Contact> {
+        let (leg, resting) = (self.leg(robot, 1.0), self.leg(stopped, now));
+        let after = impact::of_bodies(&leg, &resting)?.max(now);
+        let with = Hit::Robot(RobotId(stopped as u32));
+        Some(Contact::new(with, after, leg.at(after), resting.at(after)))
+    }
 }
 
-/// Unit vector from a robot's centre towards what it has met.
-pub fn direction(shared: &Shared, robot: RobotId, hit: Hit) -> Point {
-    let from = shared.bodies[robot.index()].position;
-    let to = match hit {
-        Hit::Robot(other) => shared.bodies[other.index()].position,
-        Hit::Obstacle(world_index) => match shared.standing.binary_search(&world_index) {
-            Ok(index) => shared.map.obstacles()[index].nearest_point(from),
-            Err(_) => from,
-        },
-    };
-    (to - from)
-        .at_height(0.0)
-        .normalized()
-        .unwrap_or(Point::planar(1.0, 0.0))
+impl Contact {
+    fn new(with: Hit, after: f64, place: Point, touched: Point) -> Contact {
+        let direction = (touched - place).at_height(0.0).normalized();
+        let direction = direction.unwrap_or(Point::planar(1.0, 0.0));
+        let impact = Impact { place, direction };
+        Contact {
+            with,
+            after,
+            impact,
+        }
+    }
+}
+
+/// The contacts of a step, by robot; at first each robot's first contact if no other were stopped.
+pub fn settle(motions: &Motions<'_>, contacts: &mut [Option<Contact>]) {
+    // Fractions are not negative, so that their bits are in the order of their values.
+    let key = |robot: usize, contact: &Contact| Reverse((contact.after.to_bits(), robot));
+    let mut due: BinaryHeap<_> = (0..)
+        .zip(contacts.iter())
+        .filter_map(|(robot, contact)| Some(key(robot, contact.as_ref()?)))
+        .collect();
+    if due.is_empty() {
+        return;
+    }
+    let mut until = vec![1.0; contacts.len()];
+    let mut is_settled = vec![false; contacts.len()];
+    while let Some(Reverse((after, robot))) = due.pop() {
+        let now = f64::from_bits(after);
+        if is_settled[robot] || contacts[robot].is_none_or(|contact| contact.after != now) {
+            continue;
+        }
+        (is_settled[robot], until[robot]) = (true, now);
+        motions.for_each_near(robot, |other| {
+            if is_settled[other] {
+                return;
+            }
+            let before = &mut contacts[other];
+            let with = Hit::Robot(RobotId(robot as u32));
+            let fresh = match before {
+                // It is not where the other would have met it.
+                Some(contact) if contact.with == with && contact.after > now => {
+                    *before = None;
+                    motions.first_contact(RobotId(other as u32), now, |other| until[other])
+                }
+                _ => motions.meeting(other, robot, now),
+            };
+            if let Some(fresh) = fresh
+                && before.is_none_or(|before| fresh.after < before.after)
+            {
+                due.push(key(other, &fresh));
+                *before = Some(fresh);
+            }
+        });
+    }
 }

@@ -6,6 +6,7 @@ mod collide;
 mod discover;
 mod fault;
 mod grid;
+mod impact;
 mod inbox;
 mod inspect;
 mod intervene;

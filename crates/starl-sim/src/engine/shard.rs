@@ -3,7 +3,7 @@
 //! Invariant: which robots share a shard depends on the fleet alone, never on the number of threads.
 
 use super::act::Turn;
-use super::collide;
+use super::collide::{Contact, Motions};
 use super::inbox::Delivery;
 use super::mind::{Mind, Outgoing};
 use super::outlet::Desk;
@@ -13,11 +13,10 @@ use super::sense::Readings;
 use super::shared::{Shared, Window};
 use super::things::Grip;
 use starl_core::event::Hit;
-use starl_core::sensor::Contact;
-use starl_core::{Command, Event, Point, Random, RobotId, Time, math};
+use starl_core::{Command, Event, Point, Random, RobotId, Time, math, sensor};
 use starl_host::Workspace;
 use starl_host::journal::Journal;
-use starl_motion::{Impact, Neighbour, State};
+use starl_motion::{Neighbour, State};
 
 /// How many robots a shard holds.
 pub const SIZE: usize = 256;
@@ -126,18 +125,11 @@ impl Shard {
     }
 
     /// Finds what each robot's predicted motion meets first.
-    pub fn look_ahead(
-        &mut self,
-        shared: &Shared,
-        next: &[Point],
-        reach: f64,
-        hits: &mut [Option<Hit>],
-    ) {
-        for (index, hit) in hits.iter_mut().enumerate() {
-            let robot = RobotId(self.first + index as u32);
-            *hit = match self.minds[index].is_gone {
+    pub fn look_ahead(&self, motions: &Motions<'_>, contacts: &mut [Option<Contact>]) {
+        for (mind, contact) in self.minds.iter().zip(contacts) {
+            *contact = match mind.is_gone {
                 true => None,
-                false => collide::first_hit(shared, robot, next, reach),
+                false => motions.first_contact(mind.id(), 0.0, |_| 1.0),
             };
         }
     }
@@ -147,16 +139,16 @@ impl Shard {
         &mut self,
         shared: &Shared,
         window: Window,
-        hits: &[Option<Hit>],
+        contacts: &[Option<Contact>],
         bodies: &mut [Neighbour],
         perceived: &mut [Neighbour],
     ) {
         for (index, mind) in self.minds.iter_mut().enumerate() {
             let (state, body) = (&mut self.states[index], &mut bodies[index]);
             let kind = &shared.kinds[mind.group as usize];
-            let hit = hits.get(mind.id().index()).copied().flatten();
-            let direction = hit.map(|hit| collide::direction(shared, mind.id(), hit));
-            let impact = direction.map(|direction| Impact { direction });
+            let contact = contacts.get(mind.id().index()).copied().flatten();
+            let hit = contact.map(|contact| contact.with);
+            let impact = contact.map(|contact| contact.impact);
             kind.model.update(state, &self.predicted[index], impact);
             let before = shared.bodies[mind.id().index()].position;
             mind.distance += state.pose.position.distance(before);
@@ -165,8 +157,8 @@ impl Shard {
             if let Some(seen) = perceived.get_mut(index) {
                 *seen = mind.perceived(body);
             }
-            mind.senses.contact = direction.map(|direction| Contact {
-                bearing: math::wrap_angle(direction.heading() - state.pose.yaw),
+            mind.senses.contact = impact.map(|impact| sensor::Contact {
+                bearing: math::wrap_angle(impact.direction.heading() - state.pose.yaw),
             });
             if hit != mind.senses.touching {
                 mind.senses.touching = hit;
@@ -176,7 +168,8 @@ impl Shard {
                     self.log.record(digest, mind.node.id(), window.to, event);
                     // Two robots that meet are one collision, not two.
                     let counted_there = matches!(with, Hit::Robot(other)
-                        if other < mind.id() && hits[other.index()] == Some(Hit::Robot(mind.id())));
+                        if other < mind.id() && contacts[other.index()]
+                            .is_some_and(|contact| contact.with == Hit::Robot(mind.id())));
                     self.log.tally.collisions += u64::from(!counted_there);
                 }
             }

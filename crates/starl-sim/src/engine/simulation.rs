@@ -1,15 +1,16 @@
 //! A run: the world, the robots, and the order in which a step happens.
 
 use super::agenda::Agenda;
+use super::collide::{self, Contact, Motions};
 use super::inbox::Calendar;
 use super::mind::Mind;
 use super::record::Tally;
 use super::shard::{SIZE, Shard};
 use super::shared::{Shared, Window};
 use super::things::Things;
-use super::{collide, populate, radio};
+use super::{populate, radio};
 use crate::scenario::{Group, Scenario};
-use starl_core::event::{Hit, Name};
+use starl_core::event::Name;
 use starl_core::geometry::ObstacleIndex;
 use starl_core::motion::Obstacles;
 use starl_core::{
@@ -33,7 +34,7 @@ pub struct Simulation {
     pub(super) next: Vec<Point>,
     /// Where bodies are after the step; changes places with the shared ones at its end.
     pub(super) bodies: Vec<Neighbour>,
-    hits: Vec<Option<Hit>>,
+    contacts: Vec<Option<Contact>>,
     pub(super) agenda: Agenda,
     /// Whether robots have come or gone since the spatial index was built.
     pub(super) have_changed: bool,
@@ -109,7 +110,7 @@ impl Simulation {
             now: Time::ZERO,
             next: vec![Point::ZERO; shared.bodies.len()],
             bodies: shared.bodies.clone(),
-            hits: Vec::new(),
+            contacts: Vec::new(),
             agenda: Agenda::new(&origin),
             have_changed: false,
             origin,
@@ -234,18 +235,22 @@ impl Simulation {
             .zip(&self.next)
             .map(|(body, next)| body.position.distance(*next))
             .fold(0.0, f64::max);
-        self.hits.resize(self.next.len(), None);
-        let next = &self.next;
-        let work = self.shards.iter_mut().zip(self.hits.chunks_mut(SIZE));
-        run(self.parallel, work, |(shard, hits)| {
-            shard.look_ahead(shared, next, reach, hits);
+        self.contacts.resize(self.next.len(), None);
+        let motions = Motions {
+            shared,
+            next: &self.next,
+            reach,
+        };
+        let work = self.shards.iter().zip(self.contacts.chunks_mut(SIZE));
+        run(self.parallel, work, |(shard, contacts)| {
+            shard.look_ahead(&motions, contacts);
         });
-        collide::settle(shared, &mut self.next, reach, &mut self.hits);
+        collide::settle(&motions, &mut self.contacts);
     }
 
     fn settle(&mut self, window: Window) {
         let mut perceived = std::mem::take(&mut self.shared.perceived);
-        let (shared, hits) = (&self.shared, &self.hits);
+        let (shared, contacts) = (&self.shared, &self.contacts);
         let shown = perceived
             .chunks_mut(SIZE)
             .map(Some)
@@ -257,7 +262,13 @@ impl Simulation {
             .zip(shown)
             .map(|((shard, bodies), perceived)| (shard, bodies, perceived));
         run(self.parallel, work, |(shard, bodies, perceived)| {
-            shard.settle(shared, window, hits, bodies, perceived.unwrap_or_default());
+            shard.settle(
+                shared,
+                window,
+                contacts,
+                bodies,
+                perceived.unwrap_or_default(),
+            );
         });
         std::mem::swap(&mut self.shared.bodies, &mut self.bodies);
         self.shared.perceived = perceived;

@@ -160,3 +160,133 @@ fn bodies_pass_through_each_other_where_collisions_are_off() {
     );
     assert!(simulation.state(RobotId(0)).pose.position.x > 1.0);
 }
+
+/// Holonomic robots that drive at `speed`, faster than their default allows.
+fn fast(places: &[(f64, f64)], speed: f64) -> starl_sim::scenario::Scenario {
+    let mut scenario = scenario("holonomic", places);
+    let parameters = starl_motion::models::HolonomicParameters {
+        speed: 100.0,
+        ..Default::default()
+    };
+    let model = starl_motion::models::Holonomic::new(parameters).expect("a valid model");
+    scenario.fleet.groups[0].model = std::sync::Arc::new(model);
+    scenario.physics.step = starl_core::Duration::from_millis(25);
+    assert!(speed <= 100.0);
+    scenario
+}
+
+/// Drives its robot along x at a speed, those with an odd number the other way.
+#[derive(Clone, Primitives)]
+struct Oncoming(f64);
+
+impl Program for Oncoming {
+    fn activate(&mut self, robot: &mut Robot<'_>) {
+        let speed = if robot.id().0 % 2 == 0 {
+            self.0
+        } else {
+            -self.0
+        };
+        robot.drive(Command::Velocity {
+            velocity: Point::planar(speed, 0.0),
+            yaw_rate: 0.0,
+        });
+    }
+}
+
+#[test]
+fn fast_robots_that_drive_at_each_other_stop_where_they_touch() {
+    for speed in [0.5, 2.0, 20.0, 100.0] {
+        for start in 0..10 {
+            let apart = 0.6 * speed + 1.0 + 0.037 * f64::from(start);
+            let aside = 0.025 * f64::from(start);
+            let scenario = fast(&[(0.0, 0.0), (apart, aside)], speed);
+            let radius = scenario.fleet.groups[0].model.body().radius;
+            let mut simulation = simulate(scenario, Oncoming(speed));
+            let records = run(&mut simulation, 2.0);
+            assert_eq!(simulation.tally().collisions, 1, "{speed} m/s, {start}");
+            assert_eq!(collisions(&records).len(), 2);
+            let place = |robot| simulation.state(RobotId(robot)).pose.position;
+            let gap = place(0).distance(place(1)) - 2.0 * radius;
+            assert!(
+                (0.0..1e-3).contains(&gap),
+                "{speed} m/s, {start}: gap {gap} m"
+            );
+            assert!(
+                place(0).x < place(1).x,
+                "{speed} m/s, {start}: passed through"
+            );
+        }
+    }
+}
+
+#[test]
+fn fast_robots_do_not_pass_through_a_thin_wall() {
+    for speed in [0.5, 2.0, 20.0, 100.0] {
+        for start in 0..10 {
+            let wall_at = speed + 1.0 + 0.037 * f64::from(start);
+            let mut scenario = fast(&[(0.0, 0.0)], speed);
+            let ends = [Point::planar(wall_at, -1.0), Point::planar(wall_at, 1.0)];
+            let wall = starl_core::geometry::ConvexPolygon::new(&ends).expect("a wall");
+            scenario
+                .world
+                .obstacles
+                .push(obstacle(Obstacle::polygon(wall)));
+            let radius = scenario.fleet.groups[0].model.body().radius;
+            let mut simulation = simulate(scenario, Oncoming(speed));
+            let records = run(&mut simulation, 5.0);
+            assert_eq!(collisions(&records), [(RobotId(0), Hit::Obstacle(0))]);
+            let gap = wall_at - simulation.state(RobotId(0)).pose.position.x - radius;
+            assert!(
+                (0.0..1e-3).contains(&gap),
+                "{speed} m/s, {start}: gap {gap} m"
+            );
+        }
+    }
+}
+
+#[test]
+fn fast_bodies_of_a_crowd_never_overlap_on_the_way() {
+    // Rows that drive through each other's places at 20 m/s, half a metre a step, in a box.
+    let places: Vec<(f64, f64)> = (0..120)
+        .map(|i| (f64::from(i % 12) * 0.8, f64::from(i / 12) * 0.31))
+        .collect();
+    let mut scenario = fast(&places, 20.0);
+    scenario.world.bounds = Some(starl_sim::scenario::Bounds {
+        low: Point::planar(-3.0, -1.0),
+        high: Point::planar(12.0, 6.0),
+    });
+    let mut simulation = simulate(scenario, Rebound::default());
+    let radius = simulation.scenario().fleet.groups[0].model.body().radius;
+    for _ in 0..200 {
+        simulation.step();
+        let now: Vec<Point> = (simulation.robots().iter())
+            .map(|&robot| simulation.state(robot).pose.position)
+            .collect();
+        for (a, p) in now.iter().enumerate() {
+            for (b, q) in now.iter().enumerate().skip(a + 1) {
+                let gap = p.distance(*q) - 2.0 * radius;
+                assert!(gap >= -1e-9, "{a} and {b} overlap by {gap} m");
+            }
+        }
+    }
+    assert!(simulation.tally().collisions > 100);
+}
+
+/// Drives fast in a direction of its own, and in another one after a contact.
+#[derive(Clone, Default, Primitives)]
+struct Rebound {
+    turns: u32,
+}
+
+impl Program for Rebound {
+    fn activate(&mut self, robot: &mut Robot<'_>) {
+        if robot.sensors().bumper.is_some() {
+            self.turns += 1;
+        }
+        let heading = f64::from(robot.id().0 * 7 + self.turns * 3);
+        robot.drive(Command::Velocity {
+            velocity: Point::polar(20.0, heading),
+            yaw_rate: 0.0,
+        });
+    }
+}

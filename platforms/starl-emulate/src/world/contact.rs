@@ -98,8 +98,10 @@ fn overlap(a: &Body, a_at: Point, b: &Body, b_at: Point) -> bool {
 }
 
 fn towards(body: &Body, target: Point) -> Impact {
-    let way = (target - body.state.pose.position).at_height(0.0);
+    let place = body.state.pose.position;
+    let way = (target - place).at_height(0.0);
     Impact {
+        place,
         direction: way.normalized().unwrap_or(Point::planar(1.0, 0.0)),
     }
 }

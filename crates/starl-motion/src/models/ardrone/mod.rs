@@ -235,17 +235,16 @@ impl Model for Ardrone {
         self.gains.track(tracking, estimate, goal)
     }
 
-    /// A drone that hits something stays where it was, and holds that place rather than push.
+    /// A drone that hits something holds that place rather than push.
     fn update(&self, state: &mut State, predicted: &State, impact: Option<Impact>) {
-        let position = state.pose.position;
         *state = *predicted;
-        if impact.is_some() {
-            state.pose.position = position;
+        if let Some(Impact { place, .. }) = impact {
+            state.pose.position = place;
             state.twist = Twist {
                 linear: Point::ZERO,
                 ..state.twist
             };
-            state.memory = [position.x, position.y];
+            state.memory = [place.x, place.y];
         }
     }
 }

@@ -252,10 +252,9 @@ impl Model for Car {
 
     /// A car that hits something stands, its wheels as they are.
     fn update(&self, state: &mut State, predicted: &State, impact: Option<Impact>) {
-        let position = state.pose.position;
         *state = *predicted;
-        if impact.is_some() {
-            state.pose.position = position;
+        if let Some(Impact { place, .. }) = impact {
+            state.pose.position = place;
             state.twist = Twist::default();
             state.memory[0] = 0.0;
         }

@@ -233,7 +233,10 @@ impl World {
             if gap < 0.0 {
                 let towards = (obstacle.nearest_point(place) - place).at_height(0.0);
                 let direction = towards.normalized().unwrap_or(Point::planar(1.0, 0.0));
-                impact = Some(Impact { direction });
+                impact = Some(Impact {
+                    place: robot.state.pose.position,
+                    direction,
+                });
             }
         }
         robot.model.update(&mut robot.state, &next, impact);
