@@ -34,6 +34,9 @@ pub enum Input {
     /// An operator tells the program something, or its waypoints have changed
     /// ([`Order::WAY_POINTS`]).
     Order(Order),
+    /// The robot has long been pushed harder than its drive can hold against, as a drone by strong wind, while
+    /// it tracks a waypoint.
+    Overpowered,
 }
 
 /// A building block of programs: a pure state machine that answers inputs with effects.

@@ -283,6 +283,9 @@ impl Node {
                 self.feed(at, &Input::Estimate, snapshot, outlet);
                 if self.pilot.is_some() {
                     self.steer(at, snapshot, outlet);
+                    if self.is_overpowered(snapshot) {
+                        self.feed(at, &Input::Overpowered, snapshot, outlet);
+                    }
                 }
             }
             Happening::Datagram { sequence, message } => {

@@ -27,9 +27,10 @@ pub struct State {
 pub struct Disturbance {
     /// Velocity of the air, world frame, metres per second; ground robots do not feel it.
     pub wind: Point,
-    /// Relative error of the speed that is driven: 0.1 drives 10 % too fast.
+    /// Relative error of what the drive is told, apart from turning: with 0.1 it is told 10 % more speed, or a
+    /// drone 10 % more tilt and climb. The limits of the model hold all the same.
     pub speed_error: f64,
-    /// Relative error of the rate of turn.
+    /// The same of turning: rate of turn, or a car's steering angle.
     pub turn_error: f64,
 }
 
@@ -42,8 +43,8 @@ pub struct Impact {
     pub direction: Point,
 }
 
-/// The bounds that a model's motion keeps to while nothing disturbs it and it meets nothing. The
-/// conformance suite holds every model to them.
+/// The bounds that a model's motion keeps to while it meets nothing, in calm air, with errors of its
+/// drive too. The conformance suite holds every model to them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Greatest speed in the floor plane, metres per second.
@@ -117,6 +118,12 @@ pub trait Model: Debug + Send + Sync {
     /// driven until the next estimate (the thesis's RobotMotion). `tracking` is what the tracker
     /// remembers from one estimate to the next.
     fn track(&self, tracking: &mut Tracking, estimate: &Estimate, goal: &Goal) -> Command;
+
+    /// Whether the robot has long been pushed, as by wind, harder than it can hold against, by what its tracker
+    /// remembers. Ground robots never are.
+    fn is_overpowered(&self, _: &Tracking) -> bool {
+        false
+    }
 
     /// The way that the robot still makes if tracking halts it from now on: displacement in the floor
     /// plane, metres. By default its velocity carries on for [`Limits::braking_time`].

@@ -118,6 +118,11 @@ impl Pilot {
         model.track(&mut self.tracking, estimate, &goal)
     }
 
+    /// Whether the robot has long been pushed harder than it can hold against while it tracks a waypoint.
+    pub fn is_overpowered(&self, model: &dyn Model) -> bool {
+        matches!(self.wish, Wish::Track(_)) && model.is_overpowered(&self.tracking)
+    }
+
     /// For a while tracking and avoidance do not drive the robot.
     fn interrupt(&mut self) {
         self.tracking.interrupt();

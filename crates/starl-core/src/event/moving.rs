@@ -16,6 +16,8 @@ words! {
         Stuck = "stuck",
         /// The path that was given has no points.
         NoPoints = "no points",
+        /// The wind is stronger than the robot can hold against.
+        Wind = "wind",
         /// The target is not finite.
         NotFinite = "target is not finite",
     }

@@ -56,6 +56,13 @@ impl Node {
         }
     }
 
+    pub(super) fn is_overpowered(&self, snapshot: &Snapshot<'_>) -> bool {
+        match (&self.pilot, &snapshot.hardware.drive) {
+            (Some(pilot), Some(drive)) => pilot.is_overpowered(&*drive.model),
+            _ => false,
+        }
+    }
+
     /// Lets the pilot choose the command that follows from the present estimate.
     pub(super) fn steer(&mut self, at: Time, snapshot: &Snapshot<'_>, outlet: &mut impl Outlet) {
         let (Some(pilot), Some(drive)) = (&mut self.pilot, &snapshot.hardware.drive) else {

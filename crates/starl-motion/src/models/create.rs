@@ -185,8 +185,12 @@ impl Model for Create {
             true => self.drive(command),
             false => (0.0, 0.0),
         };
-        let speed = speed * (1.0 + disturbance.speed_error);
-        let rate = rate * (1.0 + disturbance.turn_error);
+        let (speed, rate) = unicycle::disturbed(
+            (speed, rate),
+            disturbance,
+            self.parameters.wheel_speed,
+            self.parameters.wheel_distance,
+        );
         unicycle::drive(state, speed, rate, elapsed.seconds())
     }
 

@@ -126,9 +126,11 @@ impl Model for Holonomic {
         disturbance: &Disturbance,
         elapsed: Duration,
     ) -> State {
-        let (velocity, yaw_rate) = match *command {
+        let (linear, yaw_rate) = match *command {
             Command::Velocity { velocity, yaw_rate } if self.accepts(command) => {
                 let limit = radians(self.parameters.turn_rate);
+                let velocity = velocity * (1.0 + disturbance.speed_error);
+                let yaw_rate = yaw_rate * (1.0 + disturbance.turn_error);
                 (
                     at_most(velocity, self.parameters.speed),
                     yaw_rate.clamp(-limit, limit),
@@ -136,8 +138,6 @@ impl Model for Holonomic {
             }
             _ => (Point::ZERO, 0.0),
         };
-        let linear = velocity * (1.0 + disturbance.speed_error);
-        let yaw_rate = yaw_rate * (1.0 + disturbance.turn_error);
         let seconds = elapsed.seconds();
         let pose = Pose {
             position: state.pose.position + linear * seconds,

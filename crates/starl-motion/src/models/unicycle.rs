@@ -4,7 +4,7 @@
 //! integrated exactly, by its chord, for any step. Table 4.2 of the thesis gives the same equations in
 //! differential form: x' = v cos(yaw), y' = v sin(yaw), yaw' = rate.
 
-use crate::State;
+use crate::{Disturbance, State};
 use starl_core::math;
 use starl_core::{Point, Pose, Twist};
 
@@ -91,6 +91,28 @@ pub(super) fn drive(state: &State, speed: f64, rate: f64, seconds: f64) -> State
         twist,
         ..*state
     }
+}
+
+/// Speed and rate of turn under a disturbance; where a wheel's rim would exceed `wheel_speed`, metres per
+/// second, both are scaled down alike, which keeps the path's radius.
+#[inline]
+pub(super) fn disturbed(
+    (speed, rate): (f64, f64),
+    disturbance: &Disturbance,
+    wheel_speed: f64,
+    wheel_distance: f64,
+) -> (f64, f64) {
+    if disturbance.speed_error == 0.0 && disturbance.turn_error == 0.0 {
+        return (speed, rate);
+    }
+    let speed = speed * (1.0 + disturbance.speed_error);
+    let rate = rate * (1.0 + disturbance.turn_error);
+    let fastest = math::fabs(speed) + 0.5 * wheel_distance * math::fabs(rate);
+    if fastest <= wheel_speed {
+        return (speed, rate);
+    }
+    let scale = wheel_speed / fastest;
+    (speed * scale, rate * scale)
 }
 
 /// Speed and rate of turn of a body on two wheels whose rims move at `left` and `right` metres per

@@ -8,7 +8,7 @@
 //! controls the vertical motion. The thesis names such a controller (section 4.3) but gives none.
 
 use super::{Goal, Tracking};
-use starl_core::math::{exp, sincos, tan};
+use starl_core::math::{self, atan, exp, sincos, tan};
 use starl_core::motion::Estimate;
 use starl_core::{Command, Point, Pose};
 
@@ -35,11 +35,16 @@ pub(crate) struct Gains {
 const FLYING: u32 = 1;
 
 /// Desired speed per distance left, 1/s.
-const POSITION_GAIN: f64 = 0.75;
+const POSITION_GAIN: f64 = 1.2;
 /// Acceleration per error of velocity, 1/s.
-const VELOCITY_GAIN: f64 = 1.8;
+const VELOCITY_GAIN: f64 = 2.8;
 /// Both poles of the observer, 1/s.
-const OBSERVER_RATE: f64 = 1.5;
+const OBSERVER_RATE: f64 = 2.5;
+/// The push is taken to be at most this many times what the drone can hold against.
+const MOST_PUSH: f64 = 1.5;
+/// Seconds for which the push has to exceed what the drone can hold against until it counts as overpowered:
+/// longer than a contact with another body lasts.
+const OVERPOWERED_AFTER: f64 = 2.0;
 /// Climb per height left, 1/s.
 const HEIGHT_GAIN: f64 = 1.2;
 
@@ -61,13 +66,26 @@ impl Gains {
         (velocity + gain) * (self.stopping_distance() / self.cruise_speed)
     }
 
+    /// The acceleration at the greatest tilt, metres per second squared.
+    fn strength(&self) -> f64 {
+        tan(self.tilt) * self.gravity
+    }
+
+    /// Whether the drone has long been pushed harder than it can tilt against.
+    pub fn is_overpowered(tracking: &Tracking) -> bool {
+        tracking.overpowered >= OVERPOWERED_AFTER
+    }
+
     /// By tilt and by drag in still air.
     fn own_acceleration(&self, estimate: &Estimate) -> Point {
         let Pose {
             yaw, pitch, roll, ..
         } = estimate.pose;
         let (sin, cos) = sincos(yaw);
-        let (ahead, aside) = (tan(pitch) * self.gravity, tan(roll) * self.gravity);
+        let (ahead, aside) = (
+            tan(pitch) * self.gravity,
+            tan(roll) / math::cos(pitch) * self.gravity,
+        );
         let tilting = Point::planar(cos * ahead + sin * aside, sin * ahead - cos * aside);
         tilting - estimate.twist.linear.at_height(0.0) * self.drag
     }
@@ -97,12 +115,15 @@ impl Gains {
         let error = (desired - estimate.twist.linear).at_height(0.0);
         let acceleration = error * VELOCITY_GAIN + desired * self.drag - tracking.push;
         let (sin, cos) = sincos(yaw);
-        let tilt = shortened(acceleration / self.gravity, self.tilt);
+        let tilt = shortened(acceleration, self.strength()) / self.gravity;
+        let (ahead, aside) = (cos * tilt.x + sin * tilt.y, sin * tilt.x - cos * tilt.y);
+        let pitch = atan(ahead);
+        let level = math::cos(pitch);
         let height = goal.target.z.max(self.lowest) - position.z;
         Command::Attitude {
             yaw_rate: 0.0,
-            pitch: cos * tilt.x + sin * tilt.y,
-            roll: sin * tilt.x - cos * tilt.y,
+            pitch,
+            roll: atan(aside * level),
             gaz: (HEIGHT_GAIN * height).clamp(-self.climb_speed, self.climb_speed),
         }
     }
@@ -114,7 +135,12 @@ impl Gains {
         let keep = exp(-OBSERVER_RATE * period);
         let surprise = velocity - expected;
         let push = tracking.push + surprise * ((1.0 - keep) * (1.0 - keep) / period);
-        tracking.push = shortened(push, 0.5 * self.tilt * self.gravity);
+        tracking.push = shortened(push, MOST_PUSH * self.strength());
+        let holds = tracking.push.planar_length() <= self.strength();
+        tracking.overpowered = match holds {
+            true => 0.0,
+            false => tracking.overpowered + period,
+        };
         let acceleration = self.own_acceleration(estimate) + tracking.push;
         let corrected = expected + surprise * (1.0 - keep * keep);
         tracking.expected_velocity = Some(corrected + acceleration * period);

@@ -63,6 +63,8 @@ pub struct Tracking {
     rest: Option<Rest>,
     /// The steady push, such as wind, that the robot is taken to be under, metres per second squared.
     push: Point,
+    /// For how long the push has exceeded what the robot can hold against, seconds.
+    overpowered: f64,
     /// The velocity that the next estimate is expected to show, metres per second.
     expected_velocity: Option<Point>,
 }
@@ -74,6 +76,7 @@ impl Tracking {
     /// For a while the robot was not driven by its tracker.
     pub(crate) fn interrupt(&mut self) {
         self.expected_velocity = None;
+        self.overpowered = 0.0;
     }
 
     /// Seconds since the estimate before this one, within reason; to be called once per estimate.

@@ -2,7 +2,7 @@
 
 use crate::conformance::{CALM, any_command, command_for, every_model_and_variants, place};
 use starl_core::{Duration, Pose, Random};
-use starl_motion::{Model, State};
+use starl_motion::{Disturbance, Model, State};
 
 /// Relative room for the error of integration.
 const ROUNDING: f64 = 1e-5;
@@ -59,8 +59,17 @@ fn commands_beyond_the_limits_are_driven_at_the_limits() {
                     _ => command_for(model, &mut random),
                 };
                 let step = Duration::from_millis([1, 10, 50, 100][random.below(4) as usize]);
+                // Errors of the drive do not lead beyond the limits either.
+                let disturbance = match random.below(3) {
+                    0 => CALM,
+                    _ => Disturbance {
+                        speed_error: random.normal(0.0, 1.0),
+                        turn_error: random.normal(0.0, 1.0),
+                        ..CALM
+                    },
+                };
                 for _ in 0..random.below(20) {
-                    let after = model.predict(&state, &command, &CALM, step);
+                    let after = model.predict(&state, &command, &disturbance, step);
                     check_step(model, &state, &after, step.seconds());
                     state = after;
                 }

@@ -21,6 +21,7 @@ mod conformance_limits;
 mod conformance_tracking;
 mod create_story;
 mod drone_story;
+mod drone_wind;
 mod model_parameters;
 mod model_reference;
 mod pilot_requests;

@@ -6,7 +6,10 @@ use alloc::sync::Arc;
 use starl_core::event::ReachAvoidEvent;
 use starl_core::event::moving::Trouble;
 use starl_core::motion::{Body, Obstacles};
-use starl_core::{Obstacle, Point, Robot};
+use starl_core::{Obstacle, Point, Robot, math};
+
+/// The way that counts as much as a turn of one radian, metres.
+const TURN: f64 = 0.15;
 
 impl ReachAvoid {
     /// Takes a position estimate.
@@ -181,7 +184,7 @@ impl ReachAvoid {
             Phase::Planning => self.no_path(robot),
             Phase::Pausing => self.replan(robot, Trouble::NoPath, false),
             Phase::Following { route, mark, .. } => {
-                let left = to_go(route, robot.position(), robot.body());
+                let left = to_go(route, robot);
                 if left > *mark - self.options.least_progress {
                     self.replan(robot, Trouble::Stuck, true);
                 } else {
@@ -193,15 +196,21 @@ impl ReachAvoid {
     }
 }
 
-/// Metres to go, the climb to the lowest height of travel included.
-pub(super) fn to_go(route: &Route, position: Point, body: &Body) -> f64 {
+/// Metres to go, with the climb to the lowest height of travel and the turn towards the next waypoint: a
+/// robot that turns on the spot makes progress.
+pub(super) fn to_go(route: &Route, robot: &Robot<'_>) -> f64 {
+    let (body, position) = (robot.body(), robot.position());
     let reachable = body.reachable(position);
-    let climb = if body.flies() {
+    let ahead = if body.flies() {
         position.distance(reachable)
     } else {
-        0.0
+        let way = (route.current() - position).at_height(0.0);
+        let turn = way
+            .normalized()
+            .map_or(0.0, |way| way.heading() - robot.heading());
+        TURN * math::fabs(math::wrap_angle(turn))
     };
-    climb + route.remaining(reachable)
+    ahead + route.remaining(reachable)
 }
 
 /// The obstacles of either set; where they are the same, as with programs that keep out of all they know,

@@ -7,6 +7,7 @@
 //! half the vicinity, a path of some width exists):
 //! - safety: the robot's position stays outside the unsafe set; where it does not, it has failed;
 //! - goal: when it is done the robot has been within the vicinity of the target;
+//! - wind: where it is stronger than the robot can hold against, the command has failed;
 //! - progress: it is not active for ever. In each [`Options::stuck_after`] the way ahead shrinks by
 //!   [`Options::least_progress`] or a re-plan is spent; there are [`Options::most_replans`] of them.
 //!
@@ -189,7 +190,8 @@ impl ReachAvoid {
         self.done
     }
 
-    /// Whether the robot entered the unsafe set during the last command.
+    /// Whether the robot entered the unsafe set during the last command, or the wind is stronger than it can hold
+    /// against.
     pub fn failed(&self) -> bool {
         self.failed
     }
@@ -233,6 +235,10 @@ impl Primitive for ReachAvoid {
                 if *ticket == self.ticket && matches!(command.phase, Phase::Planning) =>
             {
                 self.planned(robot, path.as_ref());
+            }
+            Input::Overpowered => {
+                self.give_up(robot, Trouble::Wind);
+                self.failed = true;
             }
             _ => {}
         }

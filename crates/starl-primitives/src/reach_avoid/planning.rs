@@ -79,12 +79,11 @@ impl ReachAvoid {
 
     /// Sets out on a path from here.
     pub(super) fn set_out(&mut self, robot: &mut Robot<'_>, route: Route) {
-        let (body, position) = (*robot.body(), robot.position());
         let Some(command) = &mut self.command else {
             return;
         };
         command.plan_failures = 0;
-        let mark = to_go(&route, position, &body);
+        let mark = to_go(&route, robot);
         let path = route.points().to_vec();
         command.phase = Phase::Following {
             route,

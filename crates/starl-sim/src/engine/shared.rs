@@ -6,7 +6,7 @@ use super::things::Things;
 use crate::scenario::{Network, Scenario, SensorSuite, WorldObstacle};
 use starl_core::geometry::ObstacleIndex;
 use starl_core::motion::Obstacles;
-use starl_core::{Command, Point, Program, RobotId, Time, WayPoint};
+use starl_core::{Command, Point, Program, RobotId, Time, WayPoint, math};
 use starl_host::Hardware;
 use starl_motion::{Disturbance, Model, Neighbour};
 use std::sync::Arc;
@@ -88,14 +88,21 @@ impl Shared {
             turn_error: 0.0,
         };
         if motion.speed_noise > 0.0 || motion.turn_noise > 0.0 {
-            let draw = from.0 / motion.noise_period.0.max(1);
-            let mut random = super::stream(
-                self.scenario.seed,
-                super::Stream::Motion,
-                &[u64::from(robot.0), draw],
-            );
-            disturbance.speed_error = random.normal(0.0, motion.speed_noise);
-            disturbance.turn_error = random.normal(0.0, motion.turn_noise);
+            let period = motion.noise_period.0.max(1);
+            let draw = from.0 / period;
+            let errors = |draw: u64| {
+                let key = [u64::from(robot.0), draw];
+                let mut random = super::stream(self.scenario.seed, super::Stream::Motion, &key);
+                let speed = random.normal(0.0, motion.speed_noise);
+                [speed, random.normal(0.0, motion.turn_noise)]
+            };
+            // From one draw to the next along a quarter of a circle: smooth, and of the same deviation at
+            // all times.
+            let part = (from.0 % period) as f64 / period as f64;
+            let (sin, cos) = math::sincos(0.25 * math::TAU * part);
+            let (this, next) = (errors(draw), errors(draw + 1));
+            let mixed = [0, 1].map(|which| cos * this[which] + sin * next[which]);
+            [disturbance.speed_error, disturbance.turn_error] = mixed;
         }
         disturbance
     }

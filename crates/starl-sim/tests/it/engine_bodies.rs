@@ -181,7 +181,7 @@ struct Oncoming(f64);
 
 impl Program for Oncoming {
     fn activate(&mut self, robot: &mut Robot<'_>) {
-        let speed = if robot.id().0 % 2 == 0 {
+        let speed = if robot.id().0.is_multiple_of(2) {
             self.0
         } else {
             -self.0

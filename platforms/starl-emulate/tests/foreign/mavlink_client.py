@@ -43,13 +43,15 @@ class Vehicle:
         while self.link.recv_match(blocking=False):
             pass
         parameters = (*parameters, *[0] * (7 - len(parameters)))
-        self.link.mav.command_long_send(1, 1, command, 0, *parameters)
-        end = time.time() + 3
-        while time.time() < end:
-            ack = self.link.recv_match(type="COMMAND_ACK", blocking=True, timeout=1)
-            if ack and ack.command == command:
-                assert ack.result == expect, ack
-                return
+        # Datagrams get lost on a busy machine: MAVLink's command protocol sends a command again.
+        for confirmation in range(6):
+            self.link.mav.command_long_send(1, 1, command, confirmation, *parameters)
+            end = time.time() + 3
+            while time.time() < end:
+                ack = self.link.recv_match(type="COMMAND_ACK", blocking=True, timeout=1)
+                if ack and ack.command == command:
+                    assert ack.result == expect, ack
+                    return
         raise AssertionError(f"no acknowledgement of {command}")
 
     def target(self, mask, x, y, z, yaw=0.0, frame=mavlink.MAV_FRAME_LOCAL_NED):

@@ -1,12 +1,15 @@
 //! The drone's own controller, which its maker keeps to himself: references for its loops.
 //!
 //! The real one holds its place with a camera that looks down; here it holds a point, by proportional
-//! and derivative action, which is what integrating its velocity amounts to.
+//! and derivative action, which is what integrating its velocity amounts to, and leans into the wind as much as
+//! that pushes it.
 
 use super::GRAVITY;
 use super::dynamics::{Dynamics, Motion};
 use super::mode;
+use crate::Disturbance;
 use starl_core::Command;
+use starl_core::math::atan;
 
 /// The references of the loops of attitude, yaw and climb.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +45,9 @@ impl Dynamics {
         anchor: [f64; 2],
         motion: &Motion,
         (sin_yaw, cos_yaw): (f64, f64),
+        disturbance: &Disturbance,
     ) -> References {
+        let drive = 1.0 + disturbance.speed_error;
         if let (
             mode::FLYING,
             &Command::Attitude {
@@ -53,26 +58,30 @@ impl Dynamics {
             },
         ) = (mode, command)
         {
-            let (pitch, roll) = self.in_disc(pitch, roll);
+            let (pitch, roll) = self.in_disc(pitch * drive, roll * drive);
+            let yaw_rate = yaw_rate * (1.0 + disturbance.turn_error);
             let yaw_rate = yaw_rate.clamp(-self.yaw_rate, self.yaw_rate);
             return References {
                 pitch,
                 roll,
                 yaw_rate,
-                climb: gaz.clamp(-self.climb, self.climb),
+                climb: (gaz * drive).clamp(-self.climb, self.climb),
             };
         }
+        let air = [disturbance.wind.x, disturbance.wind.y];
         let [x, y] = [0, 1].map(|axis| {
             let error = anchor[axis] - motion.position[axis];
-            (PLACE_GAIN * error - SPEED_GAIN * motion.velocity[axis]) / GRAVITY
+            let wind = self.drag * air[axis];
+            (PLACE_GAIN * error - SPEED_GAIN * motion.velocity[axis] - wind) / GRAVITY
         });
-        let (pitch, roll) = self.in_disc(cos_yaw * x + sin_yaw * y, sin_yaw * x - cos_yaw * y);
+        let (ahead, aside) = (cos_yaw * x + sin_yaw * y, sin_yaw * x - cos_yaw * y);
+        let (pitch, roll) = self.in_disc(atan(ahead) * drive, atan(aside) * drive);
         let climb = match mode {
             mode::TAKING_OFF => {
                 let left = self.safe_height - motion.position[2];
-                (HEIGHT_GAIN / self.climb_time * left).clamp(-self.climb, self.climb)
+                (HEIGHT_GAIN / self.climb_time * left * drive).clamp(-self.climb, self.climb)
             }
-            mode::LANDING => -self.landing_speed,
+            mode::LANDING => (-self.landing_speed * drive).clamp(-self.climb, self.climb),
             _ => 0.0,
         };
         References {

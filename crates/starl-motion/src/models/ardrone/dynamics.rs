@@ -154,10 +154,17 @@ impl Dynamics {
         let (sin_yaw, cos_yaw) = sincos(yaw);
         let (sin_pitch, cos_pitch) = sincos(pitch);
         let (sin_roll, cos_roll) = sincos(roll);
-        let wanted = self.references(mode, command, anchor, motion, (sin_yaw, cos_yaw));
+        let wanted = self.references(
+            mode,
+            command,
+            anchor,
+            motion,
+            (sin_yaw, cos_yaw),
+            disturbance,
+        );
 
         let climbing = (wanted.climb - motion.velocity[2]) / self.climb_time;
-        let thrust = (GRAVITY + climbing) * (1.0 + disturbance.speed_error);
+        let thrust = GRAVITY + climbing;
         let ahead = thrust * sin_pitch / cos_pitch;
         let left = -thrust * sin_roll / (cos_roll * cos_pitch);
         let Point {
@@ -175,9 +182,8 @@ impl Dynamics {
         let attitude = |reference: f64, angle: f64, rate: f64| {
             frequency * (frequency * (reference - angle) - 2.0 * rate)
         };
-        let turn = wanted.yaw_rate * (1.0 + disturbance.turn_error);
         let angular = [
-            (turn - yaw_rate) / self.yaw_time,
+            (wanted.yaw_rate - yaw_rate) / self.yaw_time,
             attitude(wanted.pitch, pitch, pitch_rate),
             attitude(wanted.roll, roll, roll_rate),
         ];

@@ -235,6 +235,10 @@ impl Model for Ardrone {
         self.gains.track(tracking, estimate, goal)
     }
 
+    fn is_overpowered(&self, tracking: &Tracking) -> bool {
+        Gains::is_overpowered(tracking)
+    }
+
     /// A drone that hits something holds that place rather than push.
     fn update(&self, state: &mut State, predicted: &State, impact: Option<Impact>) {
         *state = *predicted;

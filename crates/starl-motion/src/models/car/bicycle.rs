@@ -4,7 +4,6 @@
 //! when the front wheels stand at angle d, and the heading turns at v cos(b) tan(d) / wheelbase.
 
 use super::unicycle;
-use crate::Disturbance;
 use starl_core::math::{atan, sincos, sqrt, tan, wrap_angle};
 use starl_core::{Point, Pose};
 
@@ -48,26 +47,18 @@ impl Ramp {
 }
 
 /// The pose after `seconds` in which speed and steering angle change so.
-pub(super) fn roll(
-    wheelbase: f64,
-    pose: &Pose,
-    speed: Ramp,
-    angle: Ramp,
-    disturbance: &Disturbance,
-    seconds: f64,
-) -> Pose {
-    let (drive, turn) = (1.0 + disturbance.speed_error, 1.0 + disturbance.turn_error);
+pub(super) fn roll(wheelbase: f64, pose: &Pose, speed: Ramp, angle: Ramp, seconds: f64) -> Pose {
     if angle.from == angle.to {
         // The path is an arc whatever the speed does: only its length matters.
         let Course { slip, curvature } = course(wheelbase, angle.to);
-        let mean = speed.at(0.5) * drive;
-        return unicycle::advance(pose, slip, mean, mean * curvature * turn, seconds).0;
+        let mean = speed.at(0.5);
+        return unicycle::advance(pose, slip, mean, mean * curvature, seconds).0;
     }
     let slope = |part: f64, yaw: f64| {
-        let speed = speed.at(part) * drive;
+        let speed = speed.at(part);
         let Course { slip, curvature } = course(wheelbase, angle.at(part));
         let (sin, cos) = sincos(yaw + slip);
-        [speed * cos, speed * sin, speed * curvature * turn]
+        [speed * cos, speed * sin, speed * curvature]
     };
     let first = slope(0.0, pose.yaw);
     let second = slope(0.5, pose.yaw + 0.5 * seconds * first[2]);

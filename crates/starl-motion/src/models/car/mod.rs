@@ -197,10 +197,14 @@ impl Model for Car {
         let limits = &self.parameters;
         let [mut speed, mut angle] = state.memory;
         let (wanted_speed, wanted_angle) = match *command {
-            Command::Steer { speed, angle } if self.accepts(command) => (
-                speed.clamp(-limits.speed, limits.speed),
-                angle.clamp(-self.steering_angle, self.steering_angle),
-            ),
+            Command::Steer { speed, angle } if self.accepts(command) => {
+                let speed = speed * (1.0 + disturbance.speed_error);
+                let angle = angle * (1.0 + disturbance.turn_error);
+                (
+                    speed.clamp(-limits.speed, limits.speed),
+                    angle.clamp(-self.steering_angle, self.steering_angle),
+                )
+            }
             _ => (0.0, angle),
         };
         let mut pose = state.pose;
@@ -227,15 +231,14 @@ impl Model for Car {
                     to: next_angle,
                 },
             );
-            pose = bicycle::roll(limits.wheelbase, &pose, speeds, angles, disturbance, step);
+            pose = bicycle::roll(limits.wheelbase, &pose, speeds, angles, step);
             (speed, angle) = (next_speed, next_angle);
             left -= step;
         }
         let Course { slip, curvature } = course(limits.wheelbase, angle);
-        let driven = speed * (1.0 + disturbance.speed_error);
         let twist = Twist {
-            linear: Point::polar(driven, pose.yaw + slip),
-            yaw: driven * curvature * (1.0 + disturbance.turn_error),
+            linear: Point::polar(speed, pose.yaw + slip),
+            yaw: speed * curvature,
             ..Twist::default()
         };
         State {
