@@ -109,6 +109,10 @@ impl Paths {
     /// The world with the whole paths and what came of the run.
     pub fn finish(mut self, report: &Report) -> PlotData {
         let outcome = match report.outcome {
+            Ending::Over(Outcome::Reached) if report.only_lasts() => "ran to the end,",
+            Ending::Over(Outcome::Violated) if report.only_lasts() => {
+                "ran to the end, a property violated"
+            }
             Ending::Over(Outcome::Reached) => "goal reached",
             Ending::Over(Outcome::Violated) => "goal reached, a property violated",
             Ending::Over(Outcome::TimedOut) => "goal not reached in time",

@@ -5,6 +5,7 @@ use starl_catalog::session::{Messages, Progress};
 use starl_core::RobotId;
 use starl_core::event::Name;
 use starl_properties::{Excuse, Violation};
+use starl_sim::scenario::Goal;
 use starl_sim::{Outcome, Run, Scenario};
 
 /// All that is told of a run. As JSON its fields are described in `docs/reference/command.md`.
@@ -13,6 +14,8 @@ pub struct Report {
     pub target: String,
     pub title: String,
     pub seed: u64,
+    /// What counts as success: `all_finished`, or `duration` where the run is only to last.
+    pub goal: &'static str,
     pub outcome: Ending,
     pub digest: String,
     pub sim_seconds: f64,
@@ -59,6 +62,9 @@ pub struct Excused {
 /// The verdict on a property of a primitive that the run did not use.
 pub const UNUSED: &str = "unused";
 
+/// The goal of a run that is only to last.
+const LASTS: &str = "duration";
+
 /// A violation of a property.
 #[derive(Clone, Debug, Serialize)]
 pub struct Breach {
@@ -83,6 +89,10 @@ pub struct Robot {
     pub model: &'static str,
     pub distance_m: f64,
     pub way_points: u32,
+    /// How many commands its ReachAvoid gave up.
+    pub gave_up: u32,
+    /// How many datagrams it sent.
+    pub sent: u32,
 }
 
 /// The part of a report that the simulation does not know.
@@ -139,6 +149,10 @@ impl Report {
             target,
             title: scenario.title.clone(),
             seed: scenario.seed,
+            goal: match scenario.goal {
+                Goal::AllFinished => "all_finished",
+                Goal::Duration => LASTS,
+            },
             outcome: Ending::of(run, interrupted),
             digest: simulation.digest().to_string(),
             sim_seconds,
@@ -155,6 +169,11 @@ impl Report {
             plot,
             replay,
         }
+    }
+
+    /// Whether there was nothing to achieve but to last.
+    pub fn only_lasts(&self) -> bool {
+        self.goal == LASTS
     }
 
     /// Whether the goal was reached and no property was violated.
@@ -238,6 +257,8 @@ fn robots(run: &Run, scenario: &Scenario) -> Vec<Robot> {
                 model: group.model.name(),
                 distance_m: simulation.distance(id),
                 way_points: simulation.way_points(id),
+                gave_up: simulation.gave_up(id),
+                sent: simulation.sent(id),
             });
         }
     }

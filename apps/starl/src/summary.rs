@@ -8,6 +8,12 @@ use std::fmt::{self, Write};
 /// Larger fleets are summed up by model instead of robot by robot.
 const MOST_ROBOTS_LISTED: usize = 16;
 
+/// A robot that moved less than this, metres, never moved.
+const STILL: f64 = 0.01;
+
+/// The most robots that are named in a remark on idle ones.
+const MOST_NAMES_LISTED: usize = 5;
+
 /// The summary as text.
 pub fn text(report: &Report) -> String {
     let mut text = String::new();
@@ -67,6 +73,7 @@ fn write(text: &mut String, report: &Report) -> fmt::Result {
         0..=MOST_ROBOTS_LISTED => robots(text, &report.robots)?,
         _ => models(text, &report.robots)?,
     }
+    idle(text, &report.robots)?;
     if !report.properties.is_empty() {
         writeln!(text)?;
         properties(text, &report.properties)?;
@@ -86,6 +93,10 @@ fn ending(report: &Report) -> String {
         progress.finished, progress.robots
     );
     match report.outcome {
+        Ending::Over(Outcome::Reached) if report.only_lasts() => format!("ran for {at}"),
+        Ending::Over(Outcome::Violated) if report.only_lasts() => {
+            format!("ran for {at}; a property was violated")
+        }
         Ending::Over(Outcome::Reached) => format!("goal reached after {at}"),
         Ending::Over(Outcome::Violated) => {
             format!("goal reached after {at}, but a property was violated")
@@ -125,6 +136,46 @@ fn robots(text: &mut String, robots: &[Robot]) -> fmt::Result {
         )?;
     }
     Ok(())
+}
+
+/// Robots that have done less than the others: that never moved, gave up a target, or never sent.
+fn idle(text: &mut String, robots: &[Robot]) -> fmt::Result {
+    let some = |is: &dyn Fn(&Robot) -> bool| {
+        let mut names = Vec::new();
+        names.extend(
+            robots
+                .iter()
+                .filter(|robot| is(robot))
+                .map(|robot| &*robot.name),
+        );
+        names
+    };
+    let still = some(&|robot| robot.distance_m < STILL);
+    let silent = some(&|robot| robot.sent == 0);
+    let gave_up = some(&|robot| robot.gave_up > 0);
+    for (what, names) in [
+        ("never moved", still),
+        ("never sent a message", silent),
+        ("gave up a target", gave_up),
+    ] {
+        // Where nobody moves or sends, the program is not made for it.
+        let is_all = names.len() == robots.len() && what != "gave up a target";
+        if !names.is_empty() && !is_all {
+            writeln!(text, "{what}: {}", listed(&names))?;
+        }
+    }
+    Ok(())
+}
+
+/// The first names of a list, and how many more there are.
+fn listed(names: &[&str]) -> String {
+    let shown = names.len().min(MOST_NAMES_LISTED);
+    let more = names.len() - shown;
+    let shown = names[..shown].join(", ");
+    match more {
+        0 => shown,
+        more => format!("{shown} and {} more", grouped(more as u64)),
+    }
 }
 
 fn models(text: &mut String, robots: &[Robot]) -> fmt::Result {

@@ -19,6 +19,7 @@ mod mutex;
 mod no_collision;
 mod outstanding;
 mod parts;
+mod passing;
 mod pending;
 mod reach_avoid;
 mod register;

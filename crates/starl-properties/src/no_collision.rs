@@ -1,11 +1,12 @@
 //! Bodies never touch: neither each other nor obstacles.
 //!
-//! There are two independent sources: the collisions that the host reports, and bodies that overlap in
-//! the recorded poses. Robots are compared only at poses of the same moment. All contacts from the first
+//! There are three independent sources: the collisions that the host reports, bodies that overlap in the
+//! recorded poses, and bodies that pass through something from one recorded pose to the next. Robots are compared only at poses of the same moment. All contacts from the first
 //! touch until the two are [`APART`] are one collision, reported once. Contacts of a robot that has
 //! crashed in the air and falls do not count.
 
 use super::bodies::{Sweep, gap};
+use super::passing::{self, Passing, Way};
 use super::{Checker, Excuse, Excused, Kinds, Setting, Violation};
 use starl_core::event::{Event, Fault, Hit};
 use starl_core::geometry::{Bounds, ObstacleIndex};
@@ -49,6 +50,7 @@ pub(super) struct NoCollision {
     /// Each robot's last pose.
     positions: Vec<Option<Point>>,
     round: Round,
+    passing: Passing,
     /// Robots that touch, the lower number first.
     pairs: BTreeSet<(RobotId, RobotId)>,
     /// The obstacles that each robot touches.
@@ -108,6 +110,7 @@ impl NoCollision {
                 poses: vec![None; robots],
                 ..Round::default()
             },
+            passing: Passing::default(),
             pairs: BTreeSet::new(),
             walls: vec![Vec::new(); robots],
             falls: BTreeMap::new(),
@@ -230,6 +233,7 @@ impl NoCollision {
                 self.joining.extend(body.map(|&body| (body, position)));
                 return;
             }
+            Intervention::Push { robot, .. } => return self.passing.forget(*robot),
             Intervention::Leave(robots) => {
                 return robots.iter().for_each(|&robot| self.left(robot));
             }
@@ -275,6 +279,7 @@ impl NoCollision {
         }
         self.walls[robot.index()].clear();
         self.falls.remove(&robot);
+        self.passing.forget(robot);
         self.pairs.retain(|&(a, b)| a != robot && b != robot);
     }
 
@@ -383,8 +388,51 @@ impl NoCollision {
                 });
             }
         });
+        let (ended, ways) = self.passing.close(*at, poses, bodies);
+        passing::pairs(&ways, OVERLAP, |a, b, depth| {
+            if !falls(a.robot) && !falls(b.robot) && pairs.insert((a.robot, b.robot)) {
+                found.push(Violation {
+                    property: NO_COLLISION.into(),
+                    at: ended,
+                    robots: vec![a.robot, b.robot],
+                    text: format!(
+                        "robots {} and {} pass through each other, {:.3} m deep, near {}",
+                        a.robot, b.robot, -depth, a.to,
+                    ),
+                });
+            }
+        });
         poses.fill(None);
         *count = 0;
+        for way in &ways {
+            if !self.falls(way.robot, ended) {
+                self.pass_obstacles(ended, way, found);
+            }
+        }
+    }
+
+    /// Whether a robot went through an obstacle on its way.
+    fn pass_obstacles(&mut self, ended: Time, way: &Way, found: &mut Vec<Violation>) {
+        let map = self.obstacles.clone();
+        let _ = map.for_each_near(&way.bounds(), |index| {
+            let depth = way.into(&map.obstacles()[index as usize]);
+            let stands = ended <= self.expires[index as usize];
+            if depth < -OVERLAP && stands && self.touch(way.robot, index, way.to) {
+                found.push(Violation {
+                    property: NO_COLLISION.into(),
+                    at: ended,
+                    robots: vec![way.robot],
+                    text: format!(
+                        "robot {} passes through {}, {:.3} m deep, near {}",
+                        way.robot,
+                        self.name(index),
+                        -depth,
+                        way.to,
+                    ),
+                });
+            }
+            ControlFlow::<()>::Continue(())
+        });
     }
 
     /// Closes the round if its moment has passed.

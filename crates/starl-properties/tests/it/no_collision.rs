@@ -356,3 +356,54 @@ fn a_robot_that_joins_is_watched_and_one_that_leaves_is_not() {
     steered(&mut leaves, 1750, Intervention::Leave(vec![RobotId(0)]));
     assert_none(&leaves.verdict(2000));
 }
+
+#[test]
+fn robots_that_change_places_between_two_poses_pass_through_each_other() {
+    for (aside, passes) in [(0.0, true), (0.35, true), (0.45, false)] {
+        let mut story = Story::of_ground_robots(2);
+        // 2 m a pose, so that no pose shows an overlap.
+        story.walks(0, 1000, 0, at(0.0, 0.0), at(20.0, 0.0));
+        story.walks(0, 1000, 1, at(21.0, aside), at(1.0, aside));
+        let verdict = story.verdict(1200);
+        if !passes {
+            assert_none(&verdict);
+            continue;
+        }
+        assert_only(&verdict, "no_collision", 600, &[0, 1]);
+        assert!(
+            verdict[0]
+                .text
+                .starts_with("robots 0 and 1 pass through each other")
+        );
+    }
+}
+
+#[test]
+fn a_robot_that_jumps_over_a_pillar_passes_through_it() {
+    for (aside, passes) in [(0.0, true), (0.6, true), (0.75, false)] {
+        let mut story = Story::of_ground_robots(1);
+        pillar(&mut story, 11.0, u64::MAX / 1_000_000);
+        story.walks(0, 1000, 0, at(0.0, aside), at(20.0, aside));
+        let verdict = story.verdict(1200);
+        if !passes {
+            assert_none(&verdict);
+            continue;
+        }
+        assert_only(&verdict, "no_collision", 600, &[0]);
+        assert!(
+            verdict[0]
+                .text
+                .starts_with("robot 0 passes through obstacle 0")
+        );
+    }
+}
+
+#[test]
+fn a_robot_that_turns_back_between_two_poses_has_passed_nothing() {
+    let mut story = Story::of_ground_robots(2);
+    story.stays(0, 1000, 1, at(5.0, 0.0));
+    // On the straight way from 400 to 500 ms it would touch the other; it went round.
+    story.walks(0, 400, 0, at(3.0, -4.0), at(3.0, -0.5));
+    story.walks(500, 1000, 0, at(7.0, 0.5), at(7.0, 4.0));
+    assert_none(&story.verdict(1200));
+}

@@ -1,7 +1,7 @@
-//! One robot's turn in a step: its node is called for all that happens to it, in the order of time.
+//! One robot's turn in a slot of time: its node is called for all that happens to it, in the order of time.
 
 use super::inbox::{Delivery, Transmission};
-use super::mind::{Frozen, Senses};
+use super::mind::{Account, Frozen, Senses};
 use super::outlet::Desk;
 use super::sense::Readings;
 use super::shared::{Kind, Shared, Window};
@@ -11,7 +11,10 @@ use starl_host::{Happening, Node, Outlet, Snapshot};
 
 /// All that one robot's turn touches.
 pub struct Turn<'a> {
+    /// The slot of time under way.
     pub window: Window,
+    /// When the step began.
+    pub step: Time,
     pub node: &'a mut Node,
     pub next_estimate: &'a mut Time,
     pub senses: &'a mut Senses,
@@ -22,8 +25,9 @@ pub struct Turn<'a> {
 }
 
 impl Turn<'_> {
-    /// Takes all that happens in this step. `arrivals` is room for work.
-    pub fn run(&mut self, arrivals: &mut Vec<Delivery>) {
+    /// Takes all that happens in this slot, and returns when something happens next, arrivals aside. `arrivals`
+    /// is room for work.
+    pub fn run(&mut self, arrivals: &mut Vec<Delivery>) -> Time {
         if self.window.from == Time::ZERO {
             let pose = self.desk.state.pose;
             self.desk.record(Time::ZERO, Event::Moved(pose));
@@ -33,17 +37,18 @@ impl Turn<'_> {
             self.begin();
         }
         self.take_in_order(arrivals);
+        next_due(self.node, self.desk.account, *self.next_estimate)
     }
 
     /// The first inputs: the start, paths that planners have found, and readings.
     fn begin(&mut self) {
-        let mut from = self.window.from;
-        if !self.node.condition().started {
-            from = from.max(self.node.next_timeout());
+        if !self.node.condition().started && self.node.next_timeout() < self.window.to {
+            let from = self.window.from.max(self.node.next_timeout());
             self.locate(from);
             self.handle(from, Happening::Start);
         }
-        if !self.desk.account.plans.is_empty() {
+        if self.window.from == self.step && !self.desk.account.plans.is_empty() {
+            let from = self.step;
             for (job, path) in std::mem::take(&mut self.desk.account.plans) {
                 self.handle(from, Happening::Planned { job, path });
             }
@@ -65,7 +70,7 @@ impl Turn<'_> {
                 *self.next_estimate
             };
             let end = estimate.min(self.window.to);
-            if due(self.node, &self.desk, arrivals).min() < end {
+            if due(self.node, self.desk.account, arrivals).min() < end {
                 self.take_until(end, &mut arrivals);
             }
             if estimate >= self.window.to {
@@ -82,7 +87,7 @@ impl Turn<'_> {
         let readings = self.sensed.then_some(&*self.readings);
         let snapshot = snapshot(self.desk.shared, self.desk.kind, self.senses, readings);
         loop {
-            let due = due(self.node, &self.desk, arrivals);
+            let due = due(self.node, self.desk.account, arrivals);
             let at = due.min();
             if at >= end {
                 return;
@@ -115,7 +120,7 @@ impl Turn<'_> {
             return;
         }
         let Desk { shared, state, .. } = self.desk;
-        let estimate = position::estimate(shared, self.node.id(), state, self.window.from, at);
+        let estimate = position::estimate(shared, self.node.id(), state, self.step, at);
         self.node.locate(at, estimate, &mut self.desk);
         if !shared.hidden.is_empty() {
             let range = self.desk.kind.sensors.discovery_range;
@@ -182,10 +187,20 @@ impl Due {
     }
 }
 
+/// When something happens to a robot next, arrivals of datagrams aside.
 #[inline]
-fn due(node: &Node, desk: &Desk<'_>, arrivals: &[Delivery]) -> Due {
-    let order = desk.account.orders.first();
-    let store = desk.account.store.as_ref();
+pub fn next_due(node: &Node, account: &Account, next_estimate: Time) -> Time {
+    let next = due(node, account, &[]).min();
+    match node.condition().down {
+        true => next,
+        false => next.min(next_estimate),
+    }
+}
+
+#[inline]
+fn due(node: &Node, account: &Account, arrivals: &[Delivery]) -> Due {
+    let order = account.orders.first();
+    let store = account.store.as_ref();
     Due {
         stored: store.map_or(Time::NEVER, |store| store.due()),
         message: arrivals.first().map_or(Time::NEVER, |delivery| delivery.at),

@@ -78,9 +78,14 @@ impl Agenda {
         told.map(|due| (due.at, due.what.clone()))
     }
 
-    /// Takes the next one that is due before `end`.
-    pub fn next(&mut self, end: Time) -> Option<Due> {
-        let due = self.list.get(self.done).filter(|due| due.at < end)?;
+    /// When the next one is due.
+    pub fn next_time(&self) -> Time {
+        self.list.get(self.done).map_or(Time::NEVER, |due| due.at)
+    }
+
+    /// Takes the next one that is due at `now` or before.
+    pub fn next(&mut self, now: Time) -> Option<Due> {
+        let due = self.list.get(self.done).filter(|due| due.at <= now)?;
         self.done += 1;
         Some(due.clone())
     }

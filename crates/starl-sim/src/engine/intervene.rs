@@ -3,7 +3,6 @@
 use super::agenda::Due;
 use super::mind::Mind;
 use super::shard::SIZE;
-use super::shared::Window;
 use super::{Simulation, Stream, fault, populate, stream};
 use crate::scenario::{Group, Network, Occasion, Scenario, ScenarioEvent};
 use starl_core::event::{Fault, Level};
@@ -74,10 +73,9 @@ impl Simulation {
         scenario
     }
 
-    /// Carries out what is due in this step.
-    pub(super) fn intervene(&mut self, window: Window) {
-        while let Some(Due { at, what, told }) = self.agenda.next(window.to) {
-            let at = at.max(window.from);
+    /// Carries out what is due now, or has been due since before.
+    pub(super) fn intervene(&mut self, at: Time) {
+        while let Some(Due { what, told, .. }) = self.agenda.next(at) {
             if told {
                 self.note(at, Event::Intervention(Box::new(what.clone())));
             }

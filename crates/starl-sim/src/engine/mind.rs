@@ -96,6 +96,10 @@ pub struct Account {
     pub orders: Vec<(Time, Order)>,
     /// How many waypoints ReachAvoid has reached.
     pub way_points: u32,
+    /// How many commands ReachAvoid has given up.
+    pub gave_up: u32,
+    /// How many datagrams it has sent.
+    pub sent: u32,
 }
 
 /// Hidden obstacles that a robot has met.

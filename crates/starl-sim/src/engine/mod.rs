@@ -21,6 +21,7 @@ mod sense;
 mod shard;
 mod shared;
 mod simulation;
+mod slots;
 mod things;
 mod witness;
 

@@ -36,17 +36,22 @@ impl Outlet for Desk<'_> {
     #[inline(always)]
     fn record(&mut self, at: Time, event: Event) {
         if let Event::Primitive {
-            event: PrimitiveEvent::ReachAvoid(ReachAvoidEvent::Done { .. }),
+            event: PrimitiveEvent::ReachAvoid(event),
             ..
         } = &event
         {
-            self.account.way_points += 1;
+            match event {
+                ReachAvoidEvent::Done { .. } => self.account.way_points += 1,
+                ReachAvoidEvent::GiveUp { .. } => self.account.gave_up += 1,
+                _ => {}
+            }
         }
         self.log
             .record(&mut self.account.digest, self.robot, at, event);
     }
 
     fn transmit(&mut self, at: Time, datagram: Datagram) {
+        self.account.sent += 1;
         match self.leaves(at, datagram.message.payload.len()) {
             Ok(at) => self.outbox.push(Outgoing { at, datagram }),
             Err(reason) => self.record(

@@ -7,6 +7,7 @@ use super::inbox::{Calendar, Delivery, Transmission};
 use super::mind::Outgoing;
 use super::record::Log;
 use super::shared::{Shared, Window};
+use super::slots::Slots;
 use super::{Stream, stream};
 use crate::scenario::{DelayDistribution, Link};
 use starl_core::event::DropReason;
@@ -109,32 +110,32 @@ pub fn route(
     }
 }
 
-/// Moves what a shard has posted into the calendar.
+/// Moves what a shard has posted into the calendar; nothing arrives before `earliest`.
 pub fn post(
     calendar: &mut Calendar,
     outbox: &[Outgoing],
     posted: &[Posted],
-    next_step: Time,
-    step: Duration,
+    earliest: Time,
+    slots: Slots,
 ) {
-    // The steps in which the datagram at hand arrives, and its index in each.
-    let mut pages: Vec<(usize, u32)> = Vec::new();
+    // The slots in which the datagram at hand arrives, and its index in each.
+    let mut pages: Vec<(u64, u32)> = Vec::new();
     let mut at_hand = u32::MAX;
     for posting in posted {
         if posting.outgoing != at_hand {
             at_hand = posting.outgoing;
             pages.clear();
         }
-        let at = posting.at.max(next_step);
-        let steps = (at.since(next_step).0 / step.0) as usize;
-        let transmission = match pages.iter().find(|page| page.0 == steps) {
+        let at = posting.at.max(earliest);
+        let slot = slots.number(at);
+        let transmission = match pages.iter().find(|page| page.0 == slot) {
             Some(page) => page.1,
             None => {
                 let Datagram {
                     sequence, message, ..
                 } = &outbox[at_hand as usize].datagram;
                 let index = calendar.add_transmission(
-                    steps,
+                    slot,
                     Transmission {
                         from: message.from,
                         sequence: *sequence,
@@ -142,12 +143,12 @@ pub fn post(
                         payload: message.payload.clone(),
                     },
                 );
-                pages.push((steps, index));
+                pages.push((slot, index));
                 index
             }
         };
         calendar.add_delivery(
-            steps,
+            slot,
             Delivery {
                 at,
                 to: posting.to.0,

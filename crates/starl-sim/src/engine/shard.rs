@@ -2,7 +2,7 @@
 //!
 //! Invariant: which robots share a shard depends on the fleet alone, never on the number of threads.
 
-use super::act::Turn;
+use super::act::{Turn, next_due};
 use super::collide::{Contact, Motions};
 use super::inbox::Delivery;
 use super::mind::{Mind, Outgoing};
@@ -32,6 +32,10 @@ pub struct Shard {
     /// The requests of robots to their grippers in this step.
     pub grips: Vec<Grip>,
     pub posted: Vec<Posted>,
+    /// When something happens to each robot next, arrivals of datagrams aside.
+    due: Vec<Time>,
+    /// How many of the outbox have been routed.
+    routed: usize,
     pub log: Log,
     /// Records the inputs of the robots' software; none if not requested.
     pub journal: Option<Box<Journal>>,
@@ -55,24 +59,51 @@ impl Shard {
         }
     }
 
-    /// Lets each robot take its inputs of this step and predicts its motion; `next` receives the
-    /// predicted positions.
-    pub fn act(&mut self, shared: &Shared, window: Window, next: &mut [Point]) {
+    /// Forgets what was sent in the step before.
+    pub fn begin_step(&mut self, step: Time) {
         self.outbox.clear();
+        self.routed = 0;
+        self.schedule(step, step);
+    }
+
+    /// Finds out when something happens to each robot from `now` on in the step that began at `step`.
+    pub fn schedule(&mut self, step: Time, now: Time) {
+        let is_begun = now > step;
+        let due = |mind: &Mind| match mind {
+            mind if mind.is_gone => Time::NEVER,
+            mind if !is_begun && (step == Time::ZERO || !mind.account.plans.is_empty()) => step,
+            mind => next_due(&mind.node, &mind.account, mind.next_estimate),
+        };
+        self.due.clear();
+        self.due.extend(self.minds.iter().map(due));
+    }
+
+    /// When something happens to any robot next, arrivals of datagrams aside.
+    pub fn next_due(&self) -> Time {
+        self.due.iter().copied().min().unwrap_or(Time::NEVER)
+    }
+
+    /// A datagram arrives at one of the robots.
+    pub fn arrives(&mut self, robot: RobotId, at: Time) {
+        let due = &mut self.due[(robot.0 - self.first) as usize];
+        *due = at.min(*due);
+    }
+
+    /// Lets each robot take its inputs of this slot of the step that began at `step`.
+    pub fn act(&mut self, shared: &Shared, step: Time, slot: Window) {
         for (index, mind) in self.minds.iter_mut().enumerate() {
-            let kind = &shared.kinds[mind.group as usize];
-            let state = &self.states[index];
             if mind.is_gone {
-                next[index] = state.pose.position;
-                self.predicted[index] = *state;
+                self.due[index] = Time::NEVER;
+            }
+            if self.due[index] >= slot.to {
                 continue;
             }
             let scratch = &mut self.scratch;
             let desk = Desk {
                 robot: mind.id(),
                 shared,
-                kind,
-                state,
+                kind: &shared.kinds[mind.group as usize],
+                state: &self.states[index],
                 account: &mut mind.account,
                 outbox: &mut self.outbox,
                 grips: &mut self.grips,
@@ -81,7 +112,8 @@ impl Shard {
                 workspace: &mut scratch.workspace,
             };
             let mut turn = Turn {
-                window,
+                window: slot,
+                step,
                 node: &mut mind.node,
                 next_estimate: &mut mind.next_estimate,
                 senses: &mut mind.senses,
@@ -89,19 +121,30 @@ impl Shard {
                 sensed: false,
                 desk,
             };
-            turn.run(&mut scratch.arrivals);
-            let command = if mind.node.condition().down {
-                kind.at_a_loss
-            } else if mind.motor_stuck {
-                Command::Stop
+            self.due[index] = turn.run(&mut scratch.arrivals);
+        }
+    }
+
+    /// Predicts the motion of each robot in a step; `next` receives the predicted positions.
+    pub fn predict(&mut self, shared: &Shared, window: Window, next: &mut [Point]) {
+        for (index, mind) in self.minds.iter().enumerate() {
+            let (kind, state) = (&shared.kinds[mind.group as usize], &self.states[index]);
+            let predicted = &mut self.predicted[index];
+            if mind.is_gone {
+                *predicted = *state;
             } else {
-                mind.node.command()
-            };
-            let disturbance = shared.disturbance(mind.id(), window.from);
-            let elapsed = shared.scenario.physics.step;
-            let predicted = kind.model.predict(state, &command, &disturbance, elapsed);
+                let command = if mind.node.condition().down {
+                    kind.at_a_loss
+                } else if mind.motor_stuck {
+                    Command::Stop
+                } else {
+                    mind.node.command()
+                };
+                let disturbance = shared.disturbance(mind.id(), window.from);
+                let elapsed = shared.scenario.physics.step;
+                *predicted = kind.model.predict(state, &command, &disturbance, elapsed);
+            }
             next[index] = predicted.pose.position;
-            self.predicted[index] = predicted;
         }
     }
 
@@ -182,20 +225,21 @@ impl Shard {
         }
     }
 
-    /// Decides the receivers of the datagrams that this shard's robots have sent.
-    pub fn route(&mut self, shared: &Shared, window: Window) {
+    /// Decides the receivers of the datagrams that this shard's robots have sent in a slot.
+    pub fn route(&mut self, shared: &Shared, slot: Window) {
         self.posted.clear();
-        for (index, outgoing) in self.outbox.iter().enumerate() {
+        for (index, outgoing) in self.outbox.iter().enumerate().skip(self.routed) {
             let sender = (outgoing.datagram.message.from.0 - self.first) as usize;
             let digest = &mut self.minds[sender].account.digest;
             radio::route(
                 shared,
-                window,
+                slot,
                 (index as u32, outgoing),
                 digest,
                 &mut self.log,
                 &mut self.posted,
             );
         }
+        self.routed = self.outbox.len();
     }
 }

@@ -11,12 +11,12 @@ use starl_host::Hardware;
 use starl_motion::{Disturbance, Model, Neighbour};
 use std::sync::Arc;
 
-/// The step under way.
+/// A span of time: a physics step, or a slot of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Window {
     /// Its start.
     pub from: Time,
-    /// Its end, which belongs to the next step.
+    /// Its end, which belongs to the next one.
     pub to: Time,
 }
 

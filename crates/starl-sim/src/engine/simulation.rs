@@ -7,6 +7,7 @@ use super::mind::Mind;
 use super::record::Tally;
 use super::shard::{SIZE, Shard};
 use super::shared::{Shared, Window};
+use super::slots::Slots;
 use super::things::Things;
 use super::{populate, radio};
 use crate::scenario::{Group, Scenario};
@@ -185,25 +186,17 @@ impl Simulation {
             from: self.now,
             to: self.now + step,
         };
-        self.intervene(window);
         if window.from >= self.next_expiry {
             self.raise_obstacles();
         }
         self.shared.wind = wind(&self.shared.scenario, window.from);
         if self.have_moved() {
-            self.have_changed = false;
-            let Shared {
-                grid, bodies, gone, ..
-            } = &mut self.shared;
-            grid.rebuild(bodies, gone);
+            self.index_robots();
         }
-        self.calendar
-            .turn(self.shared.bodies.len(), &mut self.shared.inboxes);
         self.act(window);
         self.grip();
         self.collide();
         self.settle(window);
-        self.route(window, step);
         self.now = window.to;
         self.collect();
     }
@@ -216,11 +209,84 @@ impl Simulation {
             || places.any(|(now, before)| now.position != before.position)
     }
 
+    fn index_robots(&mut self) {
+        self.have_changed = false;
+        let Shared {
+            grid, bodies, gone, ..
+        } = &mut self.shared;
+        grid.rebuild(bodies, gone);
+    }
+
+    /// Lets robots take their inputs, slot by slot, and carries out interventions at their times.
     fn act(&mut self, window: Window) {
+        self.shared.inboxes.begin_step();
+        let Scenario { physics, .. } = &*self.shared.scenario;
+        let slots = Slots::new(physics.step, self.shared.network.resolution);
+        run(self.parallel, self.shards.iter_mut(), |shard| {
+            shard.begin_step(window.from);
+        });
+        let mut now = window.from;
+        loop {
+            let own = self.shards.iter().map(Shard::next_due).min();
+            let arrival = self.calendar.next().map(|slot| slots.start(slot));
+            let next = own.into_iter().chain(arrival).min().unwrap_or(Time::NEVER);
+            let next = next.max(now);
+            let intervention = self.agenda.next_time();
+            if next.min(intervention) >= window.to {
+                break;
+            }
+            if intervention <= next {
+                self.intervene(intervention.max(now));
+                if self.have_changed {
+                    self.index_robots();
+                }
+                let shards = self.shards.iter_mut();
+                shards.for_each(|shard| shard.schedule(window.from, intervention));
+                continue;
+            }
+            let (mut slot, end) = slots.around(next, window, &self.shared.network);
+            let sent_arrives = slot.to;
+            slot = Window {
+                from: slot.from.max(now),
+                to: slot.to.min(intervention),
+            };
+            now = slot.to;
+            let robots = self.shared.bodies.len();
+            let inboxes = &mut self.shared.inboxes;
+            self.calendar.turn(robots, (end, slot.to), inboxes);
+            self.act_in_slot(window.from, slot);
+            for shard in &mut self.shards {
+                let posted = std::mem::take(&mut shard.posted);
+                radio::post(
+                    &mut self.calendar,
+                    &shard.outbox,
+                    &posted,
+                    sent_arrives,
+                    slots,
+                );
+                shard.posted = posted;
+                shard.posted.clear();
+            }
+        }
         let shared = &self.shared;
         let work = self.shards.iter_mut().zip(self.next.chunks_mut(SIZE));
         run(self.parallel, work, |(shard, next)| {
-            shard.act(shared, window, next)
+            shard.predict(shared, window, next);
+        });
+    }
+
+    /// Lets the robots to which something happens in a slot take their inputs, and routes what they send.
+    fn act_in_slot(&mut self, step: Time, slot: Window) {
+        for delivery in self.shared.inboxes.arrivals() {
+            let to = RobotId(delivery.to);
+            self.shards[to.index() / SIZE].arrives(to, delivery.at);
+        }
+        let shared = &self.shared;
+        let is_busy = |shard: &&mut Shard| shard.next_due() < slot.to;
+        let busy = self.shards.iter_mut().filter(is_busy);
+        run(self.parallel, busy, |shard| {
+            shard.act(shared, step, slot);
+            shard.route(shared, slot);
         });
     }
 
@@ -272,22 +338,6 @@ impl Simulation {
         });
         std::mem::swap(&mut self.shared.bodies, &mut self.bodies);
         self.shared.perceived = perceived;
-    }
-
-    fn route(&mut self, window: Window, step: Duration) {
-        let shared = &self.shared;
-        run(self.parallel, self.shards.iter_mut(), |shard| {
-            shard.route(shared, window)
-        });
-        for shard in &self.shards {
-            radio::post(
-                &mut self.calendar,
-                &shard.outbox,
-                &shard.posted,
-                window.to,
-                step,
-            );
-        }
     }
 
     /// Puts the step's records in the order of their times; those of one time by robot, the world's
@@ -427,6 +477,16 @@ impl Simulation {
     /// How many waypoints a robot's ReachAvoid has reached.
     pub fn way_points(&self, robot: RobotId) -> u32 {
         self.mind(robot).account.way_points
+    }
+
+    /// How many commands a robot's ReachAvoid has given up.
+    pub fn gave_up(&self, robot: RobotId) -> u32 {
+        self.mind(robot).account.gave_up
+    }
+
+    /// How many datagrams a robot has sent.
+    pub fn sent(&self, robot: RobotId) -> u32 {
+        self.mind(robot).account.sent
     }
 
     /// All robots.

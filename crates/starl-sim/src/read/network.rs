@@ -19,6 +19,7 @@ pub(super) fn read(table: Section<'_>, names: &Names) -> Network {
         bandwidth: table.optional_number("bandwidth"),
         queue: table.duration("queue"),
         largest: table.count("largest").unwrap_or_default() as u32,
+        resolution: table.duration("resolution"),
         overrides,
     }
 }

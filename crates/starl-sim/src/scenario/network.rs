@@ -20,6 +20,9 @@ pub struct Network {
     pub queue: Duration,
     /// Largest datagram, bytes; larger ones are dropped, and the trace says so; default 65507.
     pub largest: u32,
+    /// Times of arrival are exact; but a datagram arrives at the soonest in the slot of this length after the one
+    /// in which it was sent. Slots begin anew with each physics step; default 1 ms.
+    pub resolution: Duration,
     /// Links that differ; the last that matches counts.
     pub overrides: Vec<LinkOverride>,
 }
@@ -77,6 +80,7 @@ impl Default for Network {
             bandwidth: None,
             queue: Duration::from_seconds(1),
             largest: 65_507,
+            resolution: Duration::from_millis(1),
             overrides: Vec::new(),
         }
     }

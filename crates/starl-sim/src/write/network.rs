@@ -13,6 +13,7 @@ pub(super) fn write(network: &Network, fleet: &Fleet) -> String {
         bandwidth,
         queue,
         largest,
+        resolution,
         overrides,
     } = network;
     let default = Network::default();
@@ -29,6 +30,7 @@ pub(super) fn write(network: &Network, fleet: &Fleet) -> String {
     table.differing("largest", *largest, default.largest, |bytes| {
         bytes.to_string()
     });
+    table.differing("resolution", *resolution, default.resolution, time);
     let mut out = table.finish();
     for LinkOverride { from, to, link } in overrides {
         let mut table = Table::element("network.link");

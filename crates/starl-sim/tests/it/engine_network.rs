@@ -2,7 +2,10 @@
 
 use crate::engine_support::{self, Chatter, count, exact_delay, run, scenario, simulate};
 use starl_core::event::DropReason;
-use starl_core::{Duration, Event, Record, RobotId, Time};
+use starl_core::{
+    Destination, Duration, Event, Message, Payload, Port, Primitives, Program, Record, Robot,
+    RobotId, Time,
+};
 use starl_sim::scenario::{DelayDistribution, Link, LinkOverride};
 
 fn heard(event: &Event) -> bool {
@@ -16,19 +19,29 @@ fn dropped(records: &[Record], why: DropReason) -> usize {
     )
 }
 
-/// Delays of all deliveries, in seconds, in the order of sending.
+/// When each datagram was sent and delivered, in the order of delivery.
+fn travels(records: &[Record]) -> Vec<(Time, Time)> {
+    let mut sent = std::collections::BTreeMap::new();
+    let mut travels = Vec::new();
+    for record in records {
+        match record.event {
+            Event::Sent { sequence, .. } => {
+                sent.insert((record.robot, sequence), record.at);
+            }
+            Event::Delivered { from, sequence } => {
+                travels.push((sent[&(Some(from), sequence)], record.at));
+            }
+            _ => {}
+        }
+    }
+    travels
+}
+
+/// Delays of all deliveries, in seconds, in the order of delivery.
 fn delays(records: &[Record]) -> Vec<f64> {
-    let sent: Vec<Time> = records
-        .iter()
-        .filter(|record| matches!(record.event, Event::Sent { .. }))
-        .map(|record| record.at)
-        .collect();
-    let delivered = records.iter().filter_map(|record| match record.event {
-        Event::Delivered { sequence, .. } => Some((sequence, record.at)),
-        _ => None,
-    });
-    delivered
-        .map(|(sequence, at)| at.since(sent[sequence as usize]).seconds())
+    let travels = travels(records).into_iter();
+    travels
+        .map(|(sent, delivered)| delivered.since(sent).seconds())
         .collect()
 }
 
@@ -44,15 +57,6 @@ fn everyone_else_hears_a_broadcast_after_the_delay() {
             .iter()
             .all(|&delay| (delay - 0.030).abs() < 1e-12)
     );
-}
-
-#[test]
-fn a_delay_shorter_than_a_step_lasts_until_the_next_step() {
-    let mut scenario = scenario("create", &[(0.0, 0.0), (1.0, 0.0)]);
-    exact_delay(&mut scenario, 0);
-    let step = scenario.physics.step.seconds();
-    let records = run(&mut simulate(scenario, Chatter::default()), 1.0);
-    assert!(delays(&records).iter().all(|&delay| delay == step));
 }
 
 #[test]
@@ -208,4 +212,84 @@ fn a_datagram_that_is_too_large_is_dropped_and_reported() {
     let records = run(&mut simulate(scenario, Chatter::default()), 1.0);
     assert_eq!(dropped(&records, DropReason::Size), 10);
     assert_eq!(count(&records, heard), 0);
+}
+
+#[test]
+fn delays_shorter_than_a_physics_step_are_exact() {
+    for delay in [1, 3, 15, 24, 25, 40] {
+        let mut scenario = scenario("create", &[(0.0, 0.0), (1.0, 0.0)]);
+        exact_delay(&mut scenario, delay);
+        let mut simulation = simulate(scenario, Chatter::default());
+        let travels = travels(&run(&mut simulation, 5.0));
+        assert!(travels.len() > 40);
+        for (sent, delivered) in travels {
+            assert_eq!(delivered.since(sent), Duration::from_millis(delay));
+        }
+    }
+}
+
+#[test]
+fn a_datagram_takes_at_least_until_the_next_slot() {
+    for (delay, resolution, least) in [(0, 1, 1), (0, 5, 5), (2, 5, 5), (7, 5, 7)] {
+        let mut scenario = scenario("create", &[(0.0, 0.0), (1.0, 0.0)]);
+        exact_delay(&mut scenario, delay);
+        scenario.network.resolution = Duration::from_millis(resolution);
+        let mut simulation = simulate(scenario, Chatter::default());
+        for (sent, delivered) in travels(&run(&mut simulation, 5.0)) {
+            // Chatter sends at whole periods, where slots begin.
+            assert_eq!(delivered.since(sent), Duration::from_millis(least));
+        }
+    }
+}
+
+/// Robot 0 begins; everybody sends back what it hears.
+#[derive(Clone, Default, Primitives)]
+struct Rally {
+    has_begun: bool,
+}
+
+impl Program for Rally {
+    fn activate(&mut self, robot: &mut Robot<'_>) {
+        if robot.id().0 == 0 && !std::mem::replace(&mut self.has_begun, true) {
+            self.receive_from(robot, RobotId(1));
+        }
+    }
+
+    fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
+        self.receive_from(robot, message.from);
+    }
+}
+
+impl Rally {
+    fn receive_from(&mut self, robot: &mut Robot<'_>, other: RobotId) {
+        let ball = Payload::from_slice(&[7]);
+        robot.transmit_bytes(Destination::Robot(other), Port::PROGRAM, ball);
+    }
+}
+
+#[test]
+fn answers_travel_within_one_physics_step() {
+    let mut scenario = scenario("create", &[(0.0, 0.0), (1.0, 0.0)]);
+    exact_delay(&mut scenario, 2);
+    scenario.physics.step = Duration::from_millis(100);
+    let mut simulation = simulate(scenario, Rally::default());
+    let travels = travels(&run(&mut simulation, 1.0));
+    assert_eq!(travels.len(), 499, "one arrival every 2 ms");
+    for (index, (_, delivered)) in travels.iter().enumerate() {
+        assert_eq!(delivered.0, 2_000_000 * (index as u64 + 1));
+    }
+}
+
+#[test]
+fn the_physics_step_does_not_change_when_datagrams_arrive() {
+    let arrivals = |step: u64| {
+        let mut scenario = scenario("create", &[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)]);
+        scenario.physics.step = Duration::from_millis(step);
+        let mut simulation = simulate(scenario, Chatter::default());
+        travels(&run(&mut simulation, 5.0))
+    };
+    let fine = arrivals(1);
+    assert_eq!(fine, arrivals(5));
+    assert_eq!(fine, arrivals(25));
+    assert_eq!(fine, arrivals(50));
 }

@@ -43,8 +43,15 @@ const REORDERING_DELAY: Field = field(
 );
 
 /// How messages travel.
-pub(super) const NETWORK: &[Field] = &join::<{ KNOBS.len() + 1 }>(&[
+pub(super) const NETWORK: &[Field] = &join::<{ KNOBS.len() + 2 }>(&[
     KNOBS,
+    &[field(
+        "resolution",
+        PERIOD,
+        Default::Value("1ms"),
+        "Datagrams arrive at their exact times, but at the soonest in the slot of this length after the one in which \
+         they were sent.",
+    )],
     &[tables(
         "link",
         LINK,

@@ -85,12 +85,7 @@ pub const SCENARIO: &[Field] = &[
 ];
 
 const PHYSICS: &[Field] = &[
-    field(
-        "step",
-        PERIOD,
-        Default::Value("25ms"),
-        "The physics step. A message takes at least until the next one.",
-    ),
+    field("step", PERIOD, Default::Value("25ms"), "The physics step."),
     field(
         "collisions",
         Kind::Flag,
