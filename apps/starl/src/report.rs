@@ -14,7 +14,7 @@ pub struct Report {
     pub target: String,
     pub title: String,
     pub seed: u64,
-    /// What counts as success: `all_finished`, or `duration` where the run is only to last.
+    /// The condition of success: `all_finished`, or `duration` where the run is only to last.
     pub goal: &'static str,
     pub outcome: Ending,
     pub digest: String,

@@ -158,7 +158,7 @@ fn idle(text: &mut String, robots: &[Robot]) -> fmt::Result {
         ("never sent a message", silent),
         ("gave up a target", gave_up),
     ] {
-        // Where nobody moves or sends, the program is not made for it.
+        // Where no robot moves or sends, the program is not made for it.
         let is_all = names.len() == robots.len() && what != "gave up a target";
         if !names.is_empty() && !is_all {
             writeln!(text, "{what}: {}", listed(&names))?;

@@ -252,6 +252,11 @@ const LARGEST_FILE: u64 = 256 << 20;
 pub fn bytes(path: &Path) -> Result<Vec<u8>, String> {
     let read = || {
         let mut bytes = Vec::new();
+        // Opening a pipe would wait for its writer.
+        let kind = std::fs::metadata(path)?;
+        if !kind.is_file() && !kind.is_dir() {
+            return Err(io::Error::other("it is not an ordinary file"));
+        }
         let file = File::open(path)?;
         file.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
         Ok(bytes)

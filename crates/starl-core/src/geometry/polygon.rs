@@ -97,13 +97,8 @@ impl ConvexPolygon {
         if let Some(index) = points.iter().position(|p| !usable(p)) {
             return Err(PolygonError::NotFinite { index });
         }
-        for (second, p) in points.iter().enumerate() {
-            if let Some(first) = points[..second]
-                .iter()
-                .position(|q| q.x == p.x && q.y == p.y)
-            {
-                return Err(PolygonError::Repeated { first, second });
-            }
+        if let Some((first, second)) = repeated(points) {
+            return Err(PolygonError::Repeated { first, second });
         }
         let mut vertices: Vec<Point> = match points.len() {
             2 => points.to_vec(),
@@ -194,6 +189,20 @@ impl From<ConvexPolygon> for Vec<Point> {
     fn from(polygon: ConvexPolygon) -> Vec<Point> {
         polygon.vertices
     }
+}
+
+/// The first point that is where an earlier one is, after that one.
+fn repeated(points: &[Point]) -> Option<(usize, usize)> {
+    // Zeros of either sign are one place.
+    let place = |&at: &usize| (points[at].x + 0.0, points[at].y + 0.0);
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|a, b| {
+        let ((ax, ay), (bx, by)) = (place(a), place(b));
+        ax.total_cmp(&bx).then(ay.total_cmp(&by)).then(a.cmp(b))
+    });
+    let runs = order.chunk_by(|a, b| place(a) == place(b));
+    let pairs = runs.filter(|run| run.len() > 1).map(|run| (run[0], run[1]));
+    pairs.min_by_key(|&(_, second)| second)
 }
 
 /// The corners among three or more distinct points, counter-clockwise, the first kept first.

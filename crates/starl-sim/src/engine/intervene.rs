@@ -250,8 +250,7 @@ impl Simulation {
                 FaultKind::CorruptState(_) => {
                     let key = [u64::from(robot.0), at.0];
                     let mut random = stream(seed, Stream::Corruption, &key);
-                    // It happens before all that the robot does in this step.
-                    shard.corrupt(&self.shared, robot, self.now, &mut random);
+                    shard.corrupt(&self.shared, robot, at, &mut random);
                 }
                 _ => {}
             }

@@ -141,7 +141,7 @@ impl Shard {
                     mind.node.command()
                 };
                 let disturbance = shared.disturbance(mind.id(), window.from);
-                let elapsed = shared.scenario.physics.step;
+                let elapsed = window.to.since(window.from);
                 *predicted = kind.model.predict(state, &command, &disturbance, elapsed);
             }
             next[index] = predicted.pose.position;

@@ -159,7 +159,7 @@ impl Simulation {
         &self.shared.scenario
     }
 
-    /// The present time, a multiple of the physics step.
+    /// The present time.
     pub fn now(&self) -> Time {
         self.now
     }
@@ -182,9 +182,12 @@ impl Simulation {
     pub fn step(&mut self) {
         self.records.clear();
         let step = self.shared.scenario.physics.step;
+        // The last step ends with the scenario.
+        let end = Time::ZERO + self.shared.scenario.duration;
+        let to = self.now + step;
         let window = Window {
             from: self.now,
-            to: self.now + step,
+            to: if self.now < end { to.min(end) } else { to },
         };
         if window.from >= self.next_expiry {
             self.raise_obstacles();

@@ -68,6 +68,7 @@ pub(super) fn read(root: Section<'_>, robots: Option<&str>) -> Vec<Draft> {
     if total > 10_000_000 {
         let message = format!("the fleet has {total} robots");
         root.problem("robots", message, "have at most 10000000");
+        drafts.clear();
     }
     drafts
 }
@@ -88,6 +89,13 @@ fn draft(
         table.problem("start", message, "leave some out, or raise `count`");
     }
     let name = table.text("name");
+    if let Some(name) = &name
+        && name.contains(|c: char| c.is_control() || c == '/')
+    {
+        let message = format!("{name:?} cannot be the name of a robot");
+        let help = "leave out `/` and control characters: robots' names become parts of file names";
+        table.problem("name", message, help);
+    }
     let numbered = table.flag("numbered");
     if !numbered && count > 1 {
         let message = format!("{count} robots cannot all have the same name");

@@ -71,6 +71,16 @@ pub(super) fn read(
     }
 }
 
+/// The polygon of corners that are listed in another order than once round, as those of some worlds of StarL
+/// 1.5 are (`Obstacles_square.wpt` has them crosswise); none if they are not the corners of a convex polygon in any
+/// order.
+fn in_order(points: &[Point]) -> Option<ConvexPolygon> {
+    let center = points.iter().fold(Point::ZERO, |sum, &point| sum + point) / points.len() as f64;
+    let mut sorted = points.to_vec();
+    sorted.sort_by(|&a, &b| (a - center).heading().total_cmp(&(b - center).heading()));
+    ConvexPolygon::new(&sorted).ok()
+}
+
 struct File<'a> {
     names: &'a Names,
     contents: &'a mut Contents,
@@ -232,7 +242,8 @@ impl File<'_> {
         if points.len() > 3 && points.first() == points.last() {
             points.pop();
         }
-        let base = match ConvexPolygon::new(&points) {
+        let outline = ConvexPolygon::new(&points);
+        let base = match outline.or_else(|error| in_order(&points).ok_or(error)) {
             Ok(base) => base,
             Err(error) => {
                 let (message, help) = explain(error);

@@ -94,7 +94,7 @@ pub struct Positioning {
 /// How exactly robots move.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
-    /// Standard deviation of the relative error of driven speeds; default 0.
+    /// Standard deviation of the relative error of the speeds that drives are told; default 0.
     pub speed_noise: f64,
     /// Standard deviation of the relative error of rates of turn; default 0.
     pub turn_noise: f64,

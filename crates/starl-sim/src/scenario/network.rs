@@ -21,7 +21,7 @@ pub struct Network {
     /// Largest datagram, bytes; larger ones are dropped, and the trace says so; default 65507.
     pub largest: u32,
     /// Times of arrival are exact; but a datagram arrives at the soonest in the slot of this length after the one
-    /// in which it was sent. Slots begin anew with each physics step; default 1 ms.
+    /// in which it was sent. Each physics step begins with a new slot; default 1 ms.
     pub resolution: Duration,
     /// Links that differ; the last that matches counts.
     pub overrides: Vec<LinkOverride>,

@@ -8,12 +8,14 @@
 //! robots draw other numbers, a few seeds are tried where the first one does not fail.
 //!
 //! A smaller fleet may fail for another reason: two robots form no polygon. So where the fleet does not
-//! fail without trouble, with several seeds, no fleet is taken that does.
+//! fail without trouble, with several seeds, no fleet is taken that does. Where a majority of the robots was up and
+//! connected all the time, it stays so; where it was lost, the fleet stays large enough to have one.
 //!
 //! The caller decides what fails; nothing here runs anything.
 
 mod delta;
 mod faults;
+mod majority;
 mod milder;
 mod robots;
 
@@ -74,8 +76,12 @@ pub fn shrink(
         trials: 1,
         shorter,
         needs_trouble: false,
+        loses_majority: false,
+        least_robots: 1,
         fails,
     };
+    search.loses_majority = majority::is_lost(&search.best);
+    search.least_robots = majority::least_robots(&search.best);
     search.needs_trouble = !search.fails_without_trouble(scenario, limits.seeds);
     let mut is_minimal = false;
     while !is_minimal && !search.is_exhausted() {
@@ -87,6 +93,15 @@ pub fn shrink(
         trials: search.trials,
         is_minimal,
     })
+}
+
+/// The next longer round duration: tenths of a second, and from ten seconds on whole seconds.
+fn round_up(duration: Duration) -> Duration {
+    let grain = match duration.0 {
+        ..10_000_000_000 => 100_000_000,
+        _ => 1_000_000_000,
+    };
+    Duration(duration.0.div_ceil(grain).max(1) * grain)
 }
 
 /// The scenario with another duration, without the faults that come later.
@@ -109,6 +124,10 @@ struct Search<'a> {
     shorter: bool,
     /// Whether the fleet as it was found fails only in trouble.
     needs_trouble: bool,
+    /// Whether faults leave no majority of it at some time.
+    loses_majority: bool,
+    /// No smaller fleet is tried.
+    least_robots: usize,
     fails: &'a mut dyn FnMut(&Scenario) -> Option<Time>,
 }
 
@@ -147,6 +166,9 @@ impl Search<'_> {
 
     /// Keeps the candidate if it fails.
     fn propose(&mut self, candidate: Scenario) -> bool {
+        if majority::is_lost(&candidate) && !self.loses_majority {
+            return false;
+        }
         let failed_at = self.try_out(&candidate);
         if let Some(at) = failed_at {
             (self.best, self.failed_at) = (candidate, at);
@@ -157,6 +179,9 @@ impl Search<'_> {
     /// Keeps a candidate with a smaller fleet if it fails, and for the trouble that it is in if that was so
     /// before.
     fn propose_fleet(&mut self, candidate: Scenario) -> bool {
+        if majority::is_lost(&candidate) && !self.loses_majority {
+            return false;
+        }
         let failed_at = self.try_out(&candidate);
         let fails = failed_at.is_some()
             && !(self.needs_trouble && self.fails_without_trouble(&candidate, 0));
@@ -193,7 +218,7 @@ impl Search<'_> {
 
     /// Ends the run when it fails.
     fn cut(&mut self) -> bool {
-        let duration = self.failed_at.since(Time::ZERO).max(Duration(1));
+        let duration = round_up(self.failed_at.since(Time::ZERO));
         if !self.shorter || duration >= self.best.duration {
             return false;
         }
@@ -203,8 +228,8 @@ impl Search<'_> {
 
     /// Looks for a seed with which the run fails in half the time.
     fn sooner(&mut self) -> bool {
-        let half = self.best.duration / 2;
-        if !self.shorter || half.is_zero() {
+        let half = round_up(self.best.duration / 2);
+        if !self.shorter || half >= self.best.duration {
             return false;
         }
         let candidate = lasting(&self.best, half);
@@ -215,7 +240,7 @@ impl Search<'_> {
         let base = self.best.clone();
         let all: Vec<usize> = (0..base.fleet.len()).collect();
         let kept = minimise(&all, &mut |kept| {
-            if kept.is_empty() {
+            if kept.len() < self.least_robots {
                 return false;
             }
             let mut candidate = keep_robots(&base, kept);

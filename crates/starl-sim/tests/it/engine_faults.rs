@@ -79,7 +79,7 @@ fn a_robot_that_restarts_within_the_step_of_its_crash_was_down_before() {
         fault(&mut scenario, restart, FaultKind::Restart(vec![RobotId(1)]));
         let records = run(&mut simulate(scenario, Chatter::default()), 2.0);
         let down =
-            Time::ZERO + Duration::from_millis(step)..Time::ZERO + Duration::from_millis(restart);
+            Time::ZERO + Duration::from_millis(crash)..Time::ZERO + Duration::from_millis(restart);
         let does = |event: &Event| matches!(event, Event::Program { .. } | Event::Estimated(_));
         let mut early = records.iter().filter(|record| {
             record.robot == Some(RobotId(1)) && down.contains(&record.at) && does(&record.event)

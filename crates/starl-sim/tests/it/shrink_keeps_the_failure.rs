@@ -31,7 +31,7 @@ fn what_is_not_needed_goes() {
     assert!(smallest.is_minimal);
     let scenario = smallest.scenario;
     assert_eq!(scenario.faults.schedule.len(), 2);
-    assert!(scenario.fleet.len() <= 2);
+    assert!(scenario.fleet.len() <= 3);
     assert_eq!(scenario.network.link.loss, 0.0);
     assert!(scenario.fleet.groups[0].clock.offset.is_zero());
     assert!(scenario.duration <= MIDDLE.since(Time::ZERO));
@@ -69,10 +69,52 @@ fn faults_of_robots_that_are_left_out_go_with_them() {
             .any(|kind| *kind == FaultKind::Crash(vec![last]))
     };
     let smallest = shrunk(Limits::default(), last_crashes).scenario;
-    assert_eq!(smallest.fleet.len(), 1);
+    let last = smallest.fleet.len() as u32 - 1;
+    assert!((1..=2).contains(&last));
     assert_eq!(
         smallest.faults.schedule[0].kind,
-        FaultKind::Crash(vec![RobotId(0)])
+        FaultKind::Crash(vec![RobotId(last)])
     );
     assert!(broken::read(&write::scenario(&smallest)).is_some());
+}
+
+#[test]
+fn a_majority_that_was_there_stays_there() {
+    // Fails whenever a robot crashes: of two robots, one that crashes would leave no majority.
+    let base = robots(5);
+    let mut drawn = base.clone();
+    let crash = |robot: u32, at| starl_sim::scenario::Fault {
+        at: Time(at),
+        kind: FaultKind::Crash(vec![RobotId(robot)]),
+    };
+    drawn.faults.schedule = vec![crash(1, 1_234_567_891), crash(3, 2_000_000_007)];
+    let mut fails = |scenario: &Scenario| {
+        let first = scenario.faults.schedule.first();
+        first.map(|fault| Time(fault.at.0 + 1))
+    };
+    let smallest = shrink(&drawn, Limits::default(), true, &mut fails).expect("it fails");
+    assert!(smallest.is_minimal);
+    assert_eq!(
+        (smallest.scenario.fleet.len(), crashes(&smallest.scenario)),
+        (3, 1)
+    );
+    assert_eq!(smallest.scenario.duration.0 % 100_000_000, 0, "round");
+}
+
+#[test]
+fn where_the_majority_was_lost_a_fleet_stays_that_could_have_one() {
+    let mut drawn = robots(5);
+    drawn.faults.schedule = (0..3)
+        .map(|robot| starl_sim::scenario::Fault {
+            at: Time(1_000_000_000),
+            kind: FaultKind::Crash(vec![RobotId(robot)]),
+        })
+        .collect();
+    let mut fails =
+        |scenario: &Scenario| (2 * crashes(scenario) > scenario.fleet.len()).then_some(MIDDLE);
+    let smallest = shrink(&drawn, Limits::default(), true, &mut fails).expect("it fails");
+    assert_eq!(
+        (smallest.scenario.fleet.len(), crashes(&smallest.scenario)),
+        (3, 2)
+    );
 }

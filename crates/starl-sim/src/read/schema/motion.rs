@@ -8,7 +8,7 @@ pub(super) const MOTION: &[Field] = &[
         "speed_noise",
         RATIO,
         Default::Value("0"),
-        "Standard deviation of the relative error of driven speeds.",
+        "Standard deviation of the relative error of the speeds that drives are told. Limits of the model hold all the same.",
     ),
     field(
         "turn_noise",
@@ -20,7 +20,7 @@ pub(super) const MOTION: &[Field] = &[
         "noise_period",
         PERIOD,
         Default::Value("500ms"),
-        "The duration of one draw of these errors.",
+        "The time from one draw of these errors to the next; they change smoothly between.",
     ),
     field(
         "avoidance",
