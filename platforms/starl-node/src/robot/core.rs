@@ -1,5 +1,6 @@
 //! The robot without clock, threads, sockets and files.
 
+use super::watch::Watched;
 use super::{Equipment, Incoming, Recorder, Setup};
 use crate::Reading;
 use crate::link::Channel;
@@ -34,7 +35,7 @@ pub struct Core<R: Recorder, E: Equipment> {
     pub(super) peers: Vec<Peer>,
     /// Datagrams that the robot has sent to itself.
     pub(super) to_self: Vec<Datagram>,
-    pub(super) recorder: R,
+    pub(super) recorder: Watched<R>,
     workspace: Workspace,
     contact: Option<Contact>,
     pub(super) battery: Option<f64>,
@@ -83,7 +84,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             equipment,
             channel,
             to_self: Vec::new(),
-            recorder,
+            recorder: Watched::new(recorder),
             workspace: Workspace::default(),
             contact: None,
             battery: None,
@@ -162,7 +163,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
     pub fn end(mut self, now: Time) -> R {
         self.equipment.end();
         self.recorder.advance(self.now.max(now));
-        self.recorder
+        self.recorder.recorder
     }
 
     /// Whether the robot has ever known where it is: its software starts then.
@@ -204,6 +205,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             self.send_beacons();
             self.recorder.advance(self.now);
         }
+        self.tell_operators();
         self.steer();
     }
 

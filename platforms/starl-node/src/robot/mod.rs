@@ -7,6 +7,7 @@
 mod core;
 mod equipment;
 mod network;
+mod watch;
 
 pub use self::core::Core;
 pub(crate) use self::core::Peer;

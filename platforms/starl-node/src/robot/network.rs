@@ -68,6 +68,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
                 let status = Frame::Status(Box::new(self.status()));
                 self.send(from, &status);
             }
+            Frame::Watch if from >= OPERATORS => self.recorder.watch(self.now, from),
             Frame::Order(order) if from >= OPERATORS => {
                 self.handle(Happening::Input(starl_core::Input::Order(order)));
             }
@@ -113,6 +114,17 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             echo: peer.and_then(|peer| peer.latest),
         };
         self.send(to, &Frame::Beacon(beacon));
+    }
+
+    /// Tells the operators that watch what has happened.
+    pub(super) fn tell_operators(&mut self) {
+        let (operators, told) = self.recorder.due(self.now, self.node.program());
+        for seen in told {
+            let frame = Frame::Seen(Box::new(seen));
+            for &operator in &operators {
+                self.send(operator, &frame);
+            }
+        }
     }
 
     /// Whether a packet left.
