@@ -194,6 +194,12 @@ pub enum EmulateArguments {
         #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:5554")]
         navdata: SocketAddr,
     },
+    /// A Crazyflie, over UDP
+    Crazyflie {
+        /// Where it listens
+        #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:19850")]
+        address: SocketAddr,
+    },
     /// A multicopter with PX4, over MAVLink 2
     Mavlink {
         /// Where it listens

@@ -104,7 +104,7 @@ test("a trace whose end is missing is shown up to there", { skip }, async () => 
 });
 
 const FLEET = `
-program = "race"
+program = "race.starl"
 duration = "60s"
 [world]
 way_point = [{ name = "A", position = [3, 0] }, { name = "B", position = [3, 3] }]
@@ -117,6 +117,8 @@ start = [{ position = [0, 0] }, { position = [0, 1] }]
 
 test("a fleet that runs is followed as it happens", { skip }, async () => {
   writeFileSync(join(folder, "race.toml"), FLEET);
+  const program = new URL("../../../examples/race/race.starl", import.meta.url);
+  writeFileSync(join(folder, "race.starl"), readFileSync(program));
   const port = 20_000 + (process.pid % 20_000);
   writeFileSync(join(folder, "fleet.toml"), `scenario = "race.toml"\n[link]\nfirst_port = ${port}\n`);
   assert.equal(spawnSync(STARL, ["fleet", "key", "fleet.toml"], { cwd: folder }).status, 0);
@@ -126,8 +128,7 @@ test("a fleet that runs is followed as it happens", { skip }, async () => {
   await page.locator(".play:enabled").waitFor();
   children.push(spawn(STARL, ["fleet", "up", "fleet.toml"], { cwd: folder }));
   await page.getByRole("tab", { name: "Robots" }).click();
-  const states = page.getByRole("listbox");
-  await states.getByText("wait").first().waitFor({ timeout: 30_000 });
+  await page.getByRole("option").first().getByText("wait").waitFor({ timeout: 30_000 });
   const clock = () => page.locator(".clock").textContent();
   const before = parseFloat(await clock());
   await page.waitForTimeout(1500);
