@@ -90,10 +90,9 @@ mod tests {
         }
         let reader = starl_trace::Reader::new(&bytes[..]).unwrap();
         let mut count = 0;
-        for item in reader {
-            match item {
-                Ok(starl_trace::Item::Record(record)) => assert_eq!(record.at, Time(count)),
-                Ok(item) => panic!("{item:?}"),
+        for record in reader {
+            match record {
+                Ok(record) => assert_eq!(record.at, Time(count)),
                 Err(error) => {
                     assert!(error.is_missing_end(), "{error}");
                     break;

@@ -200,14 +200,12 @@ fn follow(server: &crate::web_support::Server) -> Vec<starl_core::Record> {
             .expect("robots tell something all the time");
         bytes.extend_from_slice(&part[..length]);
         let head = bytes.windows(4).position(|four| four == b"\r\n\r\n");
-        let Some(head) = head.filter(|head| bytes.len() > head + 100_000) else {
+        let trace = head.map_or(&[][..], |head| &bytes[head + 4..]);
+        // At first there is not even a whole header.
+        let Ok(reader) = starl_trace::Reader::new(trace) else {
             continue;
         };
-        let reader = starl_trace::Reader::new(&bytes[head + 4..]).expect("it is a trace");
-        let records = reader.map_while(|item| match item {
-            Ok(starl_trace::Item::Record(record)) => Some(record),
-            _ => None,
-        });
+        let records = reader.map_while(Result::ok);
         let records: Vec<starl_core::Record> = records.collect();
         let finished = |robot| {
             let robot = Some(starl_core::RobotId(robot));
