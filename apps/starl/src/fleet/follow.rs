@@ -135,8 +135,8 @@ struct Told {
     shift: Option<i128>,
     /// The number of the next event.
     next: Option<u64>,
-    /// The robot's time when it sent the latest packet.
-    sent: Time,
+    /// When its process began.
+    begun: Option<Time>,
     state: Option<String>,
     heard: Duration,
     is_silent: bool,
@@ -144,9 +144,14 @@ struct Told {
 
 impl Told {
     /// What a packet that arrived `now` tells, with the follower's times.
-    fn take(&mut self, now: Duration, seen: Seen) -> impl Iterator<Item = (Time, Event)> {
+    fn take(&mut self, now: Duration, seen: Seen) -> std::vec::IntoIter<(Time, Event)> {
+        if self.begun.is_some_and(|begun| seen.begun < begun) {
+            // What was still on its way when the robot began anew.
+            return Vec::new().into_iter();
+        }
+        let before = self.begun.replace(seen.begun);
+        let has_restarted = before.is_some_and(|begun| begun != seen.begun);
         let shift = now.as_nanos() as i128 - i128::from(seen.now.0);
-        let has_restarted = self.next.is_some_and(|next| seen.first < next) && seen.now > self.sent;
         let shift = match self.shift.filter(|_| !has_restarted) {
             Some(known) => known.min(shift),
             None => shift,
@@ -182,13 +187,11 @@ impl Told {
             Some(next) => Some(next.max(count)),
             None => Some(count),
         };
-        self.sent = self.sent.max(seen.now);
         self.heard = now;
         self.is_silent = false;
         let told = seen.events.into_iter();
-        events
-            .into_iter()
-            .chain(told.map(move |(at, event)| (shifted(at), event)))
+        events.extend(told.map(|(at, event)| (shifted(at), event)));
+        events.into_iter()
     }
 
     /// Whether nothing has been heard for too long, since now.

@@ -181,9 +181,12 @@ fn kill(folder: &Path, robot: &str) {
     );
 }
 
-/// Reads what a server sends of the trace of a fleet, until both robots have finished.
+/// Reads what a server sends of the trace of a fleet, until that is enough.
 #[cfg(feature = "web")]
-fn follow(server: &crate::web_support::Server) -> Vec<starl_core::Record> {
+fn follow(
+    server: &crate::web_support::Server,
+    is_enough: impl Fn(&[starl_core::Record]) -> bool,
+) -> Vec<starl_core::Record> {
     use std::io::{Read, Write};
     let mut stream = std::net::TcpStream::connect(server.host()).expect("the server listens");
     let (host, cookie) = (server.host(), server.cookie());
@@ -207,17 +210,10 @@ fn follow(server: &crate::web_support::Server) -> Vec<starl_core::Record> {
         };
         let records = reader.map_while(Result::ok);
         let records: Vec<starl_core::Record> = records.collect();
-        let finished = |robot| {
-            let robot = Some(starl_core::RobotId(robot));
-            let is_finished = |record: &starl_core::Record| {
-                record.robot == robot && record.event == starl_core::Event::Finished
-            };
-            records.iter().any(is_finished)
-        };
-        if finished(0) && finished(1) {
+        if is_enough(&records) {
             return records;
         }
-        assert!(begun.elapsed() < PATIENCE, "they do not finish");
+        assert!(begun.elapsed() < PATIENCE, "that is not enough");
     }
 }
 
@@ -234,9 +230,18 @@ fn a_fleet_is_followed_while_it_runs() {
         serde_json::json!({ "mode": "fleet", "name": "fleet" })
     );
     let up = Up::start(&folder, &[]);
-    wait_until(&folder, hear_each_other);
+    let has = |records: &[starl_core::Record], robot, is_so: fn(&Event) -> bool| {
+        let robot = Some(starl_core::RobotId(robot));
+        let mut own = records.iter().filter(|record| record.robot == robot);
+        own.any(|record| is_so(&record.event))
+    };
+    follow(&server, |records| {
+        has(records, 1, |event| matches!(event, Event::Estimated(_)))
+    });
     kill(&folder, "robot1");
-    let records = follow(&server);
+    let records = follow(&server, |records| {
+        (0..2).all(|robot| has(records, robot, |event| *event == Event::Finished))
+    });
     assert!(records.is_sorted_by_key(|record| record.at));
     let count = |is_so: fn(&Event) -> bool| {
         let mut robots = [0, 0];

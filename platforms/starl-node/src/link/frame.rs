@@ -56,6 +56,8 @@ pub struct Beacon {
 pub struct Seen {
     /// The robot's time, by the clock of its process.
     pub now: Time,
+    /// When its process began, which tells its lives apart.
+    pub begun: Time,
     /// The number of the first event: all since the robot's start are counted, so that lost ones are noticed.
     pub first: u64,
     /// What its program is doing: its state, if the program has one.

@@ -84,7 +84,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             equipment,
             channel,
             to_self: Vec::new(),
-            recorder: Watched::new(recorder),
+            recorder: Watched::new(recorder, now),
             workspace: Workspace::default(),
             contact: None,
             battery: None,

@@ -30,16 +30,19 @@ pub(super) struct Watched<R> {
     /// How many events there were.
     count: u64,
     told: Time,
+    begun: Time,
 }
 
 impl<R: Recorder> Watched<R> {
-    pub fn new(recorder: R) -> Watched<R> {
+    /// Takes the place of a recorder in a life that begins now.
+    pub fn new(recorder: R, begun: Time) -> Watched<R> {
         Watched {
             recorder,
             watchers: BTreeMap::new(),
             fresh: Vec::new(),
             count: 0,
             told: Time::ZERO,
+            begun,
         }
     }
 
@@ -58,9 +61,11 @@ impl<R: Recorder> Watched<R> {
         let state = self.recorder.state(program);
         let events = mem::take(&mut self.fresh);
         let mut first = self.count - events.len() as u64;
+        let begun = self.begun;
         let pack = |events: Vec<(Time, Event)>| {
             let seen = Seen {
                 now,
+                begun,
                 first,
                 state: state.clone(),
                 events,
@@ -159,7 +164,7 @@ mod tests {
 
     #[test]
     fn an_operator_is_told_everything_in_packets_until_it_loses_interest() {
-        let mut watched = Watched::new(Nothing);
+        let mut watched = Watched::new(Nothing, Time::ZERO);
         watched.record(ms(1), Event::Finished);
         watched.watch(ms(10), 7);
         for count in 0..1000 {
