@@ -94,6 +94,7 @@ devices:
 	$(VENV)/python $(FOREIGN)/natnet_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
 	$(VENV)/python $(FOREIGN)/vrpn_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
 	$(VENV)/python $(FOREIGN)/mavlink_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
+	$(VENV)/python $(FOREIGN)/crazyflie_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
 	cd $(FOREIGN) && npm ci --silent --no-audit --no-fund
 	node --no-deprecation $(FOREIGN)/ardrone.mjs $(CARGO_TARGET_DIR)/debug/examples/devices
 

@@ -23,7 +23,7 @@ AT_ONCE = 6
 PATIENCE = 200
 # Programs without an end of their own run for so long.
 LONGEST = "100s"
-PLATFORMS = ["simulator", "UDP", "Zenoh", "Create and AR.Drone", "MAVLink"]
+PLATFORMS = ["simulator", "UDP", "Zenoh", "Create and AR.Drone", "Crazyflie", "MAVLink"]
 
 
 class Ports:
@@ -56,6 +56,8 @@ def devices(robots, platform, ports):
     for name, model in robots:
         if platform == "MAVLink" and model == "drone":
             device = f'{{ kind = "mavlink", listen = "127.0.0.1:{ports.take(1)}" }}'
+        elif platform == "Crazyflie" and model == "drone":
+            device = f'{{ kind = "crazyflie", address = "127.0.0.1:{ports.take(1)}" }}'
         elif platform == "Create and AR.Drone" and model == "drone":
             first = ports.take(2)
             device = f'{{ kind = "ardrone", commands = "127.0.0.1:{first}", navdata = "127.0.0.1:{first + 1}" }}'

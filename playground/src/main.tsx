@@ -20,6 +20,10 @@ switch (start.value.mode) {
   case "trace":
     await run.open({ kind: "trace", name: start.value.name, from: new URL("trace", location.href).href });
     break;
+  case "fleet":
+    if (await run.open({ kind: "fleet", name: start.value.name, from: new URL("trace", location.href).href }))
+      run.play();
+    break;
   case "web":
     await begin();
     // The command serves no service worker: another command may use the same port later.

@@ -47,7 +47,7 @@ pub enum Command {
     Explain(ExplainArguments),
     /// Serve an editor by the Language Server Protocol on standard input and output
     Lsp(LspArguments),
-    /// Show a recorded run in a browser
+    /// Show a recorded run, or a fleet that runs, in a browser
     View(ViewArguments),
     /// Run one robot of a real fleet, until it is stopped
     Robot(RobotArguments),
@@ -141,8 +141,9 @@ pub struct PageArguments {
 /// Arguments of `starl view`.
 #[derive(Args, Debug)]
 pub struct ViewArguments {
-    /// A file that `starl run --trace` wrote
-    pub trace: PathBuf,
+    /// A file that `starl run --trace` wrote, or a fleet file (.toml) to follow its robots
+    #[arg(value_name = "TRACE|FLEET")]
+    pub what: PathBuf,
     /// The options of the page.
     #[command(flatten)]
     pub page: PageArguments,
@@ -192,6 +193,12 @@ pub enum EmulateArguments {
         /// Where it gives navdata
         #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:5554")]
         navdata: SocketAddr,
+    },
+    /// A Crazyflie, over UDP
+    Crazyflie {
+        /// Where it listens
+        #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:19850")]
+        address: SocketAddr,
     },
     /// A multicopter with PX4, over MAVLink 2
     Mavlink {

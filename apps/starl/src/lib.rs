@@ -127,7 +127,7 @@ impl CommandLine {
             Command::Fmt(arguments) => fmt::run(arguments),
             Command::Explain(arguments) => explain::run(arguments),
             Command::Lsp(_) => lsp::run(),
-            Command::View(arguments) => web::serve_trace(arguments),
+            Command::View(arguments) => web::serve_view(arguments, registry),
             Command::Robot(arguments) => fleet::robot(arguments, registry),
             Command::Emulate { what } => fleet::emulate(what, registry),
             Command::Fleet { command } => fleet::fleet(command, registry),

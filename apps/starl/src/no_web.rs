@@ -13,7 +13,7 @@ pub fn serve_run(_: &RunArguments, _: &Registry) -> Result<bool, Failure> {
     refuse()
 }
 
-pub fn serve_trace(_: &ViewArguments) -> Result<bool, Failure> {
+pub fn serve_view(_: &ViewArguments, _: &Registry) -> Result<bool, Failure> {
     refuse()
 }
 

@@ -6,6 +6,7 @@
 use starl_core::{Obstacle, Point, Pose};
 use starl_create::Generation;
 use starl_emulate::ardrone::EmulatedArdrone;
+use starl_emulate::crazyflie::EmulatedCrazyflie;
 use starl_emulate::create::{EmulatedCreate, model};
 use starl_emulate::mavlink::EmulatedVehicle;
 use starl_emulate::natnet::{Cameras, EmulatedNatNet};
@@ -47,12 +48,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let px4 = vehicle("px4", Autopilot::Px4, 0.0)?;
     let ardupilot = vehicle("ardupilot", Autopilot::ArduPilot, 20.0)?;
+    let shelf = Pose::level(Point::planar(20.0, 20.0), 1.2);
+    let body = world.add("crazyflie", by_name("drone").ok_or("no model")?, shelf)?;
+    let crazyflie = EmulatedCrazyflie::start(body, any)?;
     let ports = [
         ("commands", drone.commands()),
         ("navdata", drone.navdata()?),
         ("natnet_3", natnet_3.address()),
         ("natnet_4", natnet_4.address()),
         ("vrpn", vrpn.address()),
+        ("crazyflie", crazyflie.address()?),
         ("px4", px4.address()?),
         ("ardupilot", ardupilot.address()?),
     ];

@@ -24,6 +24,8 @@
 
 pub mod ardrone;
 pub mod conformance;
+mod control;
+pub mod crazyflie;
 pub mod create;
 pub mod mavlink;
 pub mod natnet;

@@ -168,7 +168,6 @@ fn robot(keys: Vec<[u8; 32]>) -> Vec<Span> {
         accuracy: Accuracy::default(),
         start: Some(Pose::default()),
         safety: Safety::default(),
-        clock,
     };
     let connections = Connections {
         device: Box::new(body.device()),
@@ -178,7 +177,7 @@ fn robot(keys: Vec<[u8; 32]>) -> Vec<Span> {
         channel: Channel::new(0, "bench", keys.clone()),
     };
     let robot = thread::spawn(move || {
-        let robot = Robot::start(setup, connections, (post, inbox), Silent);
+        let robot = Robot::start(setup, connections, clock, (post, inbox), Silent);
         robot.expect("there are threads").run();
     });
     let (sender, inbox) = mpsc::channel();

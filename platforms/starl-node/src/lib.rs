@@ -15,7 +15,7 @@ pub mod robot;
 pub mod safety;
 pub mod simulated;
 pub mod storage;
-mod writer;
+pub mod writer;
 
 pub use clock::WallClock;
 pub use device::{Device, DeviceError, Reading};

@@ -1,8 +1,8 @@
 //! The thread that has the device: it drives what the program wants, reads what the device measures, and stops the
 //! motors when the program does not answer any more.
 
-use crate::{Device, DeviceError, Reading};
-use starl_core::{Command, Estimate, Pose};
+use crate::{Device, DeviceError, Reading, WallClock};
+use starl_core::{Command, Estimate, Pose, Time};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
@@ -32,9 +32,9 @@ pub trait PositionSource: Send {
 #[derive(Debug)]
 pub enum Report {
     /// The device has measured something.
-    Measured(Instant, Reading),
+    Measured(Time, Reading),
     /// The robot was seen somewhere.
-    Seen(Instant, Pose),
+    Seen(Time, Pose),
     /// The device cannot be used, or can be used again.
     Trouble(Option<String>),
 }
@@ -57,13 +57,14 @@ pub struct Motors {
 }
 
 impl Motors {
-    /// Starts the thread, which hands what it learns to `tell`.
+    /// Starts the thread, which hands what it learns to `tell`, with the times of `clock`.
     ///
     /// # Errors
     /// If the system gives no thread.
     pub fn start(
         device: Box<dyn Device>,
         positions: Option<Box<dyn PositionSource>>,
+        clock: WallClock,
         tell: impl FnMut(Report) + Send + 'static,
     ) -> std::io::Result<Motors> {
         let wish = Arc::new(Mutex::new(Wish {
@@ -76,7 +77,7 @@ impl Motors {
         let shared = wish.clone();
         let thread = thread::Builder::new()
             .name("motors".to_string())
-            .spawn(move || drive(device, positions, tell, &shared))?;
+            .spawn(move || drive(device, positions, clock, tell, &shared))?;
         Ok(Motors {
             wish,
             thread: Some(thread),
@@ -125,6 +126,7 @@ fn lock(wish: &Mutex<Wish>) -> MutexGuard<'_, Wish> {
 fn drive(
     mut device: Box<dyn Device>,
     mut positions: Option<Box<dyn PositionSource>>,
+    clock: WallClock,
     mut tell: impl FnMut(Report),
     wish: &Mutex<Wish>,
 ) {
@@ -157,12 +159,12 @@ fn drive(
             problem = done.err();
         }
         match device.read() {
-            Ok(Some(reading)) => tell(Report::Measured(Instant::now(), reading)),
+            Ok(Some(reading)) => tell(Report::Measured(clock.now(), reading)),
             Ok(None) => {}
             Err(error) => problem = Some(error),
         }
         match positions.as_mut().map(|source| source.poll()) {
-            Some(Ok(Some((at, pose)))) => tell(Report::Seen(at, pose)),
+            Some(Ok(Some((at, pose)))) => tell(Report::Seen(clock.at(at), pose)),
             Some(Err(error)) => problem = Some(error),
             Some(Ok(None)) | None => {}
         }
@@ -212,10 +214,14 @@ mod tests {
         }
     }
 
+    fn clock() -> WallClock {
+        WallClock::since(WallClock::system())
+    }
+
     #[test]
     fn a_program_that_hangs_stops_the_motors() {
         let (sender, receiver) = mpsc::channel();
-        let motors = Motors::start(Box::new(Counter(sender)), None, |_| {}).unwrap();
+        let motors = Motors::start(Box::new(Counter(sender)), None, clock(), |_| {}).unwrap();
         motors.drive(Command::Straight { speed: 0.2 }, &Estimate::default());
         let begun = Instant::now();
         while !receiver.recv().unwrap() {}
@@ -228,7 +234,7 @@ mod tests {
     #[test]
     fn the_device_is_stopped_when_the_robot_ends() {
         let (sender, receiver) = mpsc::channel();
-        let motors = Motors::start(Box::new(Counter(sender)), None, |_| {}).unwrap();
+        let motors = Motors::start(Box::new(Counter(sender)), None, clock(), |_| {}).unwrap();
         motors.drive(Command::Straight { speed: 0.2 }, &Estimate::default());
         while !receiver.recv().unwrap() {}
         drop(motors);

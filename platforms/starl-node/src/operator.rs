@@ -2,7 +2,7 @@
 
 use crate::WallClock;
 use crate::link::channel::Opened;
-use crate::link::frame::{Frame, Status};
+use crate::link::frame::{Frame, Seen, Status};
 use crate::link::{Arrival, Channel, Key, Member, OPERATORS, Transport};
 use starl_core::Order;
 use std::collections::BTreeMap;
@@ -12,6 +12,9 @@ use std::time::{Duration, Instant};
 /// A question is asked again after this.
 const REPEAT: Duration = Duration::from_millis(200);
 
+/// Robots are told this often that they are watched.
+const REPEAT_WATCH: Duration = Duration::from_millis(500);
+
 /// A member of the fleet that is no robot.
 pub struct Operator {
     channel: Channel,
@@ -19,6 +22,8 @@ pub struct Operator {
     inbox: Receiver<Arrival>,
     clock: WallClock,
     robots: Vec<Member>,
+    /// When robots were told last that they are watched.
+    watched: Option<Instant>,
 }
 
 /// A number for an operator that no other operator has, most likely.
@@ -44,6 +49,7 @@ impl Operator {
             inbox,
             clock: WallClock::since(WallClock::system()),
             robots,
+            watched: None,
         }
     }
 
@@ -69,6 +75,29 @@ impl Operator {
         // The session has to stand first.
         self.question(&[robot], &Frame::Ask, patience);
         self.send(robot, &Frame::Order(order))
+    }
+
+    /// Lets all robots tell what happens on them, and takes what they have told until `end`: which robot, when that
+    /// arrived, and what it says. To be called again within a second, or robots stop to tell.
+    pub fn watch(&mut self, end: Instant) -> Vec<(Member, Instant, Seen)> {
+        let is_due = self.watched.is_none_or(|at| at.elapsed() >= REPEAT_WATCH);
+        if is_due {
+            self.watched = Some(Instant::now());
+            self.connect();
+            for robot in self.robots.clone() {
+                self.send(robot, &Frame::Watch);
+            }
+        }
+        let mut seen = Vec::new();
+        loop {
+            let wait = end.saturating_duration_since(Instant::now());
+            let Ok(arrival) = self.inbox.recv_timeout(wait) else {
+                return seen;
+            };
+            if let Some((from, Frame::Seen(told))) = self.open(&arrival) {
+                seen.push((from, arrival.at, *told));
+            }
+        }
     }
 
     /// Asks these robots until all have answered, or patience ends.

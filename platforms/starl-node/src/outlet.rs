@@ -1,6 +1,6 @@
 //! The runtime's side of a robot's node while it handles something: what it asks for is kept, and done afterwards.
 
-use crate::robot::Recorder;
+use crate::robot::{Peer, Recorder};
 use starl_core::motion::Body;
 use starl_core::{Duration, Event, Point, Time};
 use starl_host::{Datagram, Observed, Outlet, PlanJob, StoreJob, Workspace};
@@ -25,7 +25,7 @@ pub struct Perceived {
 pub(crate) struct Desk<'a> {
     pub workspace: &'a mut Workspace,
     pub recorder: &'a mut dyn Recorder,
-    pub perceived: Vec<Perceived>,
+    pub peers: &'a [Peer],
     pub here: Point,
     pub now: Time,
     /// To be sent.
@@ -41,7 +41,8 @@ pub(crate) struct Desk<'a> {
 impl Desk<'_> {
     /// Where the other robots are by now.
     fn near(&self, reach: f64) -> impl Iterator<Item = Neighbour> {
-        let neighbours = self.perceived.iter().map(|perceived| {
+        let perceived = self.peers.iter().filter_map(|peer| peer.perceived.as_ref());
+        let neighbours = perceived.map(|perceived| {
             let age = self.now.since(perceived.at);
             let (position, velocity) = match age <= FRESH {
                 true => {

@@ -11,7 +11,8 @@ export type Start =
   /** `static`: by a host of files, which can be done without once the page is loaded. */
   | { mode: "web"; static?: boolean }
   | { mode: "run"; opened: ServerRun; files: Record<string, string> }
-  | { mode: "trace"; name: string; size: number };
+  | { mode: "trace"; name: string; size: number }
+  | { mode: "fleet"; name: string };
 
 export const start = signal<Start>({ mode: "web" });
 

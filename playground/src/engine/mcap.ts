@@ -24,6 +24,18 @@ export async function* records(file: Readable): AsyncGenerator<McapTypes.TypedMc
   }
 }
 
+/** All records of a file that the server sends as it grows, as they come. */
+export async function* arriving(url: string): AsyncGenerator<McapTypes.TypedMcapRecord> {
+  const answer = await fetch(url);
+  if (!answer.ok || !answer.body) throw gone();
+  const reader = new McapStreamReader();
+  const parts = answer.body.getReader();
+  for (let part = await parts.read(); !part.done; part = await parts.read()) {
+    reader.append(part.value);
+    for (let record = reader.nextRecord(); record; record = reader.nextRecord()) yield record;
+  }
+}
+
 /** The time of the last message by the index at the end of the file, s; null if there is no index. */
 export async function lastTime(file: Readable): Promise<number | null> {
   try {

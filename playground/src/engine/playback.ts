@@ -1,11 +1,12 @@
 // Plays a trace, from a file of the user or from the server. The run is known as far as it is read; reading goes on in
-// the background until the end.
+// the background until the end. The trace of a fleet that runs has no end before the command is stopped; while it plays,
+// the moment shown is the latest one, unless a person has gone back.
 
 import type { McapTypes } from "@mcap/core";
 import type { Recorded } from "../../../apps/starl-wasm/starl.d.mts";
 import { firstWhere } from "../run/search.ts";
 import { RECORDED } from "./engine.ts";
-import { LocalFile, lastTime, type Readable, records, ServedFile } from "./mcap.ts";
+import { arriving, LocalFile, lastTime, type Readable, records, ServedFile } from "./mcap.ts";
 import { Refused } from "./remote.ts";
 import {
   type Intervention,
@@ -30,6 +31,8 @@ const SAMPLE = 0.1;
 /** Real time between two updates while it plays, and while it is read, ms. */
 const UPDATE_EVERY = 16;
 const READ_FOR = 30;
+/** The latest moment of a fleet that runs is shown from this far before it on, s. */
+const NEAR = 0.5;
 
 interface Summary {
   outcome: Outcome;
@@ -49,6 +52,10 @@ export class Playback {
   #interventions: [number, Intervention][] = [];
   #closed = false;
   #playing: symbol | null = null;
+  /** Whether the latest moment is shown while it plays. */
+  #following: boolean;
+  /** Where programs are, by robot, at each change: time in s, robot, state. */
+  #states: [number, number, string][] = [];
   /** The times of all records so far, s. */
   #times: number[] = [];
   #summary: Summary | null = null;
@@ -64,35 +71,43 @@ export class Playback {
     private readonly start: Beginning,
     opened: Opened,
     private readonly post: Post,
+    private readonly grows: boolean,
   ) {
     this.opened = opened;
+    this.#following = grows;
     this.#conditions = new Float64Array(opened.fleet.length * POSE_NUMBERS);
   }
 
-  static async start(source: Source & { kind: "trace" }, post: Post): Promise<Playback> {
-    const file: Readable =
-      typeof source.from === "string" ? await ServedFile.of(source.from) : new LocalFile(source.from);
-    const trace = records(file);
+  static async start(source: Source & { kind: "trace" | "fleet" }, post: Post): Promise<Playback> {
+    const grows = source.kind === "fleet";
+    const file = grows ? null : await opened(source.from);
+    const trace = file ? records(file) : arriving(String(source.from));
     const start = await beginning(trace).catch((error: Error) => {
       throw new Refused(`${source.name}: this is no trace that can be read: ${error.message}`);
     });
     const world = start.attachments.get("starl/world.json");
     if (!start.about || !world) throw new Refused(`${source.name}: this file is no trace of StarL`);
-    const end = await lastTime(file);
-    const opened = describe(source.name, start.about, JSON.parse(world), end ?? 0);
-    const playback = new Playback(trace, start, opened, post);
+    const end = file && (await lastTime(file));
+    const about = describe(source.name, start.about, JSON.parse(world), end ?? 0);
+    const playback = new Playback(trace, start, about, post, grows);
     playback.#whole = playback.#load();
     return playback;
   }
 
-  async play(speed: number): Promise<void> {
+  play(speed: number): void {
     const playing = Symbol("playing");
     this.#playing = playing;
+    void this.#play(speed, playing);
+  }
+
+  async #play(speed: number, playing: symbol): Promise<void> {
     let last = performance.now();
-    while (this.#playing === playing && this.#now < this.opened.duration) {
+    if (this.#known - this.#now < NEAR) this.#following = this.grows;
+    while (this.#playing === playing && (this.grows || this.#now < this.opened.duration)) {
       await new Promise((resolve) => setTimeout(resolve, UPDATE_EVERY));
       const real = performance.now();
       this.#now = Math.min(this.#known, this.#now + ((real - last) / 1000) * Math.min(speed, 1000));
+      if (this.#following) this.#now = this.#known;
       last = real;
       if (this.#playing === playing) this.#update(speed);
     }
@@ -108,6 +123,7 @@ export class Playback {
 
   async seek(time: number): Promise<void> {
     this.#playing = null;
+    this.#following = false;
     this.#now = Math.min(Math.max(0, time), this.#known);
     this.#update();
   }
@@ -129,6 +145,7 @@ export class Playback {
 
   /** The inputs to run it again. Waits until the trace is read. */
   async recorded(): Promise<Recorded> {
+    if (this.grows) throw new Refused("a fleet that runs cannot be simulated again");
     const { attachments } = this.start;
     const kept = [...attachments].filter(([name]) => name.startsWith(FILES));
     const files = Object.fromEntries(kept.map(([name, text]) => [name.slice(FILES.length), text]));
@@ -199,6 +216,9 @@ export class Playback {
       case "/starl/status":
         this.#conditions[at + POSE_NUMBERS - 1] = message.status === "failed" ? 2 : 1;
         break;
+      case "/starl/program":
+        this.#note(time_ns, message);
+        break;
       case "/starl/sent":
         this.#messages.sent++;
         break;
@@ -214,6 +234,23 @@ export class Playback {
     }
     this.#times.push(time_ns / 1e9);
     this.#fresh.push({ time_ns, topic, message });
+  }
+
+  /** A fleet that runs tells so in which state programs are. */
+  #note(time_ns: number, { robot, name, fields }: TraceRecord["message"] & Record<string, unknown>): void {
+    const field = (fields as { name: string; text?: string }[] | undefined)?.[0];
+    if (!this.grows || name !== "state" || field?.name !== "state") return;
+    this.#states.push([time_ns / 1e9, robot ?? 0, field.text ?? ""]);
+  }
+
+  /** Where programs are at the moment shown. */
+  #statesNow(): (string | null)[] {
+    const states: (string | null)[] = this.opened.fleet.map(() => null);
+    for (const [time, robot, state] of this.#states) {
+      if (time > this.#now) break;
+      states[robot] = state;
+    }
+    return states;
   }
 
   #frame(time: number): void {
@@ -236,7 +273,7 @@ export class Playback {
       frames,
       records,
       cut: null,
-      states: [],
+      states: this.#states.length > 0 ? this.#statesNow() : [],
       fleet: null,
       world: null,
       robots: [],
@@ -262,6 +299,11 @@ export class Playback {
       failures: [],
     };
   }
+}
+
+/** A file of the user, or of the server. */
+async function opened(from: string | Blob): Promise<Readable> {
+  return typeof from === "string" ? await ServedFile.of(from) : new LocalFile(from);
 }
 
 /** How many of the ascending times are not after `time`. */

@@ -35,6 +35,8 @@ export type Source =
   | { kind: "server"; opened: ServerRun }
   /** A trace, read as it is needed. */
   | { kind: "trace"; name: string; from: string | Blob }
+  /** A trace of a fleet that runs, which the server sends as it grows. */
+  | { kind: "fleet"; name: string; from: string }
   /** The run of the trace that is shown, simulated again in the worker. */
   | { kind: "again" };
 

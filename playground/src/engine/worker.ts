@@ -88,6 +88,7 @@ async function start(source: Exclude<Source, { kind: "again" }>): Promise<Driver
       return Driver.start(remote(socket, source.opened.simulation), source.opened, post);
     }
     case "trace":
+    case "fleet":
       return Playback.start(source, post);
   }
 }

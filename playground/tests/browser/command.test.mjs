@@ -103,6 +103,46 @@ test("a trace whose end is missing is shown up to there", { skip }, async () => 
   await context.close();
 });
 
+const FLEET = `
+program = "race.starl"
+duration = "60s"
+[world]
+way_point = [{ name = "A", position = [3, 0] }, { name = "B", position = [3, 3] }]
+[[robots]]
+model = "holonomic"
+name = "robot"
+count = 2
+start = [{ position = [0, 0] }, { position = [0, 1] }]
+`;
+
+test("a fleet that runs is followed as it happens", { skip }, async () => {
+  writeFileSync(join(folder, "race.toml"), FLEET);
+  const program = new URL("../../../examples/race/race.starl", import.meta.url);
+  writeFileSync(join(folder, "race.starl"), readFileSync(program));
+  const port = 20_000 + (process.pid % 20_000);
+  writeFileSync(join(folder, "fleet.toml"), `scenario = "race.toml"\n[link]\nfirst_port = ${port}\n`);
+  assert.equal(spawnSync(STARL, ["fleet", "key", "fleet.toml"], { cwd: folder }).status, 0);
+  const address = await served("view", join(folder, "fleet.toml"));
+  const { page, context, errors } = await visit(browser, address);
+  // Before the fleet starts its robots stand where they will start.
+  await page.locator(".play:enabled").waitFor();
+  children.push(spawn(STARL, ["fleet", "up", "fleet.toml"], { cwd: folder }));
+  await page.getByRole("tab", { name: "Robots" }).click();
+  await page.getByRole("option").first().getByText("wait").waitFor({ timeout: 30_000 });
+  const clock = () => page.locator(".clock").textContent();
+  const before = parseFloat(await clock());
+  await page.waitForTimeout(1500);
+  assert.ok(parseFloat(await clock()) > before + 1, "the page follows");
+  await page.getByRole("tab", { name: "Log" }).click();
+  await page.getByText("robot0: finished").waitFor({ timeout: 30_000 });
+  assert.equal(await page.getByText("has not answered").count(), 0);
+  if (process.env.PICTURE) await page.screenshot({ path: process.env.PICTURE });
+  await page.getByLabel("To the start").click();
+  await page.waitForFunction(() => parseFloat(document.querySelector(".clock").textContent) === 0);
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
 test("a file that is no trace is refused before anything is served", { skip }, () => {
   const file = join(folder, "no.mcap");
   writeFileSync(file, readFileSync(new URL(import.meta.url)));

@@ -4,6 +4,7 @@ use super::file::{Device, Fleet, Member, Positions, Up};
 use crate::failure::Failure;
 use starl_ardrone::{Ardrone, ArdroneOptions};
 use starl_core::Pose;
+use starl_crazyflie::{Crazyflie, CrazyflieOptions};
 use starl_create::{Create, CreateOptions, Generation};
 use starl_mavlink::{MavlinkOptions, MavlinkVehicle};
 use starl_natnet::{NatNet, NatNetOptions, UpAxis};
@@ -50,6 +51,10 @@ pub fn connect(
             options.commands = commands.unwrap_or(options.commands);
             options.navdata = navdata.unwrap_or(options.navdata);
             Box::new(Ardrone::connect(&options).map_err(cannot)?)
+        }
+        Device::Crazyflie { address } => {
+            let options = CrazyflieOptions::new(*address);
+            Box::new(Crazyflie::connect(&options).map_err(cannot)?)
         }
         Device::Mavlink { listen, vehicle } => {
             let usual = MavlinkOptions::default();

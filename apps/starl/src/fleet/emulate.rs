@@ -12,6 +12,7 @@ use starl_catalog::programs::Registry;
 use starl_core::{Pose, RobotId};
 use starl_create::Generation;
 use starl_emulate::ardrone::EmulatedArdrone;
+use starl_emulate::crazyflie::EmulatedCrazyflie;
 use starl_emulate::create::{EmulatedCreate, model};
 use starl_emulate::mavlink::EmulatedVehicle;
 use starl_emulate::natnet::{Cameras, EmulatedNatNet};
@@ -45,6 +46,11 @@ pub fn run(arguments: &EmulateArguments, registry: &Registry) -> Result<bool, Fa
             let world = World::new(Vec::new(), Noise::NONE);
             let body = add(&world, "drone", Pose::default(), drone()?)?;
             vec![ardrone(body, *commands, *navdata)?]
+        }
+        EmulateArguments::Crazyflie { address } => {
+            let world = World::new(Vec::new(), Noise::NONE);
+            let body = add(&world, "crazyflie", Pose::default(), drone()?)?;
+            vec![crazyflie(body, *address)?]
         }
         EmulateArguments::Mavlink { address, client } => {
             let world = World::new(Vec::new(), Noise::NONE);
@@ -161,6 +167,10 @@ fn member_device(
             let body = add(world, &member.body, start, own)?;
             ardrone(body, *commands, *navdata).map_err(named)?
         }
+        Device::Crazyflie { address } => {
+            let body = add(world, &member.body, start, own)?;
+            crazyflie(body, *address).map_err(named)?
+        }
         Device::Mavlink { listen, vehicle } => {
             let any = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 0);
             let client = listen.unwrap_or(MavlinkOptions::default().listen);
@@ -197,6 +207,16 @@ fn mavlink(body: BodyHandle, address: SocketAddr, client: SocketAddr) -> Result<
     let address = device.address().map_err(|error| Failure(reason(&error)))?;
     Ok(Emulated {
         text: format!("a PX4 vehicle at {address}, which sends to {client}"),
+        _device: Box::new(device),
+    })
+}
+
+fn crazyflie(body: BodyHandle, address: SocketAddr) -> Result<Emulated, Failure> {
+    let device = EmulatedCrazyflie::start(body, address)
+        .map_err(|error| Failure(format!("{address}: {}", reason(&error))))?;
+    let address = device.address().map_err(|error| Failure(reason(&error)))?;
+    Ok(Emulated {
+        text: format!("a Crazyflie at {address}"),
         _device: Box::new(device),
     })
 }

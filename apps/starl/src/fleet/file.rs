@@ -166,6 +166,11 @@ pub enum Device {
         /// Where it gives navdata; default `192.168.1.1:5554`.
         navdata: Option<SocketAddr>,
     },
+    /// A Crazyflie, over UDP.
+    Crazyflie {
+        /// Where it is, e.g. `127.0.0.1:19850`.
+        address: SocketAddr,
+    },
     /// A multicopter with PX4 or ArduPilot, over UDP.
     Mavlink {
         /// The address of this computer that the vehicle sends to; default port 14540 of all networks.

@@ -10,7 +10,7 @@ use crate::output::reason;
 use crate::run::on_interrupt;
 use crate::trace_output::TraceOutput;
 use starl_catalog::programs::Registry;
-use starl_core::{Pose, Random, RobotId};
+use starl_core::{Pose, Random, RobotId, Time};
 use starl_host::Hardware;
 use starl_host::hardware::Drive;
 use starl_node::link::Channel;
@@ -48,7 +48,7 @@ pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Fail
         transport,
         channel: Channel::new(member.id.0, &fleet.name, keys),
     };
-    let setup = setup(&fleet, member.id, group, start, clock)?;
+    let setup = setup(&fleet, member.id, group, start, clock.now())?;
     let path = folder.next_trace(&member.name);
     let setting = Setting {
         only: Some(member.id),
@@ -74,7 +74,7 @@ pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Fail
     on_interrupt(move || {
         let _ = halt.send(Incoming::Halt);
     });
-    let robot = Robot::start(setup, connections, (post, inbox), recorder)
+    let robot = Robot::start(setup, connections, clock, (post, inbox), recorder)
         .map_err(|error| Failure(format!("{}: cannot start: {}", member.name, reason(&error))))?;
     robot.run().finish();
     Ok(true)
@@ -97,7 +97,7 @@ fn setup(
     id: RobotId,
     group: &Group,
     start: Pose,
-    clock: WallClock,
+    now: Time,
 ) -> Result<Setup, Failure> {
     let scenario = fleet.application.scenario();
     let program = fleet.application.program_of(id).map_err(Failure)?;
@@ -106,7 +106,7 @@ fn setup(
     let obstacles = scenario.world.obstacles.iter();
     let known = obstacles.filter(|entry| !entry.hidden);
     // A life of a robot draws what no other draws.
-    let seed = clock.now().0 ^ scenario.seed;
+    let seed = now.0 ^ scenario.seed;
     let usual = Accuracy::default();
     Ok(Setup {
         id,
@@ -134,6 +134,5 @@ fn setup(
         },
         start: Some(start),
         safety: fleet.safety,
-        clock,
     })
 }

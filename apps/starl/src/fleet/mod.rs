@@ -5,6 +5,8 @@ mod device;
 mod emulate;
 mod file;
 mod folder;
+#[cfg(feature = "web")]
+mod follow;
 mod key;
 mod link;
 mod member;
@@ -12,7 +14,12 @@ mod merge;
 mod recorder;
 mod status;
 mod stop;
+#[cfg(feature = "web")]
+mod stream;
 mod up;
+
+#[cfg(feature = "web")]
+pub use follow::follow;
 
 use crate::args::{EmulateArguments, FleetCommand, RobotArguments};
 use crate::failure::Failure;

@@ -115,12 +115,9 @@ fn emulator(fleet: &Path) -> Result<Emulator, Failure> {
     let cannot = |error: &std::io::Error| {
         Failure(format!("the devices cannot be emulated: {}", reason(error)))
     };
-    let command = std::env::current_exe().map_err(|error| cannot(&error))?;
-    let mut command = Command::new(command);
+    let mut command = this_command().map_err(|error| cannot(&error))?;
     command.args(["emulate", "fleet"]).arg(fleet);
     command.stdin(Stdio::null()).stdout(Stdio::piped());
-    #[cfg(unix)]
-    std::os::unix::process::CommandExt::process_group(&mut command, 0);
     let mut emulator = Emulator(command.spawn().map_err(|error| cannot(&error))?);
     let output = emulator.0.stdout.take().into_iter();
     let mut lines = output.flat_map(|output| BufReader::new(output).lines());
@@ -129,6 +126,15 @@ fn emulator(fleet: &Path) -> Result<Emulator, Failure> {
         true => Ok(emulator),
         false => Err(Failure("the devices cannot be emulated".to_string())),
     }
+}
+
+/// This command, to be started once more.
+fn this_command() -> std::io::Result<Command> {
+    let mut command = Command::new(std::env::current_exe()?);
+    // Ctrl-C is for this process, which ends the others in good order.
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(&mut command, 0);
+    Ok(command)
 }
 
 /// The processes of a fleet.
@@ -171,8 +177,7 @@ impl<'a> Robots<'a> {
         let cannot = |error: &std::io::Error| {
             Failure(format!("{robot}: cannot be started: {}", reason(error)))
         };
-        let command = std::env::current_exe().map_err(|error| cannot(&error))?;
-        let mut command = Command::new(command);
+        let mut command = this_command().map_err(|error| cannot(&error))?;
         command.arg("robot").args(&self.arguments.program);
         command
             .arg("--id")
@@ -187,9 +192,6 @@ impl<'a> Robots<'a> {
         if self.arguments.quiet {
             command.arg("--quiet");
         }
-        // Ctrl-C is for this process, which stops the robots in good order.
-        #[cfg(unix)]
-        std::os::unix::process::CommandExt::process_group(&mut command, 0);
         command.spawn().map_err(|error| cannot(&error))
     }
 

@@ -5,6 +5,7 @@
 //! [`Service`](starl_catalog::service::Service) as where the simulator is WebAssembly.
 
 mod engine;
+mod growing;
 mod guard;
 mod page;
 mod start;
@@ -13,7 +14,7 @@ mod trace;
 use crate::args::{PageArguments, RunArguments, ViewArguments};
 use crate::failure::Failure;
 use crate::output::reason;
-use crate::{console, replay, run, target, threads};
+use crate::{console, fleet, replay, run, target, threads};
 use axum::extract::{State, WebSocketUpgrade};
 use axum::http::header::CONTENT_TYPE;
 use axum::http::{HeaderMap, StatusCode};
@@ -21,15 +22,17 @@ use axum::response::{IntoResponse, Response};
 use axum::routing::get;
 use axum::{Router, middleware};
 use engine::Origin;
+use growing::Growing;
 use guard::{Guard, guarded};
 use page::Page;
 use starl_catalog::programs::Registry;
 use starl_catalog::session::Session;
 use std::io;
 use std::net::Ipv4Addr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::Arc;
+use std::thread;
 use tokio::net::TcpListener;
 use tokio::runtime;
 use tokio::sync::Notify;
@@ -46,6 +49,8 @@ enum Content {
     },
     /// A recorded run.
     Trace { path: PathBuf, name: String },
+    /// A fleet that runs.
+    Fleet { name: String, trace: Growing },
 }
 
 /// Serves the page alone.
@@ -74,10 +79,16 @@ pub fn serve_run(arguments: &RunArguments, registry: &Registry) -> Result<bool, 
     serve(page, content, &arguments.page)
 }
 
-/// Serves what a trace has recorded.
-pub fn serve_trace(arguments: &ViewArguments) -> Result<bool, Failure> {
+/// Serves what a trace has recorded, or what happens in a fleet.
+pub fn serve_view(arguments: &ViewArguments, registry: &Registry) -> Result<bool, Failure> {
     let page = Page::of(arguments.page.folder.as_deref())?;
-    let path = &arguments.trace;
+    let path = &arguments.what;
+    if path
+        .extension()
+        .is_some_and(|extension| extension == "toml")
+    {
+        return serve(page, follow(path, registry)?, &arguments.page);
+    }
     // The page reads the rest of it; a file that is not a trace is reported immediately.
     replay::open(path)?;
     if !path.is_file() {
@@ -92,6 +103,19 @@ pub fn serve_trace(arguments: &ViewArguments) -> Result<bool, Failure> {
         name: name.display().to_string(),
     };
     serve(page, content, &arguments.page)
+}
+
+/// Follows the fleet of a file in a thread of its own.
+fn follow(path: &Path, registry: &Registry) -> Result<Content, Failure> {
+    let follower = fleet::follow(path, registry)?;
+    let name = follower.name().to_string();
+    let (trace, mut writer) = Growing::create()?;
+    thread::spawn(move || {
+        if let Err(failure) = follower.run(|bytes| writer.append(bytes)) {
+            console::error(&failure.0);
+        }
+    });
+    Ok(Content::Fleet { name, trace })
 }
 
 /// Serves the page and what it shows until someone presses Ctrl-C.
@@ -155,6 +179,7 @@ async fn tell_start(State(content): State<Arc<Content>>) -> Response {
     match &*content {
         Content::Page => json(&start::of_page()),
         Content::Run { start, .. } => json(start),
+        Content::Fleet { name, .. } => json(&start::of_fleet(name)),
         Content::Trace { path, name } => match path.metadata() {
             Ok(file) => json(&start::of_trace(name, file.len())),
             Err(error) => {
@@ -172,6 +197,7 @@ fn json(value: &serde_json::Value) -> Response {
 async fn give_trace(State(content): State<Arc<Content>>, headers: HeaderMap) -> Response {
     match &*content {
         Content::Trace { path, .. } => trace::answer(path, &headers).await,
+        Content::Fleet { trace, .. } => trace.answer().await,
         _ => (StatusCode::NOT_FOUND, "this server has no trace\n").into_response(),
     }
 }
@@ -199,7 +225,7 @@ fn open_browser(address: &str) {
         .stdout(Stdio::null())
         .stderr(Stdio::null());
     if let Ok(mut opening) = command.spawn() {
-        std::thread::spawn(move || opening.wait());
+        thread::spawn(move || opening.wait());
     }
 }
 

@@ -18,6 +18,11 @@ pub fn of_trace(name: &str, size: u64) -> Value {
     json!({ "mode": "trace", "name": name, "size": size })
 }
 
+/// A fleet that runs.
+pub fn of_fleet(name: &str) -> Value {
+    json!({ "mode": "fleet", "name": name })
+}
+
 /// A run, as the request `open` describes it, with the texts that it was read from.
 pub fn of_run(session: &Session, application: &Application) -> Value {
     let inputs = &application.resolved().inputs;

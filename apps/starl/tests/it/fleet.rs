@@ -181,6 +181,85 @@ fn kill(folder: &Path, robot: &str) {
     );
 }
 
+/// Reads what a server sends of the trace of a fleet, until that is enough.
+#[cfg(feature = "web")]
+fn follow(
+    server: &crate::web_support::Server,
+    is_enough: impl Fn(&[starl_core::Record]) -> bool,
+) -> Vec<starl_core::Record> {
+    use std::io::{Read, Write};
+    let mut stream = std::net::TcpStream::connect(server.host()).expect("the server listens");
+    let (host, cookie) = (server.host(), server.cookie());
+    // Without chunks, so that what comes is the trace.
+    let request = format!("GET /trace HTTP/1.0\r\nhost: {host}\r\ncookie: {cookie}\r\n\r\n");
+    stream.write_all(request.as_bytes()).expect("it is read");
+    let timeout = Some(Duration::from_secs(5));
+    stream.set_read_timeout(timeout).expect("it can be set");
+    let (mut bytes, mut part) = (Vec::new(), [0; 65_536]);
+    let begun = Instant::now();
+    loop {
+        let length = stream
+            .read(&mut part)
+            .expect("robots tell something all the time");
+        bytes.extend_from_slice(&part[..length]);
+        let head = bytes.windows(4).position(|four| four == b"\r\n\r\n");
+        let trace = head.map_or(&[][..], |head| &bytes[head + 4..]);
+        // At first there is not even a whole header.
+        let Ok(reader) = starl_trace::Reader::new(trace) else {
+            continue;
+        };
+        let records = reader.map_while(Result::ok);
+        let records: Vec<starl_core::Record> = records.collect();
+        if is_enough(&records) {
+            return records;
+        }
+        assert!(begun.elapsed() < PATIENCE, "that is not enough");
+    }
+}
+
+#[cfg(feature = "web")]
+#[test]
+fn a_fleet_is_followed_while_it_runs() {
+    use starl_core::Event;
+    let folder = fleet("fleet_view");
+    assert_eq!(status(&starl(&folder, &["fleet", "key", "fleet.toml"])), 0);
+    let server = crate::web_support::Server::start(&folder, &["view", "fleet.toml"]);
+    let start = server.get("/start.json", &[]).json();
+    assert_eq!(
+        start,
+        serde_json::json!({ "mode": "fleet", "name": "fleet" })
+    );
+    let up = Up::start(&folder, &[]);
+    let has = |records: &[starl_core::Record], robot, is_so: fn(&Event) -> bool| {
+        let robot = Some(starl_core::RobotId(robot));
+        let mut own = records.iter().filter(|record| record.robot == robot);
+        own.any(|record| is_so(&record.event))
+    };
+    follow(&server, |records| {
+        has(records, 1, |event| matches!(event, Event::Estimated(_)))
+    });
+    kill(&folder, "robot1");
+    let records = follow(&server, |records| {
+        (0..2).all(|robot| has(records, robot, |event| *event == Event::Finished))
+    });
+    assert!(records.is_sorted_by_key(|record| record.at));
+    let count = |is_so: fn(&Event) -> bool| {
+        let mut robots = [0, 0];
+        for record in records.iter().filter(|record| is_so(&record.event)) {
+            robots[record.robot.expect("a robot's").index()] += 1;
+        }
+        robots
+    };
+    let moves = count(|event| matches!(event, Event::Moved(_)));
+    assert!(moves.iter().all(|count| *count > 20), "{moves:?}");
+    let sent = count(|event| matches!(event, Event::Sent { .. }));
+    let delivered = count(|event| matches!(event, Event::Delivered { .. }));
+    assert!(sent[0] > 0 && delivered[1] > 0, "{sent:?} {delivered:?}");
+    let restarts = count(|event| *event == Event::Fault(starl_core::event::Fault::Restart));
+    assert_eq!(restarts, [0, 1]);
+    up.end();
+}
+
 #[test]
 fn a_fleet_finishes_although_a_robot_is_killed() {
     let folder = fleet("fleet_race");

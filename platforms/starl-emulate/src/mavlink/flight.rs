@@ -1,10 +1,10 @@
 //! What the autopilot does with messages, and what it sends.
 
-mod control;
+mod reading;
 mod telemetry;
 
 use crate::BodyHandle;
-use control::SetPoint;
+use crate::control::{SetPoint, fly};
 use starl_core::{Command, Point, Pose};
 use starl_mavlink::Autopilot;
 use starl_mavlink::autopilot::Mode;
@@ -93,7 +93,7 @@ impl Flight {
                 self.enter(self.autopilot.mode(data.custom_mode));
             }
             MavMessage::SET_POSITION_TARGET_LOCAL_NED(data) if is_ours(data.target_system) => {
-                if let Some(set_point) = SetPoint::read(data, &self.body.state().pose, &self.home) {
+                if let Some(set_point) = reading::read(data, &self.body.state().pose, &self.home) {
                     self.set_point = Some((Instant::now(), set_point));
                 }
             }
@@ -220,14 +220,7 @@ impl Flight {
     }
 
     fn follow(&self, set_point: &SetPoint) {
-        let state = self.body.state();
-        let command = set_point.command(&state);
-        let rising = matches!(command, Command::Attitude { gaz, .. } if gaz > 0.05);
-        if state.mode != drone_mode::LANDED {
-            self.body.command(command);
-        } else if rising {
-            self.body.command(Command::TakeOff);
-        }
+        fly(&self.body, set_point.command(&self.body.state()));
     }
 
     fn report(&mut self) {

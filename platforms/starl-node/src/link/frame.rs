@@ -3,7 +3,7 @@
 use super::Refusals;
 use super::quality::Quality;
 use serde::{Deserialize, Serialize};
-use starl_core::{Payload, Point, Port, Pose, Time};
+use starl_core::{Event, Payload, Point, Port, Pose, Time};
 
 /// The content of a packet, in postcard's encoding.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -29,6 +29,10 @@ pub enum Frame {
     Halted,
     /// An operator tells the program something.
     Order(starl_core::Order),
+    /// An operator wants to see what happens on a robot, for the next few seconds.
+    Watch,
+    /// The answer, several times a second.
+    Seen(Box<Seen>),
 }
 
 /// What a robot tells all others periodically.
@@ -45,6 +49,21 @@ pub struct Beacon {
     /// The receiver's latest beacon, when it was sent and when it arrived, by the clocks of either end: both ends
     /// measure delays and the difference of their clocks by it.
     pub echo: Option<(Time, Time)>,
+}
+
+/// What has happened on a robot since the last time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Seen {
+    /// The robot's time, by the clock of its process.
+    pub now: Time,
+    /// When its process began, which tells its lives apart.
+    pub begun: Time,
+    /// The number of the first event: all since the robot's start are counted, so that lost ones are noticed.
+    pub first: u64,
+    /// What its program is doing: its state, if the program has one.
+    pub state: Option<String>,
+    /// What happened, and when.
+    pub events: Vec<(Time, Event)>,
 }
 
 /// How a robot is.

@@ -94,6 +94,8 @@ pub enum Need {
     Stalls,
     /// Robots have storage.
     Storage,
+    /// A robot that restarts knows how many datagrams it has sent.
+    Count,
 }
 
 /// The robots of a test.
@@ -218,7 +220,8 @@ macro_rules! for_each_behaviour {
         // Lives.
         $with!(a_robot_restarts_with_a_fresh_copy);
         $with!(nothing_of_an_earlier_life_comes_later);
-        $with!(sequence_numbers_go_on_over_restarts);
+        $with!(no_sequence_number_is_used_twice);
+        $with!(the_next_life_goes_on_with_the_next_number);
         $with!(a_corrupted_robot_goes_on_until_it_restarts);
         // Times.
         $with!(things_due_at_once_happen_in_order);

@@ -1,0 +1,227 @@
+//! What a channel opens, and what it refuses.
+
+use super::*;
+
+const KEY: Key = [7; 32];
+
+fn member(id: Member, key: Key) -> Channel {
+    Channel::new(id, "race", vec![key])
+}
+
+/// Carries packets between two members until none is left; gives what was refused.
+fn connect(a: &mut Channel, b: &mut Channel, now: Time) -> Vec<Refusal> {
+    a.want(b.me);
+    let mut refused = Vec::new();
+    for (to, packet) in a.due(now) {
+        assert_eq!(to, b.me);
+        match b.open(now, &packet) {
+            Opened::Handshake {
+                answer: Some(answer),
+                ..
+            } => {
+                if let Opened::Refused(refusal) = a.open(now, &answer) {
+                    refused.push(refusal);
+                }
+            }
+            Opened::Refused(refusal) => refused.push(refusal),
+            other => panic!("{other:?}"),
+        }
+    }
+    refused
+}
+
+fn pair() -> (Channel, Channel) {
+    let (mut a, mut b) = (member(0, KEY), member(1, KEY));
+    assert_eq!(connect(&mut a, &mut b, Time::ZERO), []);
+    let hello = a.seal(1, b"hello").unwrap();
+    assert!(matches!(
+        b.open(Time::ZERO, &hello),
+        Opened::Content { from: 0, .. }
+    ));
+    (a, b)
+}
+
+#[test]
+fn members_with_the_same_key_hear_each_other() {
+    let (mut a, mut b) = pair();
+    for round in 0..2000u32 {
+        let packet = b.seal(0, &round.to_le_bytes()).unwrap();
+        let content = round.to_le_bytes().to_vec();
+        assert_eq!(
+            a.open(Time::ZERO, &packet),
+            Opened::Content { from: 1, content }
+        );
+    }
+    assert_eq!(a.refusals().total() + b.refusals().total(), 0);
+}
+
+#[test]
+fn a_stranger_is_refused() {
+    let (mut a, mut b) = (member(0, [1; 32]), member(1, KEY));
+    assert_eq!(connect(&mut a, &mut b, Time::ZERO), [Refusal::NotAuthentic]);
+    assert_eq!(a.seal(1, b"hello"), None);
+}
+
+#[test]
+fn a_member_of_another_fleet_with_the_same_key_is_refused() {
+    let (mut a, mut b) = (member(0, KEY), Channel::new(1, "search", vec![KEY]));
+    assert_eq!(connect(&mut a, &mut b, Time::ZERO), [Refusal::NotAuthentic]);
+}
+
+#[test]
+fn a_packet_is_taken_once() {
+    let (mut a, mut b) = pair();
+    let packet = a.seal(1, b"move").unwrap();
+    assert!(matches!(
+        b.open(Time::ZERO, &packet),
+        Opened::Content { .. }
+    ));
+    assert_eq!(
+        b.open(Time::ZERO, &packet),
+        Opened::Refused(Refusal::Replayed)
+    );
+    assert_eq!(b.refusals().replayed, 1);
+}
+
+#[test]
+fn a_packet_that_was_changed_anywhere_is_refused() {
+    let (mut a, mut b) = pair();
+    let packet = a.seal(1, b"move").unwrap();
+    for place in 0..packet.len() {
+        for bit in 0..8 {
+            let mut changed = packet.clone();
+            changed[place] ^= 1 << bit;
+            assert!(
+                matches!(b.open(Time::ZERO, &changed), Opened::Refused(_)),
+                "{place}"
+            );
+        }
+    }
+    for length in 0..packet.len() {
+        assert!(matches!(
+            b.open(Time::ZERO, &packet[..length]),
+            Opened::Refused(_)
+        ));
+    }
+    assert!(matches!(
+        b.open(Time::ZERO, &packet),
+        Opened::Content { .. }
+    ));
+}
+
+#[test]
+fn packets_of_an_earlier_life_are_refused() {
+    let (mut a, b) = pair();
+    let old = a.seal(1, b"move").unwrap();
+    drop(b);
+    let mut b = member(1, KEY);
+    assert_eq!(
+        b.open(Time::ZERO, &old),
+        Opened::Refused(Refusal::UnknownSession)
+    );
+    // The robot that has restarted begins a session, and both hear each other again.
+    assert_eq!(connect(&mut b, &mut a, Time::ZERO), []);
+    let packet = b.seal(0, b"here").unwrap();
+    assert!(matches!(
+        a.open(Time::ZERO, &packet),
+        Opened::Content { .. }
+    ));
+    let packet = a.seal(1, b"there").unwrap();
+    assert!(matches!(
+        b.open(Time::ZERO, &packet),
+        Opened::Content { .. }
+    ));
+    assert!(matches!(b.open(Time::ZERO, &old), Opened::Refused(_)));
+}
+
+#[test]
+fn a_repeated_initiation_ends_no_session() {
+    let (mut a, mut b) = (member(0, KEY), member(1, KEY));
+    a.want(1);
+    let (_, initiation) = a.due(Time::ZERO).remove(0);
+    let Opened::Handshake { answer, .. } = b.open(Time::ZERO, &initiation) else {
+        panic!();
+    };
+    a.open(Time::ZERO, &answer.unwrap());
+    let hello = a.seal(1, b"hello").unwrap();
+    b.open(Time::ZERO, &hello);
+    for _ in 0..100 {
+        assert!(matches!(
+            b.open(Time::ZERO, &initiation),
+            Opened::Handshake { .. }
+        ));
+    }
+    assert!(b.sessions.len() <= 2);
+    let packet = b.seal(0, b"still here").unwrap();
+    assert!(matches!(
+        a.open(Time::ZERO, &packet),
+        Opened::Content { .. }
+    ));
+}
+
+#[test]
+fn a_key_is_changed_while_the_fleet_runs() {
+    let (mut a, mut b) = pair();
+    let new = [9; 32];
+    b.set_keys(vec![new, KEY]);
+    a.set_keys(vec![new, KEY]);
+    let later = Time::ZERO + RENEWAL;
+    assert_eq!(connect(&mut a, &mut b, later), []);
+    let packet = a.seal(1, b"new").unwrap();
+    assert!(matches!(b.open(later, &packet), Opened::Content { .. }));
+    b.set_keys(vec![new]);
+    a.set_keys(vec![new]);
+    assert_eq!(connect(&mut a, &mut b, later + RENEWAL), []);
+}
+
+#[test]
+fn a_handshake_ends_where_packets_take_long() {
+    let (mut a, mut b) = (member(0, KEY), member(1, KEY));
+    a.want(1);
+    let delay = Duration::from_millis(700);
+    // What is on its way: when it arrives, whether at `b`, and the packet.
+    let mut flying: Vec<(Time, bool, Vec<u8>)> = Vec::new();
+    for tick in 0..100 {
+        let now = Time::ZERO + Duration::from_millis(100 * tick);
+        let initiations = a.due(now).into_iter();
+        flying.extend(initiations.map(|(_, packet)| (now + delay, true, packet)));
+        let (due, rest) = flying.into_iter().partition(|packet| packet.0 <= now);
+        flying = rest;
+        let due: Vec<(Time, bool, Vec<u8>)> = due;
+        for (_, at_b, packet) in due {
+            let end = if at_b { &mut b } else { &mut a };
+            if let Opened::Handshake {
+                answer: Some(answer),
+                ..
+            } = end.open(now, &packet)
+            {
+                flying.push((now + delay, !at_b, answer));
+            }
+        }
+        if a.seal(1, b"hello").is_some() {
+            return;
+        }
+    }
+    panic!("there is no session after ten seconds");
+}
+
+#[test]
+fn garbage_changes_nothing() {
+    let (mut a, mut b) = pair();
+    let mut state = 1u64;
+    for _ in 0..50_000 {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        let length = (state >> 40) as usize % 200;
+        let garbage: Vec<u8> = (0..length)
+            .map(|i| (state >> (i % 50)) as u8 ^ i as u8)
+            .collect();
+        assert!(matches!(b.open(Time::ZERO, &garbage), Opened::Refused(_)));
+    }
+    let packet = a.seal(1, b"move").unwrap();
+    assert!(matches!(
+        b.open(Time::ZERO, &packet),
+        Opened::Content { .. }
+    ));
+}

@@ -1,0 +1,200 @@
+//! One robot in real time.
+//!
+//! [`Core`] is the robot without clock and threads: it is handed what has come in, and says when it wants to be called
+//! next. [`Robot`] is the loop around it, with the machine's clock and the threads that have the device, the planner and
+//! the storage. All that the robot's software sees comes on one thread, so that it can be recorded and repeated.
+
+mod core;
+mod equipment;
+mod network;
+mod watch;
+
+pub use self::core::Core;
+pub(crate) use self::core::Peer;
+pub use equipment::Equipment;
+
+use crate::link::{Arrival, Channel, Transport};
+use crate::localise::Accuracy;
+use crate::motors::{Motors, PositionSource, Report};
+use crate::planner::Planner;
+use crate::safety::Safety;
+use crate::writer::{StorageWriter, Written};
+use crate::{Device, Storage, WallClock};
+use equipment::Attached;
+use starl_core::motion::{Body, Obstacles, Path};
+use starl_core::{Duration, Event, Pose, Program, Random, RobotId, Time, WayPoint};
+use starl_host::{Hardware, Observed};
+use std::io;
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+
+/// The longest that the loop waits.
+const LONGEST_WAIT: Duration = Duration::from_millis(20);
+
+/// The loop takes at most so many things at once, so that timers are not kept waiting.
+const MOST_AT_ONCE: usize = 64;
+
+/// What a robot is, and what it knows from the start.
+pub struct Setup {
+    /// Its number.
+    pub id: RobotId,
+    /// The bodies of all robots, by number.
+    pub bodies: Vec<Body>,
+    /// The software that it runs.
+    pub program: Box<dyn Program>,
+    /// The stream that its software draws from.
+    pub random: Random,
+    /// What it is made of.
+    pub hardware: Hardware,
+    /// Whether it has a bumper that its program may feel.
+    pub has_bumper: bool,
+    /// The application's way-points.
+    pub way_points: Vec<WayPoint>,
+    /// The obstacles that it knows.
+    pub obstacles: Obstacles,
+    /// How often its software is told where it is.
+    pub positioning_period: Duration,
+    /// How exact its odometry and its positions are.
+    pub accuracy: Accuracy,
+    /// Where it stands at the start, if that is known.
+    pub start: Option<Pose>,
+    /// When its motors are stopped.
+    pub safety: Safety,
+}
+
+/// What the robot is connected to.
+pub struct Connections {
+    /// Its motors and sensors.
+    pub device: Box<dyn Device>,
+    /// Who tells it where it is; none if it has odometry alone.
+    pub positions: Option<Box<dyn PositionSource>>,
+    /// What it keeps over a restart; none if it keeps nothing.
+    pub storage: Option<Storage>,
+    /// The network.
+    pub transport: Box<dyn Transport>,
+    /// The protection of what goes over it.
+    pub channel: Channel,
+}
+
+/// What comes in from other threads.
+#[derive(Debug)]
+pub enum Incoming {
+    /// A packet.
+    Packet(Arrival),
+    /// From the device's thread.
+    Device(Report),
+    /// A path was found, or none.
+    Planned(u32, Option<Path>),
+    /// From the storage's thread.
+    Written(Written),
+    /// The robot is to stop and to end.
+    Halt,
+}
+
+/// Where other threads put what comes in.
+pub type Post = Sender<Incoming>;
+
+/// A new mailbox: one end for [`Robot::start`], one for other threads.
+pub fn mailbox() -> (Post, Receiver<Incoming>) {
+    mpsc::channel()
+}
+
+/// Takes down what happens.
+pub trait Recorder {
+    /// Something happened on this robot.
+    fn record(&mut self, at: Time, event: Event);
+
+    /// Something was done to its software.
+    fn observe(&mut self, at: Time, observed: Observed<'_>);
+
+    /// All up to now was told.
+    fn advance(&mut self, now: Time);
+
+    /// All that was told must outlast the process from now on: something is about to leave the robot that shows it.
+    fn commit(&mut self) {}
+
+    /// The person in front of the robot should know this.
+    fn notice(&mut self, at: Time, text: &str);
+
+    /// What the program is doing, in a word, if that can be said.
+    fn state(&self, program: &dyn Program) -> Option<String> {
+        let _ = program;
+        None
+    }
+}
+
+/// A running robot.
+pub struct Robot<R: Recorder> {
+    core: Core<R, Attached>,
+    clock: WallClock,
+    inbox: Receiver<Incoming>,
+}
+
+impl<R: Recorder> Robot<R> {
+    /// A robot that is about to start, with the time of `clock`.
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    pub fn start(
+        setup: Setup,
+        connections: Connections,
+        clock: WallClock,
+        (post, inbox): (Post, Receiver<Incoming>),
+        recorder: R,
+    ) -> io::Result<Robot<R>> {
+        let Connections {
+            device,
+            positions,
+            storage,
+            transport,
+            channel,
+        } = connections;
+        let saved = storage
+            .as_ref()
+            .map(|storage| Arc::new(storage.saved().clone()));
+        let has_fixes = positions.is_some();
+        let (reports, plans, writes) = (post.clone(), post.clone(), post);
+        let motors = Motors::start(device, positions, clock, move |report| {
+            let _ = reports.send(Incoming::Device(report));
+        })?;
+        let planner = Planner::start(setup.hardware.clone(), move |job, path| {
+            let _ = plans.send(Incoming::Planned(job, path));
+        })?;
+        let writer = storage.map(|storage| {
+            StorageWriter::start(storage, move |written| {
+                writes.send(Incoming::Written(written)).is_ok()
+            })
+        });
+        let attached = Attached {
+            motors,
+            planner,
+            writer: writer.transpose()?,
+            transport,
+            saved,
+            has_fixes,
+        };
+        Ok(Robot {
+            core: Core::new(clock.now(), setup, channel, attached, recorder),
+            clock,
+            inbox,
+        })
+    }
+
+    /// Runs until someone stops the robot; gives the recorder back.
+    pub fn run(mut self) -> R {
+        let mut incoming = Vec::new();
+        while !self.core.is_over() {
+            self.core.step(self.clock.now(), &mut incoming);
+            let wait = self.clock.until(self.core.next_due());
+            match self.inbox.recv_timeout(wait.min(LONGEST_WAIT.into())) {
+                Ok(first) => {
+                    incoming.push(first);
+                    incoming.extend(self.inbox.try_iter().take(MOST_AT_ONCE));
+                }
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => incoming.push(Incoming::Halt),
+            }
+        }
+        self.core.end(self.clock.now())
+    }
+}

@@ -1,0 +1,197 @@
+//! The robot's end of the link: what it hears from others and tells them.
+
+use super::{Core, Equipment, Recorder};
+use crate::link::channel::{self, Opened};
+use crate::link::frame::{Beacon, Frame, Status};
+use crate::link::{Arrival, Member, OPERATORS};
+use crate::outlet::Perceived;
+use starl_core::event::DropReason;
+use starl_core::{Destination, Duration, Event, Message, RobotId};
+use starl_host::{Datagram, Happening};
+
+/// A robot that was stopped answers for so long, since its confirmation may be lost.
+const FAREWELL: Duration = Duration::from_millis(1000);
+
+impl<R: Recorder, E: Equipment> Core<R, E> {
+    pub(super) fn receive(&mut self, arrival: &Arrival) {
+        match self.channel.open(self.now, &arrival.packet) {
+            Opened::Content { from, content } => {
+                self.equipment.learn(from, arrival.origin);
+                if let Some(frame) = starl_core::message::decode::<Frame>(&content) {
+                    self.hear(from, frame);
+                }
+            }
+            Opened::Handshake { from, answer } => {
+                self.equipment.learn(from, arrival.origin);
+                if let Some(answer) = answer {
+                    let _ = self.equipment.send(from, &answer);
+                } else {
+                    // The other end uses the session once it has heard something in it.
+                    self.send_beacon(from);
+                }
+            }
+            Opened::Refused(_) => {}
+        }
+    }
+
+    fn hear(&mut self, from: Member, frame: Frame) {
+        if from < OPERATORS && from as usize >= self.peers.len() || from == self.setup.id.0 {
+            return;
+        }
+        if from < OPERATORS {
+            self.link_heard = self.now;
+        }
+        match frame {
+            Frame::Halt if from >= OPERATORS => {
+                self.equipment.stop();
+                self.send(from, &Frame::Halted);
+                if self.leaving.is_none() {
+                    self.recorder.notice(self.now, "stopped by an operator");
+                    self.leaving = Some(self.now + FAREWELL);
+                }
+            }
+            _ if self.leaving.is_some() => {}
+            Frame::Datagram {
+                sequence,
+                port,
+                payload,
+            } if from < OPERATORS => {
+                let message = Message {
+                    from: RobotId(from),
+                    port,
+                    payload,
+                };
+                self.handle(Happening::Datagram { sequence, message });
+            }
+            Frame::Beacon(beacon) if from < OPERATORS => self.notice_peer(from, &beacon),
+            Frame::Ask if from >= OPERATORS => {
+                let status = Frame::Status(Box::new(self.status()));
+                self.send(from, &status);
+            }
+            Frame::Watch if from >= OPERATORS => self.recorder.watch(self.now, from),
+            Frame::Order(order) if from >= OPERATORS => {
+                self.handle(Happening::Input(starl_core::Input::Order(order)));
+            }
+            _ => {}
+        }
+    }
+
+    fn notice_peer(&mut self, from: Member, beacon: &Beacon) {
+        let peer = &mut self.peers[from as usize];
+        peer.quality.take(self.now, beacon);
+        peer.latest = Some((beacon.sent, self.now));
+        let body = self.setup.bodies[from as usize];
+        if let Some(pose) = beacon.pose {
+            peer.perceived = Some(Perceived {
+                at: self.now,
+                position: pose.position,
+                velocity: beacon.velocity,
+                body,
+            });
+        }
+    }
+
+    pub(super) fn send_beacons(&mut self) {
+        for (member, packet) in self.channel.due(self.now) {
+            let _ = self.equipment.send(member, &packet);
+        }
+        for index in 0..self.fleet.len() {
+            if index != self.setup.id.index() {
+                self.send_beacon(index as u32);
+            }
+        }
+        self.beacons = self.beacons.wrapping_add(1);
+    }
+
+    fn send_beacon(&mut self, to: Member) {
+        let estimate = self.localiser.estimate();
+        let peer = self.peers.get(to as usize);
+        let beacon = Beacon {
+            number: self.beacons,
+            sent: self.now,
+            pose: estimate.map(|(estimate, _)| estimate.pose),
+            velocity: estimate.map_or(starl_core::Point::ZERO, |(e, _)| e.twist.linear),
+            echo: peer.and_then(|peer| peer.latest),
+        };
+        self.send(to, &Frame::Beacon(beacon));
+    }
+
+    /// Tells the operators that watch what has happened.
+    pub(super) fn tell_operators(&mut self) {
+        let (operators, told) = self.recorder.due(self.now, self.node.program());
+        for seen in told {
+            let frame = Frame::Seen(Box::new(seen));
+            for &operator in &operators {
+                self.send(operator, &frame);
+            }
+        }
+    }
+
+    /// Whether a packet left.
+    fn send(&mut self, to: Member, frame: &Frame) -> bool {
+        let content = starl_core::message::encode(frame);
+        let sealed = self.channel.seal(to, &content);
+        sealed.is_some_and(|packet| self.equipment.send(to, &packet).is_ok())
+    }
+
+    pub(super) fn transmit(&mut self, datagram: Datagram) {
+        let me = self.setup.id;
+        let to: Vec<RobotId> = match datagram.destination {
+            Destination::All => self.fleet.iter().copied().filter(|to| *to != me).collect(),
+            Destination::Robot(to) if to == me => {
+                self.to_self.push(datagram);
+                return;
+            }
+            Destination::Robot(to) => vec![to],
+        };
+        let Datagram {
+            sequence, message, ..
+        } = datagram;
+        let frame = Frame::Datagram {
+            sequence,
+            port: message.port,
+            payload: message.payload,
+        };
+        let content = starl_core::message::encode(&frame);
+        for to in to {
+            let reason = if content.len() > channel::LONGEST {
+                DropReason::Size
+            } else {
+                let packet = self.channel.seal(to.0, &content);
+                match packet.map(|packet| self.equipment.send(to.0, &packet)) {
+                    Some(Ok(())) => continue,
+                    _ => DropReason::Loss,
+                }
+            };
+            let event = Event::Dropped {
+                from: me,
+                to: Some(to),
+                sequence,
+                reason,
+            };
+            self.recorder.record(self.now, event);
+        }
+    }
+
+    fn status(&self) -> Status {
+        let estimate = self.localiser.estimate();
+        let condition = self.node.condition();
+        let links = self.peers.iter().enumerate();
+        Status {
+            now: self.now,
+            up: self.now.since(self.begun),
+            finished: condition.finished,
+            failed: self.failure.clone(),
+            pose: estimate.map(|(estimate, _)| estimate.pose),
+            position_age: estimate.map_or(Duration(u64::MAX), |(_, at)| self.now.since(at)),
+            stopped: self.hazard.as_ref().map(ToString::to_string),
+            battery: self.battery,
+            state: self.recorder.state(self.node.program()),
+            links: links
+                .filter(|(index, _)| *index != self.setup.id.index())
+                .map(|(index, peer)| (index as u32, peer.quality))
+                .collect(),
+            refused: self.channel.refusals(),
+        }
+    }
+}
