@@ -27,8 +27,23 @@ pub struct Court<'a> {
     pub last: Cell<Option<RobotId>>,
     /// The robot that the row of robots begins with.
     pub first: Option<RobotId>,
+    /// Which robots quantifiers run over.
+    pub counted: Counted,
+    /// Whether more than half of the robots have been up at every moment so far.
+    pub has_majority: bool,
     /// Whether anything else was looked at than this robot's state.
     pub looked_elsewhere: Cell<bool>,
+}
+
+/// Which of the robots that have started a quantifier runs over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Counted {
+    /// All of them.
+    All,
+    /// Those that are up.
+    Up,
+    /// Those that are up and that no robot which is down keeps from its target.
+    Able,
 }
 
 /// What properties may ask.
@@ -90,6 +105,18 @@ pub static OBSERVABLES: &[Observable] = &[
         call.set_bool(0, court.fleet.is_up(robot));
         Ok(0)
     }),
+    observable("majority", &[], Shape::Bool, |court, call| {
+        call.set_bool(0, court.has_majority);
+        Ok(0)
+    }),
+    observable("crashed", &[], Shape::Int, |court, call| {
+        let down = court
+            .roster
+            .iter()
+            .filter(|robot| !court.fleet.is_up(**robot));
+        call.set_int(0, down.count() as i64);
+        Ok(0)
+    }),
     observable("now", &[], Shape::Time, |court, call| {
         call.set_nanoseconds(0, court.now.0);
         Ok(0)
@@ -148,6 +175,10 @@ pub static OBSERVABLES: &[Observable] = &[
     }),
 ];
 
+/// A robot does not get to a target that is nearer than this to a robot which is down, metres: somewhat less than two
+/// bodies of the usual size side by side.
+const BLOCKED: f64 = 0.6;
+
 const NOT_KNOWN: &str = "this is not known where properties are judged";
 
 fn unknown(robot: RobotId) -> Cow<'static, str> {
@@ -162,6 +193,29 @@ impl Court<'_> {
         robot
     }
 
+    /// Whether quantifiers run over a robot.
+    pub fn counts(&self, robot: RobotId) -> bool {
+        match self.counted {
+            Counted::All => true,
+            Counted::Up => self.fleet.is_up(robot),
+            Counted::Able => self.fleet.is_up(robot) && !self.is_blocked(robot),
+        }
+    }
+
+    /// Whether a robot that is down lies where the robot is to go.
+    fn is_blocked(&self, robot: RobotId) -> bool {
+        let Some(target) = self.fleet.target(robot) else {
+            return false;
+        };
+        self.roster.iter().any(|&other| {
+            let pose = self.fleet.pose(other).filter(|_| !self.fleet.is_up(other));
+            pose.is_some_and(|pose| {
+                let (x, y) = (pose.position.x - target.x, pose.position.y - target.y);
+                x * x + y * y < BLOCKED * BLOCKED
+            })
+        })
+    }
+
     fn pose(&self, call: &HostCall<'_>) -> Result<Pose, Cow<'static, str>> {
         let robot = self.asked(call);
         self.fleet.pose(robot).ok_or_else(|| unknown(robot))
@@ -169,9 +223,15 @@ impl Court<'_> {
 }
 
 fn all(court: &mut Court<'_>, call: &mut HostCall<'_>) -> Called {
-    let roster = court.roster.iter().copied();
-    let all = court.all.get_or_insert_with(|| robots(roster));
-    call.set_object(0, all.clone());
+    if court.all.is_none() {
+        let counted = court
+            .roster
+            .iter()
+            .copied()
+            .filter(|robot| court.counts(*robot));
+        court.all = Some(robots(counted));
+    }
+    call.set_object(0, court.all.clone().unwrap_or_default());
     Ok(0)
 }
 
