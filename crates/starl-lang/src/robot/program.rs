@@ -76,6 +76,7 @@ impl RobotProgram {
     /// A program that has not started, with these values of its parameters and the defaults of
     /// others.
     pub fn new(code: &Code, parameters: &[(&str, Value)]) -> Result<RobotProgram, ParameterError> {
+        let actions = &code.program().bytecode().actions;
         Ok(RobotProgram {
             state: parameter::state(code, parameters)?,
             bound: code.instances().iter().map(|_| None).collect(),
@@ -87,13 +88,7 @@ impl RobotProgram {
             kept: None,
             phase: Phase::New,
             rests: false,
-            paces: code
-                .program()
-                .bytecode()
-                .actions
-                .iter()
-                .map(|_| Pace::default())
-                .collect(),
+            paces: actions.iter().map(|_| Pace::default()).collect(),
             resets: 0,
         })
     }
@@ -245,15 +240,16 @@ impl Part<'_> {
                 let actions = (0..).zip(&program.bytecode().actions).zip(paces);
                 let mut actions = actions.skip(code.checks() as usize);
                 actions.try_for_each(|((number, action), pace)| {
-                    let is_timed = action.is_timed();
                     if code.group(number).is_some() {
                         if turn.asks(number) {
                             turn.note(number, pace.is_due(action, number, now, machine)?);
                         }
-                    } else if held.is_none_or(|held| !held.keeps_action(number))
-                        && (!is_timed || pace.is_due(action, number, now, machine)?)
+                    } else if held.is_some_and(|held| held.keeps_action(number)) {
+                        // It waits.
+                    } else if !action.is_timed() {
+                        machine.action(number)?;
+                    } else if pace.is_due(action, number, now, machine)?
                         && machine.action(number)?
-                        && is_timed
                     {
                         pace.fire(action, now, machine)?;
                     }
@@ -263,12 +259,12 @@ impl Part<'_> {
             Part::Nothing => Ok(()),
             Part::Perform(number, _) => {
                 machine.action(number)?;
-                let timed = program.bytecode().actions.get(number as usize);
-                match (
-                    timed.filter(|action| action.is_timed()),
-                    paces.get_mut(number as usize),
-                ) {
-                    (Some(action), Some(pace)) => pace.fire(action, now, machine),
+                let actions = &program.bytecode().actions;
+                let action = actions.get(number as usize);
+                match (action, paces.get_mut(number as usize)) {
+                    (Some(action), Some(pace)) if action.is_timed() => {
+                        pace.fire(action, now, machine)
+                    }
                     _ => Ok(()),
                 }
             }

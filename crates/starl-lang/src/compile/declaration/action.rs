@@ -50,7 +50,7 @@ impl<'p> Unit<'p> {
         let mut body = Body::new(self, FunctionKind::Guard, &action.locals, action.site);
         let is_there = body.take(Size::SCALAR)?;
         let value = body.take_for(&time.ty)?;
-        (&mut body).into(time, value, true)?;
+        Body::into(&mut body, time, value, true)?;
         body.scalar(is_there, 1);
         body.leave(Size::SCALAR.plus(body.size(&time.ty)));
         let name = format!("{}.{word}", body.unit.action_name(action));

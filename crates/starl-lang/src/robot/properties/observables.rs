@@ -10,7 +10,7 @@ use crate::robot::shape::{Shape, Signature};
 use crate::robot::workbench::{Memo, robots};
 use alloc::borrow::Cow;
 use core::cell::Cell;
-use starl_core::{Pose, RobotId, Time};
+use starl_core::{Point, Pose, RobotId, Time};
 
 /// The machine's host where properties are judged.
 pub struct Court<'a> {
@@ -27,7 +27,7 @@ pub struct Court<'a> {
     pub last: Cell<Option<RobotId>>,
     /// The robot that the row of robots begins with.
     pub first: Option<RobotId>,
-    /// Which robots quantifiers run over.
+    /// Which robots a property is about.
     pub counted: Counted,
     /// Whether more than half of the robots have been up at every moment so far.
     pub has_majority: bool,
@@ -35,14 +35,14 @@ pub struct Court<'a> {
     pub looked_elsewhere: Cell<bool>,
 }
 
-/// Which of the robots that have started a quantifier runs over.
+/// Which of the robots that have started a property is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Counted {
     /// All of them.
     All,
     /// Those that are up.
     Up,
-    /// Those that are up and that no robot which is down keeps from its target.
+    /// Those that are up and that no robot which is down keeps from moving or from its target.
     Able,
 }
 
@@ -113,7 +113,7 @@ pub static OBSERVABLES: &[Observable] = &[
         let down = court
             .roster
             .iter()
-            .filter(|robot| !court.fleet.is_up(**robot));
+            .filter(|&&robot| !court.fleet.is_up(robot) || court.is_pinned(robot));
         call.set_int(0, down.count() as i64);
         Ok(0)
     }),
@@ -179,6 +179,9 @@ pub static OBSERVABLES: &[Observable] = &[
 /// bodies of the usual size side by side.
 const BLOCKED: f64 = 0.6;
 
+/// A robot cannot move if another that is down is nearer than this, metres: a wreck fell on it, or it drove against it.
+const PINNED: f64 = 0.5;
+
 const NOT_KNOWN: &str = "this is not known where properties are judged";
 
 fn unknown(robot: RobotId) -> Cow<'static, str> {
@@ -193,26 +196,49 @@ impl Court<'_> {
         robot
     }
 
-    /// Whether quantifiers run over a robot.
+    /// Whether the property is about a robot.
     pub fn counts(&self, robot: RobotId) -> bool {
         match self.counted {
             Counted::All => true,
             Counted::Up => self.fleet.is_up(robot),
-            Counted::Able => self.fleet.is_up(robot) && !self.is_blocked(robot),
+            Counted::Able => {
+                self.fleet.is_up(robot) && !self.is_blocked(robot) && !self.is_pinned(robot)
+            }
         }
+    }
+
+    /// Whether `exists` and `forall` inside a property run over a robot. A robot that cannot get to its target still
+    /// stands where it stands.
+    fn exists(&self, robot: RobotId) -> bool {
+        self.counted == Counted::All || self.fleet.is_up(robot)
     }
 
     /// Whether a robot that is down lies where the robot is to go.
     fn is_blocked(&self, robot: RobotId) -> bool {
-        let Some(target) = self.fleet.target(robot) else {
-            return false;
-        };
-        self.roster.iter().any(|&other| {
-            let pose = self.fleet.pose(other).filter(|_| !self.fleet.is_up(other));
-            pose.is_some_and(|pose| {
-                let (x, y) = (pose.position.x - target.x, pose.position.y - target.y);
-                x * x + y * y < BLOCKED * BLOCKED
+        let target = self.fleet.target(robot);
+        target.is_some_and(|target| {
+            let target = target.at_height(0.0);
+            self.is_wreck_near(robot, |wreck| {
+                wreck.at_height(0.0).distance(target) < BLOCKED
             })
+        })
+    }
+
+    /// Whether a robot that is down touches the robot.
+    fn is_pinned(&self, robot: RobotId) -> bool {
+        let pose = self.fleet.pose(robot);
+        pose.is_some_and(|pose| {
+            self.is_wreck_near(robot, |wreck| wreck.distance(pose.position) < PINNED)
+        })
+    }
+
+    /// Whether some other robot that is down lies at such a place.
+    fn is_wreck_near(&self, robot: RobotId, is_near: impl Fn(Point) -> bool) -> bool {
+        let others = self.roster.iter().filter(|other| **other != robot);
+        let mut wrecks = others.filter(|other| !self.fleet.is_up(**other));
+        wrecks.any(|other| {
+            let pose = self.fleet.pose(*other);
+            pose.is_some_and(|pose| is_near(pose.position))
         })
     }
 
@@ -228,7 +254,7 @@ fn all(court: &mut Court<'_>, call: &mut HostCall<'_>) -> Called {
             .roster
             .iter()
             .copied()
-            .filter(|robot| court.counts(*robot));
+            .filter(|robot| court.exists(*robot));
         court.all = Some(robots(counted));
     }
     call.set_object(0, court.all.clone().unwrap_or_default());
