@@ -52,6 +52,8 @@ pub struct RobotProgram {
     paces: Box<[Pace]>,
     /// See [`RobotProgram::resets`].
     resets: u32,
+    /// See [`RobotProgram::target`].
+    target: Option<Point>,
 }
 
 /// What waits for an action with `atomic`.
@@ -90,6 +92,7 @@ impl RobotProgram {
             rests: false,
             paces: actions.iter().map(|_| Pace::default()).collect(),
             resets: 0,
+            target: None,
         })
     }
 
@@ -98,10 +101,9 @@ impl RobotProgram {
         self.resets
     }
 
-    /// Where its motion leads, if it moves the robot to a target.
+    /// Where its motion leads, or led last: a robot that cannot get to its target may have given up.
     pub fn target(&self) -> Option<Point> {
-        let seats = self.bound.iter().flatten();
-        seats.filter_map(|seat| seat.bound.target()).next()
+        self.target
     }
 
     /// Its variables.
@@ -167,6 +169,9 @@ impl RobotProgram {
             robot.emit_fields("reset", fields.into_iter().collect());
         }
         if has_fired || is_told {
+            let seats = self.bound.iter().flatten();
+            let mut targets = seats.filter_map(|seat| seat.bound.target());
+            self.target = targets.next().or(self.target);
             self.version += 1;
         }
         self.rests = is_activation && !has_fired && code.is_steady();
@@ -338,6 +343,7 @@ impl Program for RobotProgram {
         self.reports.clear();
         self.waiting.clear();
         self.rests = false;
+        self.target = None;
         self.paces.fill(Pace::default());
         self.services = Services::start(&self.code, robot);
         self.run(robot, Part::Start);
@@ -416,7 +422,7 @@ impl Program for RobotProgram {
     }
 
     fn write_state(&self, text: &mut dyn fmt::Write) -> bool {
-        // The code never changes, the version is for those who watch, and to rest saves time alone.
+        // The code never changes, the version and the target are for observers, and to rest saves time alone.
         let RobotProgram {
             code: _,
             state,
@@ -430,6 +436,7 @@ impl Program for RobotProgram {
             rests: _,
             paces,
             resets: _,
+            target: _,
         } = self;
         let kept = kept.iter().flat_map(|kept| kept.digests());
         write!(

@@ -92,7 +92,7 @@ pub trait Fleet {
         Duration(u64::MAX)
     }
 
-    /// Where a robot's motion leads, if it is under way and that is known.
+    /// Where a robot's motion leads, or led last, if that is known.
     fn target(&self, robot: RobotId) -> Option<Point> {
         let _ = robot;
         None
