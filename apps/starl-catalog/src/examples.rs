@@ -80,14 +80,24 @@ pub const EXAMPLES: &[Example] = &[
         "four cars agree on the order in which they cross zones",
         "intersection",
         "intersection.toml",
-        ["intersection.starl", "junction.starl", "traffic.starl"]
+        [
+            "intersection.starl",
+            "junction.starl",
+            "rules.starl",
+            "traffic.starl"
+        ]
     ),
     example!(
         "intersection-stream",
         "a hundred cars come to the intersection at random",
         "intersection",
         "stream.toml",
-        ["intersection.starl", "junction.starl", "traffic.starl"]
+        [
+            "intersection.starl",
+            "junction.starl",
+            "rules.starl",
+            "traffic.starl"
+        ]
     ),
     example!(
         "mutex",

@@ -5,7 +5,7 @@
 use crate::Application;
 use starl_core::Duration;
 use starl_core::motion::Obstacles;
-use starl_explore::{Bounds, Member, Model, Setup};
+use starl_explore::{Bounds, Clocks, Member, Model, Setup};
 use starl_properties::Setting;
 use starl_sim::engine::StartError;
 use starl_sim::scenario::{self, Goal, Scenario};
@@ -59,7 +59,9 @@ impl Application {
                     true => Default::default(),
                     false => self.programs.detectors(),
                 },
-                all_finish: scenario.goal == Goal::AllFinished,
+                // Without time, a robot that waits for time does not finish.
+                all_finish: scenario.goal == Goal::AllFinished
+                    && (bounds.clocks != Clocks::Still || !self.programs.wait_for_time()),
             },
             bounds,
             checkers: starl_properties::checkers(&setting),

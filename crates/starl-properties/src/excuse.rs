@@ -35,6 +35,8 @@ pub enum Excuse {
     Push,
     /// An obstacle appeared or moved to where a robot was.
     Obstacle,
+    /// The assumption of the property did not hold.
+    Assumption,
 }
 
 impl Excuse {
@@ -53,6 +55,7 @@ impl Excuse {
             Excuse::Fall => "a robot that had crashed fell",
             Excuse::Push => "a robot was pushed",
             Excuse::Obstacle => "an obstacle appeared on a robot",
+            Excuse::Assumption => "what it assumes was not so",
         }
     }
 }

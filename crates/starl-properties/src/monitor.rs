@@ -1,7 +1,7 @@
 //! Properties that are judged on the running programs themselves: what records do not show, such as a program's
 //! variables.
 
-use super::Violation;
+use super::{Excuse, Violation};
 use starl_core::event::Name;
 use starl_core::motion::Obstacles;
 use starl_core::{Duration, Point, Pose, RobotId, Time, WayPoint};
@@ -20,6 +20,12 @@ pub trait Monitor: dyn_clone::DynClone + Send + Sync {
     /// Whether it is still open if the property with this place among [`Monitor::properties`] holds:
     /// it demands something by a time that has not come.
     fn is_open(&self, property: usize) -> bool;
+
+    /// How often something was excused that speaks against the property with this place, by reason.
+    fn excused(&self, property: usize) -> Vec<(Excuse, u64)> {
+        let _ = property;
+        Vec::new()
+    }
 }
 
 dyn_clone::clone_trait_object!(Monitor);

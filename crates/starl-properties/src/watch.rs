@@ -108,7 +108,14 @@ impl Watch {
             let named = counts.into_iter();
             named.map(move |(excuse, count)| (Name::from(property), excuse, count))
         });
-        counts.collect()
+        let monitored = self.monitors.iter().flat_map(|monitor| {
+            let properties = monitor.properties().into_iter().enumerate();
+            properties.flat_map(|(index, property)| {
+                let counts = monitor.excused(index).into_iter();
+                counts.map(move |(excuse, count)| (property.clone(), excuse, count))
+            })
+        });
+        counts.chain(monitored).collect()
     }
 
     /// The verdicts of checkers and monitors on each property.
@@ -134,6 +141,7 @@ impl Watch {
                 Verdict {
                     open: monitor.is_open(index) && verdict.first.is_none(),
                     used: true,
+                    excused: monitor.excused(index),
                     ..verdict
                 }
             })

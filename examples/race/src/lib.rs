@@ -9,24 +9,23 @@
 //! - `wait` there broadcasts the index after counting it up, and `receivedMessage` counts up once more,
 //!   so a told robot would skip a point. Here the message says which waypoint was reached;
 //! - there any message sets the index, so one that comes late sends the robot back. Here only a
-//!   message about the present waypoint or a later one does something, once the robot knows the
-//!   waypoints;
+//!   message about the present waypoint or a later one does something;
 //! - the guard of `pick` there also holds once ReachAvoid is done, so the robot would set out for the
-//!   same point again instead of telling the others. Here it holds unless the last command is under
-//!   way to the point or done: a robot that failed, gave up or was sent elsewhere by a fault tries again;
-//! - `recover` is added, for faults that overwrite the state;
+//!   same point again instead of telling the others. Here it holds unless the robot is on its way or
+//!   has arrived: a robot that gave up tries again;
+//! - `check` is added, for faults that overwrite the state. The platform makes checks for programs in the
+//!   StarL language; a program in Rust makes its own;
 //! - `finish` is added: the listing does not say when the application is over.
 
 #![no_std]
 
+use core::any::Any;
 use starl_core::{Message, Primitive, Primitives, Program, Random, Robot, WayPoint};
 use starl_primitives::{Broadcast, ReachAvoid, reach_avoid, reliable};
 
 /// The state of the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
-    /// Start.
-    Init,
     /// Set out for the current waypoint.
     Pick,
     /// Wait until it is there.
@@ -62,7 +61,7 @@ impl Race {
     /// A robot that has not started.
     pub fn new(options: Options) -> Race {
         Race {
-            location: Location::Init,
+            location: Location::Pick,
             current_index: 0,
             reach_avoid: ReachAvoid::new("race/reach_avoid", options.reach_avoid),
             broadcast: Broadcast::new("race/broadcast", options.broadcast),
@@ -79,20 +78,18 @@ impl Race {
         self.current_index
     }
 
-    /// A fault has overwritten the index with an impossible value: the program restarts.
-    fn recover(&mut self, robot: &mut Robot<'_>) {
-        let is_beyond = self.current_index as usize > robot.way_points().len();
-        if self.location != Location::Init && is_beyond {
-            robot.action("recover");
-            self.location = Location::Init;
-        }
-    }
-
-    fn initialize(&mut self, robot: &mut Robot<'_>) {
-        if self.location == Location::Init {
-            robot.action("initialize");
+    /// Starts again if a fault has overwritten the state: the index is impossible, or the robot goes to another
+    /// waypoint than that of the index.
+    fn check(&mut self, robot: &mut Robot<'_>) {
+        let is_there = self.current_index as usize <= robot.way_points().len();
+        let goes_there = self.location == Location::Pick
+            || !self.reach_avoid.active()
+            || self.reach_avoid.target() == self.target(robot).map(|point| point.position);
+        if !(is_there && goes_there) {
+            self.reach_avoid.stop(robot);
             self.current_index = 0;
             self.location = Location::Pick;
+            robot.emit("reset", []);
         }
     }
 
@@ -100,9 +97,8 @@ impl Race {
         let Some(target) = self.target(robot) else {
             return;
         };
-        let waits = self.location == Location::Wait && !self.reach_avoid.done();
-        let goes_there = self.reach_avoid.target() == Some(target.position);
-        if self.location == Location::Pick || waits && !goes_there {
+        let gave_up = !self.reach_avoid.active() && !self.reach_avoid.done();
+        if self.location == Location::Pick || gave_up {
             robot.action("pick");
             self.reach_avoid
                 .reach_avoid(robot, target.position, robot.obstacles());
@@ -111,22 +107,16 @@ impl Race {
     }
 
     fn wait(&mut self, robot: &mut Robot<'_>) {
-        if self.target(robot).is_none() {
-            return;
-        }
         if self.location == Location::Wait && self.reach_avoid.done() {
             robot.action("wait");
-            let reached = self.current_index;
-            robot.emit("arrived", [("index", reached.into())]);
-            self.broadcast.broadcast(robot, &reached);
-            self.current_index = reached + 1;
+            self.broadcast.broadcast(robot, &self.current_index);
+            self.current_index += 1;
             self.location = Location::Pick;
         }
     }
 
     fn finish(&mut self, robot: &mut Robot<'_>) {
-        let on_the_way = self.reach_avoid.active() || self.reach_avoid.done();
-        if self.target(robot).is_none() && (self.location == Location::Pick || on_the_way) {
+        if self.location == Location::Pick && self.target(robot).is_none() {
             robot.action("finish");
             self.reach_avoid.stop(robot);
             self.location = Location::Wait;
@@ -142,37 +132,33 @@ impl Race {
 
 impl Program for Race {
     fn activate(&mut self, robot: &mut Robot<'_>) {
-        self.recover(robot);
-        self.initialize(robot);
+        self.check(robot);
         self.pick(robot);
         self.wait(robot);
         self.finish(robot);
     }
 
     fn receive(&mut self, robot: &mut Robot<'_>, message: &Message) {
+        self.check(robot);
         if message.port != self.broadcast.port() {
             return;
         }
         let Some(reached) = message.read::<u32>() else {
             return;
         };
-        let exists = (reached as usize) < robot.way_points().len();
-        let knows = self.location != Location::Init;
-        if knows && exists && reached >= self.current_index {
-            robot.emit(
-                "told",
-                [("index", reached.into()), ("from", message.from.into())],
-            );
-            self.current_index = reached + 1;
-            if self.location == Location::Wait {
-                self.location = Location::Pick;
-            }
+        if reached >= self.current_index {
+            self.current_index = reached.saturating_add(1);
+            self.location = Location::Pick;
         }
     }
 
+    fn inspect(&self) -> Option<&dyn Any> {
+        Some(self)
+    }
+
     fn corrupt(&mut self, random: &mut Random) {
-        let locations = [Location::Init, Location::Pick, Location::Wait];
-        self.location = locations[random.below(3) as usize];
+        let locations = [Location::Pick, Location::Wait];
+        self.location = locations[random.below(2) as usize];
         self.current_index = random.bits() >> random.below(32);
     }
 }

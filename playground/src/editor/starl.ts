@@ -3,12 +3,12 @@
 import { indentService, StreamLanguage, type StringStream } from "@codemirror/language";
 
 const DECLARATIONS = new Set(
-  "program library import enum record message function param const allread allwrite stable role init atomic on invariant always eventually".split(
+  "program library import enum record message function param const allread allwrite stable role init atomic on check invariant always eventually".split(
     " ",
   ),
 );
-const CONTROL = new Set("if then elif else for in return let pre eff".split(" "));
-const OPERATORS = new Set("and or not some forall exists leads_to within".split(" "));
+const CONTROL = new Set("if then elif else for in return let pre every eff".split(" "));
+const OPERATORS = new Set("and or not some forall exists leads_to within recovers assuming despite crashes".split(" "));
 const ATOMS = new Set(["true", "false", "none"]);
 const TYPES = new Set(
   "Bool Int Float String Point Time Duration RobotId Area Obstacles List Set Map".split(" "),

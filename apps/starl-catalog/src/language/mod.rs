@@ -134,6 +134,13 @@ impl Programs {
         codes.filter_map(Code::detector).collect()
     }
 
+    /// Whether an action of some program waits for time to pass.
+    pub fn wait_for_time(&self) -> bool {
+        self.0
+            .values()
+            .any(|compiled| compiled.code.waits_for_time())
+    }
+
     /// Each program with the name that its properties begin with, and the robots that run it.
     fn named(&self, fleet: &Fleet) -> impl Iterator<Item = (&str, &Code, Vec<RobotId>)> {
         self.0.iter().map(|(path, compiled)| {

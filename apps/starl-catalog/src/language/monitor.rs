@@ -2,20 +2,25 @@
 
 use starl_core::event::Name;
 use starl_core::motion::Obstacles;
-use starl_core::{Duration, Point, Pose, RobotId, WayPoint};
+use starl_core::{Duration, Point, Pose, RobotId, Time, WayPoint};
 use starl_lang::machine::State;
-use starl_lang::robot::properties::{Fleet, Judge, Standing};
+use starl_lang::robot::properties::{Excuse, Fleet, Judge, Standing};
 use starl_lang::robot::{Code, RobotProgram};
 use starl_properties::{Monitor, Violation, Witness};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Watches the properties of one program on the robots that run it.
 #[derive(Clone)]
 pub struct ProgramMonitor {
     judge: Judge,
-    /// The properties, as `Race.in_order`.
+    /// The properties, as `Race.in_order`; the last one is that of the checks, if there are any.
     names: Arc<[Name]>,
     robots: Arc<[RobotId]>,
+    /// The robots of which a check was false although no fault had overwritten variables.
+    unsound: BTreeSet<RobotId>,
+    /// The fleet and its waypoints at the start. Where an operator changes them checks may be false.
+    first: Option<(Arc<[RobotId]>, Arc<[WayPoint]>)>,
 }
 
 impl ProgramMonitor {
@@ -24,14 +29,51 @@ impl ProgramMonitor {
     pub fn new(qualifier: &str, code: &Code, robots: Vec<RobotId>) -> Option<ProgramMonitor> {
         let judge = Judge::new(code);
         let properties = judge.properties().iter();
-        let names: Vec<Name> = properties
+        let mut names: Vec<Name> = properties
             .map(|property| format!("{qualifier}.{}", property.name).into())
             .collect();
+        if code.has_checks() {
+            names.push(format!("{qualifier}.checks").into());
+        }
         (!names.is_empty()).then(|| ProgramMonitor {
             names: names.into(),
             robots: robots.into(),
             judge,
+            unsound: BTreeSet::new(),
+            first: None,
         })
+    }
+
+    /// As long as no fault has overwritten variables, no check is false.
+    fn judge_checks(&mut self, members: &Members<'_>, violations: &mut Vec<Violation>) {
+        let now = members.witness.now();
+        let has_checks = self.names.len() > self.judge.properties().len();
+        let is_corrupted = members.witness.uncorrupted() < now.since(Time::ZERO);
+        let Some(property) = self.names.last().filter(|_| has_checks && !is_corrupted) else {
+            return;
+        };
+        let witness = members.witness;
+        let (robots, way_points) = self
+            .first
+            .get_or_insert_with(|| (witness.robots().into(), witness.way_points().into()));
+        for robot in self.robots.iter().copied() {
+            let program = members.program(robot);
+            if program.is_some_and(|program| program.resets() > 0)
+                && **robots == *witness.robots()
+                && **way_points == *witness.way_points()
+                && self.unsound.insert(robot)
+            {
+                violations.push(Violation {
+                    property: property.clone(),
+                    at: now,
+                    robots: Vec::from([robot]),
+                    text: format!(
+                        "robot {robot}: a check was false although no fault had overwritten variables; \
+                         the event `reset` tells which"
+                    ),
+                });
+            }
+        }
     }
 }
 
@@ -56,10 +98,27 @@ impl Monitor for ProgramMonitor {
                 text,
             });
         }
+        let robots = Arc::clone(&self.robots);
+        let members = Members {
+            witness,
+            robots: &robots,
+        };
+        self.judge_checks(&members, violations);
     }
 
     fn is_open(&self, property: usize) -> bool {
         self.judge.standing(property) == Standing::Open
+    }
+
+    fn excused(&self, property: usize) -> Vec<(starl_properties::Excuse, u64)> {
+        let excused = self.judge.excused(property);
+        let named = |(excuse, count)| match excuse {
+            Excuse::Down => (starl_properties::Excuse::Down, count),
+            Excuse::Corruption => (starl_properties::Excuse::Corruption, count),
+            Excuse::Recovery => (starl_properties::Excuse::Recovery, count),
+            Excuse::Assumption => (starl_properties::Excuse::Assumption, count),
+        };
+        excused.map(named).collect()
     }
 }
 
@@ -103,6 +162,10 @@ impl Fleet for Members<'_> {
 
     fn is_up(&self, robot: RobotId) -> bool {
         self.witness.is_up(robot)
+    }
+
+    fn target(&self, robot: RobotId) -> Option<Point> {
+        self.program(robot).and_then(RobotProgram::target)
     }
 
     fn undisturbed(&self) -> Duration {

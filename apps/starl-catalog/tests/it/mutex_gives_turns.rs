@@ -151,7 +151,7 @@ fn leases_go_on_though_a_minority_stays_dead() {
     let sets = [
         "parameters.algorithm=lease",
         "parameters.entries=60",
-        "parameters.longest_use=30",
+        "parameters.longest_use=1500ms",
     ];
     (0..40).into_par_iter().for_each(|seed| {
         let (first, second) = (3000 + 37 * seed, 5000 + 53 * seed);

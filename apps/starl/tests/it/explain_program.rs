@@ -28,7 +28,7 @@ fn examples_are_drawn_by_their_names() {
     let folder = folder("explain_examples");
     for (example, step) in [
         ("race", "    pick --> wait: pick\n"),
-        ("formation", "    calc --> wait: update\n"),
+        ("search", "    rest --> search: enter\n"),
     ] {
         let output = starl(&folder, &["explain", example]);
         assert!(stdout(&output).contains(step), "{}", stdout(&output));

@@ -76,7 +76,7 @@ fn an_example_is_explored_to_the_end() {
         "--set",
         "parameters.entries=1",
         "--set",
-        "parameters.longest_use=1",
+        "parameters.longest_use=0s",
         "--timers",
         "1",
         "--loss",

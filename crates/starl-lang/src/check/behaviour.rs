@@ -49,8 +49,15 @@ impl Checker {
             let problem = problem.label(first.site.span, "the first one");
             self.report(problem);
         }
-        let ((guard, bindings, effect, atomic), locals) = self.in_body(Where::Guard, |checker| {
+        let (parts, locals) = self.in_body(Where::Guard, |checker| {
             checker.body.is_action = true;
+            // They are asked before the guard has found anything.
+            let time = |checker: &mut Self, node: Option<ast::Expression>, what| {
+                node.map(|node| checker.expect(Some(node), &Type::Duration, what))
+            };
+            let hold = node.pre().and_then(|pre| pre.hold());
+            let hold = time(checker, hold, "how long the guard has to hold");
+            let every = time(checker, node.every(), "the time between two firings");
             let guard = match node.pre() {
                 Some(pre) => checker.expect(pre.condition(), &Type::Bool, "the guard"),
                 None => Expression {
@@ -63,8 +70,10 @@ impl Checker {
             checker.body.place = Where::Effect;
             let effect = checker.block(node.eff().and_then(|eff| eff.body()));
             checker.check_touched();
-            (guard, bindings, effect, checker.linearizable())
+            let atomic = checker.linearizable();
+            (guard, bindings, effect, atomic, hold, every)
         });
+        let (guard, bindings, effect, atomic, hold, every) = parts;
         let guard = match self.in_role(role, name.span) {
             Some(in_role) => Expression {
                 span: guard.span,
@@ -84,10 +93,27 @@ impl Checker {
             locals,
             guard,
             bindings,
+            hold,
+            every,
             effect,
             atomic,
             site,
             documentation: Item::Action(node.clone()).documentation().to_string(),
+        });
+    }
+
+    /// `check condition`.
+    pub fn check_check(&mut self, node: &ast::CheckDeclaration) {
+        let (condition, locals) = self.in_body(Where::Guard, |checker| {
+            let condition = checker.expect(node.condition(), &Type::Bool, "the check");
+            checker.check_touched();
+            condition
+        });
+        let site = self.site(condition.span);
+        self.program.checks.push(Check {
+            locals,
+            condition,
+            site,
         });
     }
 

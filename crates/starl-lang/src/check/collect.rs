@@ -50,6 +50,7 @@ impl Checker {
             Item::Handler(_) => "handlers",
             Item::Role(_) => "roles",
             Item::Property(_) => "properties",
+            Item::Check(_) => "checks",
             _ => return true,
         };
         let message = format!("a library has no {what}");
@@ -189,6 +190,7 @@ impl Checker {
                 self.nodes.behaviour.push(Behaviour::Action(role, node));
             }
             Item::Handler(node) => self.nodes.behaviour.push(Behaviour::Handler(role, node)),
+            Item::Check(node) => self.nodes.behaviour.push(Behaviour::Check(node)),
             Item::Property(node) => self.nodes.behaviour.push(Behaviour::Property(node)),
             Item::Role(node) => {
                 // A second role of a name counts as the first.

@@ -129,7 +129,9 @@ impl Checker {
     fn is_goal(&self, variable: VariableId, value: u16) -> bool {
         let mut properties = self.program.properties.iter();
         properties.any(|property| match &property.claim {
-            Claim::Eventually { holds, .. } => names_state(holds, variable, value),
+            Claim::Eventually { holds, .. } | Claim::EventuallyAlways { holds, .. } => {
+                names_state(holds, variable, value)
+            }
             Claim::LeadsTo { consequence, .. } => names_state(consequence, variable, value),
             Claim::Always(_) => false,
         })

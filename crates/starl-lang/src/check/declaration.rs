@@ -1,5 +1,6 @@
 //! Declarations: their values, bodies and effects.
 
+use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -50,6 +51,7 @@ impl Checker {
                 Behaviour::Init(role, node) => self.check_init(*role, node),
                 Behaviour::Action(role, node) => self.check_action(*role, node),
                 Behaviour::Handler(role, node) => self.check_handler(*role, node),
+                Behaviour::Check(node) => self.check_check(node),
                 Behaviour::Property(node) => self.check_property(node),
             }
         }
@@ -169,11 +171,11 @@ impl Checker {
         }
     }
 
-    /// The bounds of a parameter of this type.
+    /// The bounds of a parameter or a variable of this type.
     fn check_range(&mut self, node: &ast::ParameterRange, ty: &Type) -> Option<[Expression; 2]> {
         if !matches!(ty, Type::Int | Type::Float | Type::Duration | Type::Error) {
             let name = self.name_of(ty);
-            let message = format!("a parameter of the type {name} has no range");
+            let message = format!("a value of the type {name} has no range");
             let problem = Diagnostic::new(Code::InvalidRange, node.span(), message);
             self.report(problem.note("an Int, a Float or a Duration has"));
             return None;
@@ -218,7 +220,51 @@ impl Checker {
             let variable = &mut self.program[id];
             variable.initial = initial;
             variable.locals = locals;
+            if let Some(range) = node.range() {
+                self.check_variable_range(id, &range, &ty);
+            }
         }
+    }
+
+    /// A variable's range is a check.
+    fn check_variable_range(&mut self, id: VariableId, node: &ast::ParameterRange, ty: &Type) {
+        if self.program[id].role.is_some() {
+            let message = "a variable of a role has no range";
+            let problem = Diagnostic::new(Code::InvalidRange, node.span(), message);
+            self.report(problem.note("declare it outside of the role"));
+            return;
+        }
+        let (range, locals) = self.in_body(Where::Guard, |checker| checker.check_range(node, ty));
+        let Some([from, before]) = range else { return };
+        let span = node.span();
+        let compared = |operator, with: Expression| Expression {
+            kind: ExpressionKind::Binary {
+                operator,
+                left: Box::new(Expression {
+                    kind: ExpressionKind::Variable(id),
+                    ty: ty.clone(),
+                    span,
+                }),
+                right: Box::new(with),
+            },
+            ty: Type::Bool,
+            span,
+        };
+        let condition = Expression {
+            kind: ExpressionKind::Binary {
+                operator: Operator::And,
+                left: Box::new(compared(Operator::GreaterEqual, from)),
+                right: Box::new(compared(Operator::Less, before)),
+            },
+            ty: Type::Bool,
+            span,
+        };
+        let site = self.site(span);
+        self.program.checks.push(Check {
+            locals,
+            condition,
+            site,
+        });
     }
 
     fn check_shared(&mut self) {

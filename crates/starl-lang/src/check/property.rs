@@ -30,30 +30,44 @@ impl Checker {
         }
         let about_robot = !(mentions_robots(node.condition().as_ref())
             || mentions_robots(node.consequence().as_ref()));
-        let ((claim, robots), locals) = self.in_body(Where::Property, |checker| {
-            let mut robots = Vec::new();
-            if about_robot {
-                let robot = checker
-                    .body
-                    .add("this robot".into(), Type::Robot, word, None);
-                checker.body.names.clear();
-                checker.body.robot = Some(robot);
-                robots.push(robot);
-            }
-            let condition = checker.expect(node.condition(), &Type::Bool, "the property");
-            let consequence = node
-                .consequence()
-                .map(|then| checker.expect(Some(then), &Type::Bool, "what it leads to"));
-            (
-                checker.claim(node, condition, consequence, &mut robots),
-                robots,
-            )
-        });
+        let ((claim, robots, assumption, recovery), locals) =
+            self.in_body(Where::Property, |checker| {
+                let mut robots = Vec::new();
+                if about_robot {
+                    let robot = checker
+                        .body
+                        .add("this robot".into(), Type::Robot, word, None);
+                    checker.body.names.clear();
+                    checker.body.robot = Some(robot);
+                    robots.push(robot);
+                }
+                let condition = checker.expect(node.condition(), &Type::Bool, "the property");
+                let consequence = node
+                    .consequence()
+                    .map(|then| checker.expect(Some(then), &Type::Bool, "what it leads to"));
+                let claim = checker.claim(node, condition, consequence, &mut robots);
+                let recovery = node
+                    .recovery()
+                    .map(|time| checker.expect(Some(time), &Type::Duration, "the time to recover"));
+                let assumption = node.assumption().map(|assumption| {
+                    checker.body.place = Where::Property;
+                    let locals = &checker.body.locals;
+                    let names = robots
+                        .iter()
+                        .map(|robot| (locals[robot.index()].name.clone(), *robot));
+                    checker.body.names = names.collect();
+                    checker.expect(Some(assumption), &Type::Bool, "the assumption")
+                });
+                (claim, robots, assumption, recovery)
+            });
         self.program.properties.push(Property {
             name: name.map(|name| name.text),
             robots,
             locals,
             claim,
+            assumption,
+            recovery,
+            is_despite_crashes: node.is_despite_crashes(),
             site,
             documentation: Item::Property(node.clone()).documentation(),
         });
@@ -83,9 +97,15 @@ impl Checker {
                     let note = "`eventually` says that something happens once; `always a leads_to b`, that it does each time";
                     self.report(problem.note(note));
                 }
-                Claim::Eventually {
-                    holds: condition,
-                    within,
+                match node.is_eventually_always() {
+                    true => Claim::EventuallyAlways {
+                        holds: of_each_robot(condition, robots),
+                        within,
+                    },
+                    false => Claim::Eventually {
+                        holds: condition,
+                        within,
+                    },
                 }
             }
             (false, None) => {
@@ -94,7 +114,7 @@ impl Checker {
                     let problem = Diagnostic::new(Code::InvalidProperty, within.span, message);
                     let word = node.word();
                     let note = format!(
-                        "`eventually ... within` or `always ... leads_to ... within` has; `{word}` alone has not"
+                        "`eventually`, `eventually always` and `always ... leads_to` have one; `{word}` alone has not"
                     );
                     self.report(problem.note(note));
                 }

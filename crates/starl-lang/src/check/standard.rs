@@ -12,6 +12,7 @@ pub const STANDARD: &[(&str, &str)] = &[
     ("fleet", include_str!("../../library/fleet.starl")),
     ("geometry", include_str!("../../library/geometry.starl")),
     ("lists", include_str!("../../library/lists.starl")),
+    ("tasks", include_str!("../../library/tasks.starl")),
 ];
 
 /// The libraries of [`STANDARD`] alone.

@@ -52,6 +52,7 @@ pub(super) enum Behaviour {
     Init(Option<u16>, ast::InitDeclaration),
     Action(Option<u16>, ast::ActionDeclaration),
     Handler(Option<u16>, ast::HandlerDeclaration),
+    Check(ast::CheckDeclaration),
     Property(ast::PropertyDeclaration),
 }
 

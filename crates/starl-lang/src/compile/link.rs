@@ -85,7 +85,31 @@ fn behaviour<'p>(unit: &mut Unit<'p>, bytecode: &mut Bytecode) {
     }
     let start = unit.start();
     bytecode.start = Some(unit.add(start));
+    if !program.checks.is_empty() {
+        let reset = unit.reset();
+        let effect = unit.add(reset);
+        for check in &program.checks {
+            let guard = unit.check(check);
+            let guard = unit.add(guard);
+            bytecode.actions.push(Action {
+                name: "reset".into(),
+                guard,
+                effect,
+                atomic: Vec::new(),
+                is_check: true,
+                hold: None,
+                every: None,
+            });
+        }
+    }
     for action in &program.actions {
+        let mut time = |time: &'p Option<ir::Expression>, word| {
+            let time = time.as_ref()?;
+            let function = unit.time(action, time, word);
+            Some(unit.add(function))
+        };
+        let hold = time(&action.hold, "hold");
+        let every = time(&action.every, "every");
         let guard = unit.guard(action);
         let guard = unit.add(guard);
         let effect = unit.effect(action);
@@ -95,6 +119,9 @@ fn behaviour<'p>(unit: &mut Unit<'p>, bytecode: &mut Bytecode) {
             guard,
             effect,
             atomic: instances(program, &action.atomic),
+            is_check: false,
+            hold,
+            every,
         });
     }
     for handler in &program.handlers {

@@ -131,6 +131,7 @@ impl Outline<'_> {
             Item::Action(node) => {
                 named(OutlineKind::Action, node.name(), String::new(), Vec::new())
             }
+            Item::Check(_) => None,
             Item::Init(_) => Some(self.unnamed(OutlineKind::Action, "init".into(), span)),
             Item::Handler(node) => self.handler(&node, span),
             Item::Role(node) => {

@@ -91,6 +91,11 @@ pub(super) const DECLARATIONS: &[Word] = &[
         "Actions and handlers of the robots that have this role.",
     ),
     word(
+        "check",
+        "check condition",
+        "A condition that the variables always satisfy; where a fault has overwritten them and it is false, the program starts again.",
+    ),
+    word(
         "invariant",
         "invariant name: condition",
         "A condition that holds at all times; each run checks it.",
@@ -103,7 +108,7 @@ pub(super) const DECLARATIONS: &[Word] = &[
     word(
         "eventually",
         "eventually name: condition within 120s",
-        "A condition that comes true, at the latest after this time.",
+        "A condition that comes true, at the latest after this time; with `eventually always` it stays true.",
     ),
 ];
 
@@ -117,7 +122,16 @@ pub(super) const HANDLERS: &[Word] = &[word(
 
 /// Words that begin a part of an action.
 pub(super) const CLAUSES: &[Word] = &[
-    word("pre", "pre condition", "When the action may fire."),
+    word(
+        "pre",
+        "pre condition for 2s",
+        "When the action may fire; with `for`, when the condition has held for so long.",
+    ),
+    word(
+        "every",
+        "every 500ms",
+        "The least time from one firing of the action to the next.",
+    ),
     word("eff", "eff statements", "What the action does."),
 ];
 
@@ -197,7 +211,26 @@ pub(super) const QUANTIFIERS: &[Word] = &[
         "exists r: condition",
         "Holds if the condition does for some robot.",
     ),
-    word("within", "within 120s", "How long it may take."),
+    word(
+        "within",
+        "within 120s",
+        "How long it may take, counted from the last fault too.",
+    ),
+    word(
+        "recovers",
+        "recovers within 20s",
+        "How long it may be false after a fault has overwritten variables.",
+    ),
+    word(
+        "assuming",
+        "assuming condition",
+        "The property is judged only while this holds.",
+    ),
+    word(
+        "despite",
+        "despite crashes",
+        "Robots that are down count too.",
+    ),
     word(
         "leads_to",
         "cause leads_to consequence",

@@ -218,6 +218,10 @@ pub struct Action {
     pub guard: Expression,
     /// The locals that the guard sets, if it holds, and the effect reads.
     pub bindings: Vec<LocalId>,
+    /// For how long the guard has to have held, a Duration; none if the action fires at once.
+    pub hold: Option<Expression>,
+    /// The least time from one firing to the next, a Duration.
+    pub every: Option<Expression>,
     /// What it does.
     pub effect: Vec<Statement>,
     /// The linearizable variables that it uses, in ascending order: with any, it waits until no other robot
@@ -227,6 +231,18 @@ pub struct Action {
     pub site: Site,
     /// What the comments above it say.
     pub documentation: String,
+}
+
+/// A condition that the program's variables always satisfy, as long as no fault has overwritten them. Where it is false the
+/// program starts again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Check {
+    /// The local variables.
+    pub locals: Vec<Local>,
+    /// A Bool without side effects.
+    pub condition: Expression,
+    /// Where it is declared: the check, or the variable that has a range.
+    pub site: Site,
 }
 
 /// What is done when a message arrives, a primitive reports something, or an operator gives an order.
@@ -284,6 +300,12 @@ pub struct Property {
     pub locals: Vec<Local>,
     /// What is claimed.
     pub claim: Claim,
+    /// What has to hold for it to be judged, a Bool.
+    pub assumption: Option<Expression>,
+    /// How long it may be false after a fault has overwritten variables: a constant Duration.
+    pub recovery: Option<Expression>,
+    /// Whether robots that are down count too.
+    pub is_despite_crashes: bool,
     /// Where it is declared.
     pub site: Site,
     /// What the comments above it say.
@@ -299,7 +321,14 @@ pub enum Claim {
     Eventually {
         /// What.
         holds: Expression,
-        /// When at the latest, since the start: a constant Duration.
+        /// When at the latest, since the start and since the last fault: a constant Duration.
+        within: Option<Expression>,
+    },
+    /// It is true from some time on.
+    EventuallyAlways {
+        /// What.
+        holds: Expression,
+        /// From when on at the latest, since the start and since the last fault: a constant Duration.
         within: Option<Expression>,
     },
     /// Whenever the cause is true, the consequence is true at some time from then on.

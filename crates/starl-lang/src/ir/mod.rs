@@ -70,6 +70,8 @@ pub struct Program {
     pub roles: Option<Roles>,
     /// Actions, in the order of the text, those of roles among them.
     pub actions: Vec<Action>,
+    /// What the variables always satisfy, in the order of the text; ranges of variables come first.
+    pub checks: Vec<Check>,
     /// Handlers, in the order of the text, those of roles among them.
     pub handlers: Vec<Handler>,
     /// Properties, in the order of the text.

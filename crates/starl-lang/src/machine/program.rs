@@ -207,6 +207,20 @@ pub struct Action {
     pub effect: u32,
     /// The primitives that it must have for itself while it runs: linearizable variables.
     pub atomic: Vec<u32>,
+    /// Whether it is a check: its guard holds where the program's variables are not as they always are, and its
+    /// effect starts the program again. Checks come before all other actions.
+    pub is_check: bool,
+    /// For how long its guard has to have held: a function like a guard whose results are a Bool and a Duration.
+    pub hold: Option<u32>,
+    /// The least time from one firing to the next, in the same way.
+    pub every: Option<u32>,
+}
+
+impl Action {
+    /// Whether it waits for a time.
+    pub fn is_timed(&self) -> bool {
+        self.hold.is_some() || self.every.is_some()
+    }
 }
 
 /// What is done about an event. Arguments of its procedure: for a message the sender, a robot, then
@@ -251,6 +265,19 @@ pub struct Property {
     pub claim: Claim,
     /// For each robot (1), each pair of robots (2) and so on; 0 for a claim about the whole fleet.
     pub robots: u8,
+    /// What has to hold for it to be judged: a function as those of the claim.
+    pub assumption: Option<u32>,
+    /// Nanoseconds for which it may be false after a fault has overwritten variables; none for the usual.
+    pub recovery: Option<u64>,
+    /// Whether robots that are down count too.
+    pub is_despite_crashes: bool,
+}
+
+impl Property {
+    /// Whether it may be that nothing is claimed although nothing has changed, but for time.
+    pub(crate) fn is_timed(&self) -> bool {
+        self.assumption.is_some() || matches!(self.claim, Claim::EventuallyAlways { .. })
+    }
 }
 
 /// What a property claims; numbers are functions of kind property.
@@ -261,6 +288,13 @@ pub enum Claim {
     Always(u32),
     /// It holds at some time, this many nanoseconds after the start at the latest.
     Eventually {
+        /// What.
+        holds: u32,
+        /// Nanoseconds; none for without limit.
+        within: Option<u64>,
+    },
+    /// It holds from some time on, this many nanoseconds after the start and after each fault at the latest.
+    EventuallyAlways {
         /// What.
         holds: u32,
         /// Nanoseconds; none for without limit.

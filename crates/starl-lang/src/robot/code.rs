@@ -11,7 +11,7 @@ use super::services::Services;
 use super::shape::Declared;
 use super::stable::Stable;
 use super::stage::Stage;
-use crate::machine::{Bytecode, Import, LoadError, Origin, Program, RuntimeError, State};
+use crate::machine::{Action, Bytecode, Import, LoadError, Origin, Program, RuntimeError, State};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::sync::Arc;
@@ -133,6 +133,37 @@ impl Code {
     /// Whether all guards follow from the program's variables and its primitives.
     pub(super) fn is_steady(&self) -> bool {
         self.0.is_steady
+    }
+
+    /// Whether the program has checks, those of its variables' ranges among them.
+    pub fn has_checks(&self) -> bool {
+        self.checks() > 0
+    }
+
+    /// Whether some action waits for time to pass.
+    pub fn waits_for_time(&self) -> bool {
+        let actions = &self.program().bytecode().actions;
+        actions.iter().any(Action::is_timed)
+    }
+
+    /// How many of the actions, the first ones, are checks.
+    pub(super) fn checks(&self) -> u32 {
+        let actions = &self.program().bytecode().actions;
+        actions.partition_point(|action| action.is_check) as u32
+    }
+
+    /// Whether an action waits for a time.
+    pub(super) fn is_timed(&self) -> bool {
+        let mut actions = self.program().bytecode().actions.iter();
+        actions.any(Action::is_timed)
+    }
+
+    /// Where a check is written, e.g. `race.starl:12:7`.
+    pub(super) fn place_of_check(&self, action: u32) -> Option<String> {
+        let bytecode = self.program().bytecode();
+        let action = bytecode.actions.get(action as usize)?;
+        let guard = bytecode.functions.get(action.guard as usize)?;
+        self.program().source(guard.entry)
     }
 
     /// What the program's primitives have in common, not started.

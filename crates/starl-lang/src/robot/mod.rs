@@ -20,6 +20,7 @@ mod inspection;
 mod joint;
 mod messages;
 mod orders;
+mod pace;
 mod parameter;
 mod primitives;
 mod program;

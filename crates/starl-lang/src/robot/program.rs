@@ -6,6 +6,7 @@ use super::code::{Code, Instance};
 use super::corruption;
 use super::host::{Context, RobotHost};
 use super::messages::Arrival;
+use super::pace::Pace;
 use super::parameter::{self, ParameterError};
 use super::primitives::{Attended, Report, Slot};
 use super::rest::Disturbing;
@@ -19,8 +20,11 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::any::Any;
 use core::{fmt, mem};
+use starl_core::Value as Detail;
 use starl_core::random::hash_key;
-use starl_core::{Message, Order, Port, Primitive, Primitives, Program, Random, Robot};
+use starl_core::{
+    Message, Order, Point, Port, Primitive, Primitives, Program, Random, Robot, Time,
+};
 
 /// A StarL program on one robot.
 ///
@@ -44,6 +48,12 @@ pub struct RobotProgram {
     pub(super) phase: Phase,
     /// Whether it rests: see [`rest`](super::rest).
     rests: bool,
+    /// When each action may fire.
+    paces: Box<[Pace]>,
+    /// See [`RobotProgram::resets`].
+    resets: u32,
+    /// See [`RobotProgram::target`].
+    target: Option<Point>,
 }
 
 /// What waits for an action with `atomic`.
@@ -68,6 +78,7 @@ impl RobotProgram {
     /// A program that has not started, with these values of its parameters and the defaults of
     /// others.
     pub fn new(code: &Code, parameters: &[(&str, Value)]) -> Result<RobotProgram, ParameterError> {
+        let actions = &code.program().bytecode().actions;
         Ok(RobotProgram {
             state: parameter::state(code, parameters)?,
             bound: code.instances().iter().map(|_| None).collect(),
@@ -79,7 +90,20 @@ impl RobotProgram {
             kept: None,
             phase: Phase::New,
             rests: false,
+            paces: actions.iter().map(|_| Pace::default()).collect(),
+            resets: 0,
+            target: None,
         })
+    }
+
+    /// How often it has started again because a check was false.
+    pub fn resets(&self) -> u32 {
+        self.resets
+    }
+
+    /// Where its motion leads, or led last: a robot that cannot get to its target may have given up.
+    pub fn target(&self) -> Option<Point> {
+        self.target
     }
 
     /// Its variables.
@@ -109,6 +133,7 @@ impl RobotProgram {
             return;
         }
         let code = &self.code;
+        let (paces, now) = (&mut self.paces, robot.now());
         let held = self.services.held(code);
         let mut reports = mem::take(&mut self.reports);
         self.reports = hold_back(code.instances(), &mut reports, held);
@@ -122,13 +147,31 @@ impl RobotProgram {
             script: part.take_script(),
         };
         let is_activation = matches!(part, Part::Actions(_));
+        let is_checked = held.is_none() && !matches!(part, Part::Start | Part::Perform(..));
+
         let is_told = !reports.is_empty() || !is_activation;
         let (program, limits) = (code.program(), Limits::default());
         let mut machine = Machine::new(program, &mut self.state, workspace, &mut host, limits);
-        let result = handle_reports(code.instances(), &reports, &mut machine)
-            .and_then(|()| part.run(code, held, &mut machine));
+        let checked = match is_checked {
+            true => check(code, &mut machine),
+            false => Ok(None),
+        };
+        let failed_check = checked.as_ref().ok().copied().flatten();
+        let result = checked
+            .and_then(|_| handle_reports(code.instances(), &reports, &mut machine))
+            .and_then(|()| part.run(code, held, (paces, now), &mut machine));
         let (failure, has_fired) = (host.failure, host.has_fired);
+        if let Some(check) = failed_check {
+            self.resets += 1;
+            paces.fill(Pace::default());
+            let place = code.place_of_check(check).unwrap_or_default();
+            let fields = [("check".into(), Detail::Text(place.into()))];
+            robot.emit_fields("reset", fields.into_iter().collect());
+        }
         if has_fired || is_told {
+            let seats = self.bound.iter().flatten();
+            let mut targets = seats.filter_map(|seat| seat.bound.target());
+            self.target = targets.next().or(self.target);
             self.version += 1;
         }
         self.rests = is_activation && !has_fired && code.is_steady();
@@ -150,6 +193,17 @@ impl RobotProgram {
             atomic.release(robot, &self.code);
         }
     }
+}
+
+/// Starts the program again if a check is false; returns the first one that is.
+fn check(code: &Code, machine: &mut Machine<'_>) -> Result<Option<u32>, RuntimeError> {
+    let mut first = None;
+    for number in 0..code.checks() {
+        if machine.check(number)? {
+            first = first.or(Some(number));
+        }
+    }
+    Ok(first)
 }
 
 /// What is run at once.
@@ -181,26 +235,44 @@ impl Part<'_> {
         self,
         code: &Code,
         held: Option<&Conflicts>,
+        (paces, now): (&mut [Pace], Time),
         machine: &mut Machine<'_>,
     ) -> Result<(), RuntimeError> {
         let program = code.program();
         match self {
             Part::Start => machine.start(),
             Part::Actions(turn) => {
-                let count = program.bytecode().actions.len() as u32;
-                (0..count).try_for_each(|action| {
-                    if code.group(action).is_none() {
-                        if held.is_none_or(|held| !held.keeps_action(action)) {
-                            machine.action(action)?;
+                let actions = (0..).zip(&program.bytecode().actions).zip(paces);
+                let mut actions = actions.skip(code.checks() as usize);
+                actions.try_for_each(|((number, action), pace)| {
+                    if code.group(number).is_some() {
+                        if turn.asks(number) {
+                            turn.note(number, pace.is_due(action, number, now, machine)?);
                         }
-                    } else if turn.asks(action) {
-                        turn.note(action, machine.guard(action)?);
+                    } else if held.is_some_and(|held| held.keeps_action(number)) {
+                        // It waits.
+                    } else if !action.is_timed() {
+                        machine.action(number)?;
+                    } else if pace.is_due(action, number, now, machine)?
+                        && machine.action(number)?
+                    {
+                        pace.fire(action, now, machine)?;
                     }
                     Ok(())
                 })
             }
             Part::Nothing => Ok(()),
-            Part::Perform(action, _) => machine.action(action).map(|_| ()),
+            Part::Perform(number, _) => {
+                machine.action(number)?;
+                let actions = &program.bytecode().actions;
+                let action = actions.get(number as usize);
+                match (action, paces.get_mut(number as usize)) {
+                    (Some(action), Some(pace)) if action.is_timed() => {
+                        pace.fire(action, now, machine)
+                    }
+                    _ => Ok(()),
+                }
+            }
             Part::Message(message) => {
                 let Some(arrival) = code.inbox().decode(program, &message.payload) else {
                     return Ok(());
@@ -271,6 +343,8 @@ impl Program for RobotProgram {
         self.reports.clear();
         self.waiting.clear();
         self.rests = false;
+        self.target = None;
+        self.paces.fill(Pace::default());
         self.services = Services::start(&self.code, robot);
         self.run(robot, Part::Start);
         // After a start that failed, variables may be without their values.
@@ -335,11 +409,20 @@ impl Program for RobotProgram {
             seat.is_stirred = true;
             seat.bound.corrupt(random);
         }
+        for (pace, action) in self
+            .paces
+            .iter_mut()
+            .zip(&self.code.program().bytecode().actions)
+        {
+            if action.is_timed() {
+                pace.corrupt(random);
+            }
+        }
         self.services.corrupt(&self.code, random);
     }
 
     fn write_state(&self, text: &mut dyn fmt::Write) -> bool {
-        // The code never changes, the version is for those who watch, and to rest saves time alone.
+        // The code never changes, the version and the target are for observers, and to rest saves time alone.
         let RobotProgram {
             code: _,
             state,
@@ -351,6 +434,9 @@ impl Program for RobotProgram {
             kept,
             phase,
             rests: _,
+            paces,
+            resets: _,
+            target: _,
         } = self;
         let kept = kept.iter().flat_map(|kept| kept.digests());
         write!(
@@ -358,6 +444,10 @@ impl Program for RobotProgram {
             "{state:?}{bound:?}{services:?}{reports:?}{waiting:?}{phase:?}"
         )
         .and_then(|()| { kept }.try_for_each(|digest| write!(text, "{digest:?}")))
+        .and_then(|()| match self.code.is_timed() {
+            true => write!(text, "{paces:?}"),
+            false => Ok(()),
+        })
         .is_ok()
     }
 

@@ -7,12 +7,15 @@
 //! way-points change only with an order, which ends the rest.
 
 use super::joint::{Joint, OnRobot};
-use crate::machine::{Bytecode, Instruction};
+use crate::machine::{Action, Bytecode, Instruction};
 use alloc::vec::Vec;
 use starl_core::{Input, Port, Primitive, Robot};
 
 /// Whether all guards follow from variables and primitives alone: not from the time, or where the robot is.
 pub fn is_steady(bytecode: &Bytecode, joints: &[Joint]) -> bool {
+    if bytecode.actions.iter().any(Action::is_timed) {
+        return false;
+    }
     let guards: Vec<u32> = bytecode.actions.iter().map(|action| action.guard).collect();
     let is_steady = |instruction: &&Instruction| match instruction {
         Instruction::CallHost { import, .. } => {

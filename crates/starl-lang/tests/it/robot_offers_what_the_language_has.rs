@@ -266,6 +266,6 @@ fn nothing_else_is_offered() {
     let asked = ["all", "position", "heading", "velocity", "finished", "up"];
     known.extend(asked.map(|name| format!("robot.{name}")));
     // Nor has what the start of a program asks for stable variables.
-    known.insert("saved".into());
+    known.extend(["saved".into(), "reset".into()]);
     assert_eq!(functions().collect::<BTreeSet<_>>(), known);
 }

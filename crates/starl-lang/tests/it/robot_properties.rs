@@ -7,21 +7,21 @@ use starl_lang::robot::Code;
 use starl_lang::robot::properties::{Fleet, Judge, Reason, Standing, Violation};
 
 /// Robots whose state is what the test says.
-struct Given {
+pub struct Given {
     code: Code,
     ids: Vec<RobotId>,
     states: Vec<Option<State>>,
-    places: Vec<Point>,
+    pub places: Vec<Point>,
     finished: Vec<bool>,
-    up: Vec<bool>,
+    pub up: Vec<bool>,
     /// The versions of the robots' states, if they are told.
     versions: Option<Vec<u64>>,
-    undisturbed: Duration,
-    uncorrupted: Duration,
+    pub undisturbed: Duration,
+    pub uncorrupted: Duration,
 }
 
 impl Given {
-    fn new(source: &str, robots: usize) -> Given {
+    pub fn new(source: &str, robots: usize) -> Given {
         let code = compile(source);
         let state = robot_support::program(&code).state().clone();
         Given {
@@ -32,12 +32,12 @@ impl Given {
             finished: vec![false; robots],
             up: vec![true; robots],
             versions: None,
-            undisturbed: Duration::ZERO,
-            uncorrupted: Duration::ZERO,
+            undisturbed: Duration(u64::MAX),
+            uncorrupted: Duration(u64::MAX),
         }
     }
 
-    fn set(&mut self, robot: usize, variable: &str, value: Value) {
+    pub fn set(&mut self, robot: usize, variable: &str, value: Value) {
         let state = self.states[robot].as_mut().expect("the robot has started");
         assert!(self.code.program().set(state, variable, &value));
         if let Some(versions) = &mut self.versions {
@@ -45,7 +45,7 @@ impl Given {
         }
     }
 
-    fn judge(&self) -> Judge {
+    pub fn judge(&self) -> Judge {
         Judge::new(&self.code)
     }
 }
@@ -92,11 +92,11 @@ impl Fleet for Given {
     }
 }
 
-fn seconds(seconds: u64) -> Time {
+pub fn seconds(seconds: u64) -> Time {
     Time::ZERO + Duration::from_seconds(seconds)
 }
 
-fn rows(violations: &[Violation]) -> Vec<Vec<u32>> {
+pub fn rows(violations: &[Violation]) -> Vec<Vec<u32>> {
     let row = |violation: &Violation| violation.robots.iter().map(|robot| robot.0).collect();
     violations.iter().map(row).collect()
 }
@@ -253,11 +253,10 @@ fn what_is_to_come_is_open_until_it_comes_or_is_too_late() {
         "has not come true within 10s; robot 1 at (1.00, 0.00, 0.00): done = false"
     );
     // That of the fleet holds when it is true of all at once.
-    fleet.finished = vec![true, true];
-    fleet.up[1] = false;
+    fleet.finished = vec![true, false];
     assert_eq!(judge.observe(seconds(15), &fleet), []);
     assert_eq!(standings(&judge), [Violated, Open, Holds]);
-    fleet.up[1] = true;
+    fleet.finished = vec![true, true];
     assert_eq!(judge.observe(seconds(20), &fleet), []);
     assert_eq!(standings(&judge), [Violated, Holds, Holds]);
     fleet.up[1] = false;

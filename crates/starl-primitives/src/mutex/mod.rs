@@ -169,7 +169,8 @@ impl Mutex {
 
     /// Whether a request is under way.
     pub fn is_waiting(&self) -> bool {
-        self.wanted().is_some()
+        // A fault may have left a request for nothing, which would wait for ever.
+        self.wanted().is_some_and(|wanted| !wanted.is_empty())
     }
 
     /// Whether a request waits for a robot that is believed to have failed. The request stays, and

@@ -63,6 +63,8 @@ builtins! {
     // The run.
     Undisturbed = "undisturbed: Duration" Property "How long it is since the start and since the last fault began or was mended; zero while the network is parted, a motor is stuck or sensors are frozen."
     Uncorrupted = "uncorrupted: Duration" Property "How long it is since the start and since a fault last overwrote the state of robots at random."
+    Majority = "majority: Bool" Property "Whether more than half of the robots that run the program have been up at every moment; one that has restarted counts again after 10 s."
+    Crashed = "crashed: Int" Property "How many of the robots that run the program are down."
 
     // Input.
     WayPoints = "way_points() -> List[Point]" Query "The way-points of the scenario, in their order."

@@ -180,11 +180,18 @@ pub const PRIMITIVES: &[Primitive] = &[
     },
     Primitive {
         constructor: "FailureDetector()",
-        members: &[member(
-            "suspects: Set[RobotId]",
-            Query,
-            "The robots that are believed to have failed; it may be wrong.",
-        )],
+        members: &[
+            member(
+                "suspects: Set[RobotId]",
+                Query,
+                "The robots that are believed to have failed; it may be wrong.",
+            ),
+            member(
+                "live: Set[RobotId]",
+                Query,
+                "All other robots of the fleet, and this one.",
+            ),
+        ],
         events: &[
             Event {
                 text: "suspected(robot: RobotId)",
@@ -206,9 +213,9 @@ pub const PRIMITIVES: &[Primitive] = &[
                 "Asks for all resources at once (the thesis's do_mutex).",
             ),
             member(
-                "release(resources: Set[String])",
+                "release(resources?: Set[String])",
                 Effect,
-                "Gives back resources, all or some.",
+                "Gives back these resources, or all; those that are still waited for are no longer asked for.",
             ),
             member(
                 "held(resources: Set[String]) -> Bool",

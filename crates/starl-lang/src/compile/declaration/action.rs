@@ -40,6 +40,39 @@ impl<'p> Unit<'p> {
         Ok(body.finish(&name, Vec::new(), results))
     }
 
+    /// The function that gives how long a guard has to hold, or how often an action fires.
+    pub fn time(
+        &mut self,
+        action: &'p ir::Action,
+        time: &'p ir::Expression,
+        word: &str,
+    ) -> Compiled<Finished> {
+        let mut body = Body::new(self, FunctionKind::Guard, &action.locals, action.site);
+        let is_there = body.take(Size::SCALAR)?;
+        let value = body.take_for(&time.ty)?;
+        Body::into(&mut body, time, value, true)?;
+        body.scalar(is_there, 1);
+        body.leave(Size::SCALAR.plus(body.size(&time.ty)));
+        let name = format!("{}.{word}", body.unit.action_name(action));
+        let results = Vec::from([machine::Type::Bool, machine::Type::Duration]);
+        Ok(body.finish(&name, Vec::new(), results))
+    }
+
+    /// The guard of a check: whether it is false.
+    pub fn check(&mut self, check: &'p ir::Check) -> Compiled<Finished> {
+        let mut body = Body::new(self, FunctionKind::Guard, &check.locals, check.site);
+        let fails = body.take(Size::SCALAR)?;
+        let holds = body.label();
+        body.branch(&check.condition, true, holds)?;
+        body.scalar(fails, 1);
+        body.leave(Size::SCALAR);
+        body.place(holds);
+        body.emit(Instruction::ReturnFalse {
+            until: machine::operand::Count(0),
+        });
+        Ok(body.finish("check", Vec::new(), Vec::from([machine::Type::Bool])))
+    }
+
     /// The effect of an action.
     pub fn effect(&mut self, action: &'p ir::Action) -> Compiled<Finished> {
         let mut body = Body::new(self, FunctionKind::Procedure, &action.locals, action.site);

@@ -31,6 +31,10 @@ impl<'p> Unit<'p> {
                 holds: self.holds(property, holds, &name)?,
                 within: self.deadline(property, within.as_ref())?,
             },
+            Claim::EventuallyAlways { holds, within } => machine::Claim::EventuallyAlways {
+                holds: self.holds(property, holds, &name)?,
+                within: self.deadline(property, within.as_ref())?,
+            },
             Claim::LeadsTo {
                 cause,
                 consequence,
@@ -41,7 +45,17 @@ impl<'p> Unit<'p> {
                 within: self.deadline(property, within.as_ref())?,
             },
         };
+        let assumption = match &property.assumption {
+            Some(condition) => {
+                Some(self.holds(property, condition, &format!("{name}.assumption"))?)
+            }
+            None => None,
+        };
+        let recovery = self.deadline(property, property.recovery.as_ref())?;
         Ok(machine::Property {
+            assumption,
+            recovery,
+            is_despite_crashes: property.is_despite_crashes,
             name,
             claim,
             robots,

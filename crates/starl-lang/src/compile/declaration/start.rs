@@ -70,6 +70,35 @@ impl<'p> Unit<'p> {
         Ok(body.finish("start", Vec::new(), Vec::new()))
     }
 
+    /// Starts the program again where a check is false: primitives stop, variables get their initial values, and `init`
+    /// runs. The role stays.
+    pub fn reset(&mut self) -> Compiled<Finished> {
+        let program = self.program;
+        let site = Site {
+            file: 0,
+            span: Span::empty(0),
+        };
+        let mut body = Body::new(self, FunctionKind::Procedure, &[], site);
+        let nowhere = body.take(Size::NONE)?;
+        let reset = HostFunction::effect("reset");
+        body.host(reset, &[], &Type::Nothing, nowhere, false)?;
+        let role = program.roles.as_ref().map(|roles| roles.variable);
+        for number in 0..program.variables.len() {
+            let id = ir::VariableId(number as u32);
+            if role != Some(id) {
+                body.initialize(id, true)?;
+            }
+        }
+        if program.init.is_some() {
+            body.run(Routine::Init)?;
+        }
+        if program.roles.is_some() {
+            body.run(Routine::Enter)?;
+        }
+        body.end();
+        Ok(body.finish("reset", Vec::new(), Vec::new()))
+    }
+
     pub fn init(&mut self) -> Compiled<Finished> {
         let site = Site {
             file: 0,

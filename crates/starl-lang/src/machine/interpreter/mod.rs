@@ -116,6 +116,19 @@ impl<'a> Machine<'a> {
         }
     }
 
+    /// Runs the effect of an action without bindings if its guard holds or cannot be computed; whether it did.
+    pub fn check(&mut self, index: u32) -> Result<bool, RuntimeError> {
+        let fails = self.guard(index).unwrap_or(true);
+        let action = self.execution.program.bytecode.actions.get(index as usize);
+        match action.filter(|_| fails) {
+            Some(action) => {
+                self.execution.host.fires(index);
+                self.call(action.effect, &[], &[]).map(|_| true)
+            }
+            None => Ok(false),
+        }
+    }
+
     /// Whether the guard of an action holds. Changes nothing.
     pub fn guard(&mut self, index: u32) -> Result<bool, RuntimeError> {
         let action = self.execution.program.bytecode.actions.get(index as usize);

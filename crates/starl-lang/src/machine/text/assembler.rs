@@ -21,12 +21,15 @@
 //! start f0
 //! action pick f1 f2
 //! action count f10 f11 atomic 1
+//! action rest f12 f13 hold f14 every f15
+//! check reset f16 f17
 //! handler Reached f3
 //! handler done primitive 0 f4
 //! handler go_to input f5 place hurry
 //! property in_order 1 always f5
 //! property all_done 0 eventually f6 within 120000000000
 //! property answered 1 leads_to f7 f8 within 5000000000
+//! property even 2 eventually_always f7 within 5000000000 assuming f9 recovers 1000000000 despite_crashes
 //! function fib function (Int) (Int) registers 4 objects 0
 //! span 0 120 140
 //!     jump_if_less_constant r0 2 @done
@@ -134,7 +137,8 @@ impl Assembler {
                 .numbered("f")
                 .map(|f| self.bytecode.defaults = Some(f)),
             "start" => cursor.numbered("f").map(|f| self.bytecode.start = Some(f)),
-            "action" => self.action(&mut cursor),
+            "action" => self.action(&mut cursor, false),
+            "check" => self.action(&mut cursor, true),
             "handler" => self.handler(&mut cursor),
             "property" => self.property(&mut cursor),
             "function" => {
@@ -247,10 +251,12 @@ impl Assembler {
         Some(())
     }
 
-    fn action(&mut self, cursor: &mut Cursor<'_>) -> Option<()> {
+    fn action(&mut self, cursor: &mut Cursor<'_>, is_check: bool) -> Option<()> {
         let name = cursor.word()?.into();
         let guard = cursor.numbered("f")?;
         let effect = cursor.numbered("f")?;
+        let hold = optional(cursor, "hold")?;
+        let every = optional(cursor, "every")?;
         let is_atomic = cursor.eat("atomic");
         let words = words(cursor)
             .into_iter()
@@ -261,6 +267,9 @@ impl Assembler {
             guard,
             effect,
             atomic: atomic?,
+            is_check,
+            hold,
+            every,
         });
         Some(())
     }
@@ -292,12 +301,16 @@ impl Assembler {
             "always" => Claim::Always(cursor.numbered("f")?),
             "eventually" => Claim::Eventually {
                 holds: cursor.numbered("f")?,
-                within: within(cursor)?,
+                within: number(cursor, "within")?,
+            },
+            "eventually_always" => Claim::EventuallyAlways {
+                holds: cursor.numbered("f")?,
+                within: number(cursor, "within")?,
             },
             "leads_to" => Claim::LeadsTo {
                 cause: cursor.numbered("f")?,
                 consequence: cursor.numbered("f")?,
-                within: within(cursor)?,
+                within: number(cursor, "within")?,
             },
             _ => return None,
         };
@@ -305,6 +318,9 @@ impl Assembler {
             name,
             claim,
             robots,
+            assumption: optional(cursor, "assuming")?,
+            recovery: number(cursor, "recovers")?,
+            is_despite_crashes: cursor.eat("despite_crashes"),
         });
         Some(())
     }
@@ -352,9 +368,18 @@ fn words(cursor: &mut Cursor<'_>) -> Vec<String> {
     core::iter::from_fn(|| cursor.word().map(String::from)).collect()
 }
 
-fn within(cursor: &mut Cursor<'_>) -> Option<Option<u64>> {
-    match cursor.eat("within") {
+/// A number after a word, if that is next.
+fn number(cursor: &mut Cursor<'_>, word: &str) -> Option<Option<u64>> {
+    match cursor.eat(word) {
         true => Some(Some(cursor.word()?.parse().ok()?)),
+        false => Some(None),
+    }
+}
+
+/// A function after a word, if that is next.
+fn optional(cursor: &mut Cursor<'_>, word: &str) -> Option<Option<u32>> {
+    match cursor.eat(word) {
+        true => Some(Some(cursor.numbered("f")?)),
         false => Some(None),
     }
 }

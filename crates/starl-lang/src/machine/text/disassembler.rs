@@ -86,7 +86,13 @@ fn entry_points(out: &mut String, bytecode: &Bytecode) -> fmt::Result {
     }
     for action in &bytecode.actions {
         let (name, guard, effect) = (&action.name, action.guard, action.effect);
-        write!(out, "action {name} f{guard} f{effect}")?;
+        let word = if action.is_check { "check" } else { "action" };
+        write!(out, "{word} {name} f{guard} f{effect}")?;
+        for (word, time) in [("hold", action.hold), ("every", action.every)] {
+            if let Some(time) = time {
+                write!(out, " {word} f{time}")?;
+            }
+        }
         for (number, instance) in action.atomic.iter().enumerate() {
             write!(
                 out,
@@ -124,6 +130,10 @@ fn entry_points(out: &mut String, bytecode: &Bytecode) -> fmt::Result {
                 write!(out, "eventually f{holds}")?;
                 within
             }
+            Claim::EventuallyAlways { holds, within } => {
+                write!(out, "eventually_always f{holds}")?;
+                within
+            }
             Claim::LeadsTo {
                 cause,
                 consequence,
@@ -135,6 +145,15 @@ fn entry_points(out: &mut String, bytecode: &Bytecode) -> fmt::Result {
         };
         if let Some(within) = within {
             write!(out, " within {within}")?;
+        }
+        if let Some(assumption) = property.assumption {
+            write!(out, " assuming f{assumption}")?;
+        }
+        if let Some(recovery) = property.recovery {
+            write!(out, " recovers {recovery}")?;
+        }
+        if property.is_despite_crashes {
+            write!(out, " despite_crashes")?;
         }
         writeln!(out)?;
     }

@@ -209,7 +209,18 @@ fn entry_points(bytecode: &Bytecode) -> Result<(), LoadError> {
             atomic.all(|&instance| (instance as usize) < bytecode.primitives.len()),
             "an action waits for a primitive that there is not",
         )?;
+        for time in [action.hold, action.every].into_iter().flatten() {
+            let time = function(bytecode, time, FunctionKind::Guard)?;
+            check(
+                time.arguments.is_empty() && time.results == [Type::Bool, Type::Duration],
+                "an action's time is no Duration",
+            )?;
+        }
     }
+    check(
+        bytecode.actions.is_sorted_by_key(|action| !action.is_check),
+        "a check comes after other actions",
+    )?;
     for handler in &bytecode.handlers {
         let procedure = function(bytecode, handler.function, FunctionKind::Procedure)?;
         match &handler.origin {
@@ -226,12 +237,17 @@ fn entry_points(bytecode: &Bytecode) -> Result<(), LoadError> {
     }
     for property in &bytecode.properties {
         let (first, second) = match property.claim {
-            Claim::Always(holds) | Claim::Eventually { holds, .. } => (holds, None),
+            Claim::Always(holds)
+            | Claim::Eventually { holds, .. }
+            | Claim::EventuallyAlways { holds, .. } => (holds, None),
             Claim::LeadsTo {
                 cause, consequence, ..
             } => (cause, Some(consequence)),
         };
-        for index in [Some(first), second].into_iter().flatten() {
+        for index in [Some(first), second, property.assumption]
+            .into_iter()
+            .flatten()
+        {
             let claim = function(bytecode, index, FunctionKind::Property)?;
             check(
                 claim.arguments.len() == usize::from(property.robots)

@@ -286,6 +286,14 @@ pub static BUILTINS: &[Builtin] = &[
         host.context.robot.halt();
         Ok(1)
     }),
+    // Not in the language's table: a program that starts again does this first.
+    effect("reset", &[], None, |host, _| {
+        for seat in host.bound.iter_mut().flatten() {
+            seat.is_stirred = true;
+            seat.bound.reset(host.context.robot);
+        }
+        Ok(1)
+    }),
     // Not in the language's table: the start of a program asks this for each stable variable, by its number.
     query(
         "saved",

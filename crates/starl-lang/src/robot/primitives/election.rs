@@ -6,7 +6,7 @@ use crate::robot::shape::{ELECTION_ALGORITHMS, Shape};
 use alloc::borrow::Cow;
 use alloc::format;
 use alloc::vec::Vec;
-use starl_core::{Primitive, Random};
+use starl_core::{Primitive, Random, Robot};
 use starl_primitives::LeaderElection;
 use starl_primitives::election::{Algorithm, Change, Options};
 
@@ -98,6 +98,10 @@ impl Kind for LeaderElection {
 
     fn corrupt(&mut self, random: &mut Random) {
         LeaderElection::corrupt(self, random);
+    }
+
+    fn reset(&mut self, robot: &mut Robot<'_>) {
+        self.resign(robot);
     }
 
     fn take_reports(&mut self, take: &mut dyn FnMut(Report)) {

@@ -30,7 +30,7 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::fmt;
 use dyn_clone::DynClone;
-use starl_core::{Input, Primitive, Random, Robot};
+use starl_core::{Input, Point, Primitive, Random, Robot};
 
 /// The place of a primitive on a robot: none until it is bound.
 pub type Slot = Option<Seat>;
@@ -162,6 +162,16 @@ pub trait Kind: Clone + fmt::Debug + Send + Sync + Sized + 'static {
     fn halt(&mut self, robot: &mut Robot<'_>) {
         let _ = robot;
     }
+
+    /// Stops everything that it does for the program, which starts again. It keeps what it knows of other robots.
+    fn reset(&mut self, robot: &mut Robot<'_>) {
+        let _ = robot;
+    }
+
+    /// Where it moves the robot.
+    fn target(&self) -> Option<Point> {
+        None
+    }
 }
 
 /// A bound primitive of some kind. `Debug` shows all of its state.
@@ -181,6 +191,10 @@ pub trait Bound: DynClone + fmt::Debug + Send + Sync {
     fn take_reports(&mut self, take: &mut dyn FnMut(Report));
     /// See [`Kind::halt`].
     fn halt(&mut self, robot: &mut Robot<'_>);
+    /// See [`Kind::reset`].
+    fn reset(&mut self, robot: &mut Robot<'_>);
+    /// See [`Kind::target`].
+    fn target(&self) -> Option<Point>;
 }
 
 dyn_clone::clone_trait_object!(Bound);
@@ -212,6 +226,14 @@ impl<P: Kind> Bound for P {
 
     fn halt(&mut self, robot: &mut Robot<'_>) {
         Kind::halt(self, robot);
+    }
+
+    fn reset(&mut self, robot: &mut Robot<'_>) {
+        Kind::reset(self, robot);
+    }
+
+    fn target(&self) -> Option<Point> {
+        Kind::target(self)
     }
 }
 

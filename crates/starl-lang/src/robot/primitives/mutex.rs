@@ -7,7 +7,7 @@ use alloc::borrow::Cow;
 use alloc::boxed::Box;
 use alloc::collections::BTreeSet;
 use alloc::format;
-use starl_core::{Primitive, Random, RobotId};
+use starl_core::{Primitive, Random, Robot, RobotId};
 use starl_primitives::Mutex;
 use starl_primitives::mutex::{AcquireError, Options, Resources};
 
@@ -49,15 +49,15 @@ impl Kind for Mutex {
         ),
         method(
             "release",
-            &[Shape::Set(&Shape::Text)],
+            &[Shape::Optional(&Shape::Set(&Shape::Text))],
             None,
             |mutex, context, call| {
-                let arguments = &mut Arguments::after_instance(call);
                 // Programs give back what they may hold, just in case: the set is made only if there is something.
                 if !mutex.crit() && !mutex.is_waiting() {
-                    return Ok(10 + names(arguments).count() as u64);
+                    return Ok(10);
                 }
-                let resources = texts(arguments);
+                let given = Arguments::after_instance(call).optional(texts);
+                let resources = given.unwrap_or_else(|| mutex.known_resources());
                 mutex.release(context.robot, &resources);
                 Ok(10 + resources.len() as u64)
             },
@@ -146,6 +146,11 @@ impl Kind for Mutex {
     fn corrupt(&mut self, random: &mut Random) {
         let known = self.known_resources();
         Mutex::corrupt(self, random, &known);
+    }
+
+    fn reset(&mut self, robot: &mut Robot<'_>) {
+        let known = self.known_resources();
+        self.release(robot, &known);
     }
 }
 

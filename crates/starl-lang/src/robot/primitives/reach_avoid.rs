@@ -3,7 +3,7 @@
 use super::{Arguments, Attention, Context, Instance, Kind, Member, method, query};
 use crate::robot::shape::{PLANNERS, Shape};
 use alloc::borrow::Cow;
-use starl_core::{Primitive, Random, Robot};
+use starl_core::{Point, Primitive, Random, Robot};
 use starl_primitives::ReachAvoid;
 use starl_primitives::reach_avoid::Options;
 
@@ -123,6 +123,14 @@ impl Kind for ReachAvoid {
         if self.active() {
             self.stop(robot);
         }
+    }
+
+    fn reset(&mut self, robot: &mut Robot<'_>) {
+        self.stop(robot);
+    }
+
+    fn target(&self) -> Option<Point> {
+        self.target()
     }
 }
 

@@ -7,7 +7,7 @@ use crate::robot::shape::Shape;
 use crate::robot::workbench::robots;
 use alloc::borrow::Cow;
 use alloc::format;
-use starl_core::{Primitive, Random};
+use starl_core::{Primitive, Random, Robot};
 use starl_primitives::Registration;
 use starl_primitives::registration::Options;
 
@@ -76,6 +76,10 @@ impl Kind for Registration {
 
     fn corrupt(&mut self, random: &mut Random) {
         Registration::corrupt(self, random);
+    }
+
+    fn reset(&mut self, robot: &mut Robot<'_>) {
+        self.unregister(robot);
     }
 }
 

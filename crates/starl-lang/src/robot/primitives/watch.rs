@@ -6,8 +6,17 @@ use super::{Arguments, Attention, Context, Event, Instance, Kind, Member, Needs,
 use crate::robot::shape::Shape;
 use crate::robot::workbench::robots;
 use alloc::borrow::Cow;
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
-use starl_core::{Input, Port, Primitive, Random, Robot};
+use starl_core::{Input, Port, Primitive, Random, Robot, RobotId};
+
+/// The robots that the program's detector suspects.
+fn suspected<'a>(context: &'a Context<'_, '_>) -> impl Iterator<Item = RobotId> + use<'a> {
+    let detector = context.services.detector.as_deref();
+    detector
+        .into_iter()
+        .flat_map(|detector| detector.suspected())
+}
 
 /// A program's view of its failure detector.
 #[derive(Clone, Debug)]
@@ -22,19 +31,28 @@ impl Kind for Watch {
 
     const CONSTRUCTOR: &'static [Shape] = &[];
 
-    const MEMBERS: &'static [Member<Watch>] = &[query(
-        "suspects",
-        &[],
-        Shape::Set(&Shape::Robot),
-        |_, context, call| {
-            let detector = context.services.detector.as_deref();
-            let suspected = detector
-                .into_iter()
-                .flat_map(|detector| detector.suspected());
-            call.set_object(0, robots(suspected));
-            Ok(2)
-        },
-    )];
+    const MEMBERS: &'static [Member<Watch>] = &[
+        query(
+            "suspects",
+            &[],
+            Shape::Set(&Shape::Robot),
+            |_, context, call| {
+                call.set_object(0, robots(suspected(context)));
+                Ok(2)
+            },
+        ),
+        query(
+            "live",
+            &[],
+            Shape::Set(&Shape::Robot),
+            |_, context, call| {
+                let suspects: BTreeSet<RobotId> = suspected(context).collect();
+                let fleet = context.robot.fleet().iter().copied();
+                call.set_object(0, robots(fleet.filter(|robot| !suspects.contains(robot))));
+                Ok(2 + context.robot.fleet().len() as u64 / 8)
+            },
+        ),
+    ];
 
     const EVENTS: &'static [Event] = &[
         Event {

@@ -2,7 +2,7 @@
 
 use super::Fleet;
 use super::hearing::limits;
-use super::observables::Court;
+use super::observables::{Counted, Court};
 use crate::machine::{Claim, Machine};
 use crate::robot::code::Code;
 use crate::robot::workbench::Workbench;
@@ -62,6 +62,8 @@ impl Condition {
             memo: &mut self.bench.memo,
             last: Cell::new(None),
             first: None,
+            counted: Counted::All,
+            has_majority: true,
             looked_elsewhere: Cell::new(false),
         };
         let mut asked = Vec::with_capacity(rows.len());

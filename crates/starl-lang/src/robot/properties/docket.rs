@@ -3,6 +3,7 @@
 //! Only what is out of the ordinary: rows of robots for which something came true that was to come once,
 //! or that wait for what is to follow, or for which the property was violated.
 
+use super::Excuse;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 use starl_core::{RobotId, Time};
@@ -30,6 +31,12 @@ pub struct Docket {
     pub waiting: BTreeMap<Row, Time>,
     /// Whether some row has not seen what is to come.
     pub lacks: bool,
+    /// Rows for which what is assumed was not so, and when last.
+    pub unassumed: BTreeMap<Row, Time>,
+    /// Rows for which it is false at present, which is excused.
+    pub forgiven: BTreeSet<Row>,
+    /// How often a row came to be forgiven, by reason.
+    pub excused: BTreeMap<Excuse, u64>,
     /// For a property of single robots the version of each one's state, in the order of the roster,
     /// at which nothing was out of the ordinary and nothing else was looked at: while it is the same
     /// the robot need not be judged again.

@@ -3,6 +3,7 @@
 use super::docket::{CLOSED, Docket, Row, UNKNOWN};
 use super::observables::Court;
 use super::violation::{Reason, Violation};
+use super::{Excuse, RECOVERY};
 use crate::machine::{Claim, Limits, Machine, Property, Workspace};
 use alloc::vec::Vec;
 use starl_core::{Duration, RobotId, Time};
@@ -77,7 +78,10 @@ impl Hearing<'_> {
             }
             *mark = if self.is_closed(row) {
                 CLOSED
-            } else if self.court.looked_elsewhere.get() || self.docket.waiting.contains_key(row) {
+            } else if self.court.looked_elsewhere.get()
+                || self.docket.waiting.contains_key(row)
+                || self.property.is_timed()
+            {
                 UNKNOWN
             } else {
                 version
@@ -90,7 +94,7 @@ impl Hearing<'_> {
     fn stays_ordinary(&mut self) -> bool {
         if let Claim::Eventually { within, .. } = self.property.claim {
             self.docket.lacks = true;
-            return within.is_none_or(|within| self.court.now < Time(within));
+            return within.is_none_or(|within| self.elapsed(Time::ZERO, &[]) < Duration(within));
         }
         true
     }
@@ -104,14 +108,20 @@ impl Hearing<'_> {
     fn judge(&mut self, row: &[RobotId]) {
         self.court.first = row.first().copied();
         self.court.looked_elsewhere.set(false);
-        let judged = match self.property.claim {
-            Claim::Always(holds) => self.always(holds, row),
-            Claim::Eventually { holds, within } => self.eventually(holds, within, row),
-            Claim::LeadsTo {
-                cause,
-                consequence,
-                within,
-            } => self.leads_to([cause, consequence], within, row),
+        let judged = match self.excuse(row) {
+            Err(reason) => Err(reason),
+            Ok(Some(excuse)) => {
+                self.docket.waiting.remove(row);
+                self.docket.lacks |= matches!(self.property.claim, Claim::Eventually { .. })
+                    && !self.docket.settled.contains(row);
+                if let Claim::Always(holds) = self.property.claim {
+                    let is_true = self.holds(holds, row).unwrap_or(false);
+                    self.forgive(row, is_true, excuse);
+                }
+                self.court.looked_elsewhere.set(true);
+                return;
+            }
+            Ok(None) => self.claim(row),
         };
         if let Err(reason) = judged {
             self.docket.waiting.remove(row);
@@ -124,6 +134,82 @@ impl Hearing<'_> {
                 &self.docket.reads,
             );
             self.violations.push(violation);
+        }
+    }
+
+    /// Why nothing is claimed of the row at this moment, if nothing is.
+    fn excuse(&mut self, row: &[RobotId]) -> Result<Option<Excuse>, Reason> {
+        if !row.iter().all(|robot| self.court.counts(*robot)) {
+            return Ok(Some(Excuse::Down));
+        }
+        let now = self.court.now;
+        let uncorrupted = self.court.fleet.uncorrupted();
+        let recovery = self.property.recovery.map_or(RECOVERY, Duration);
+        if !self.docket.reads.is_empty()
+            && uncorrupted < recovery
+            && uncorrupted < now.since(Time::ZERO)
+        {
+            return Ok(Some(Excuse::Corruption));
+        }
+        let is_assumed = match self.property.assumption {
+            Some(assumption) => self.holds(assumption, row)?,
+            None => true,
+        };
+        if is_assumed {
+            return Ok(None);
+        }
+        self.docket.unassumed.insert(row.into(), now);
+        Ok(Some(Excuse::Assumption))
+    }
+
+    /// Counts a row for which the property is false and excused, once each time that it becomes so.
+    fn forgive(&mut self, row: &[RobotId], is_true: bool, excuse: Excuse) {
+        if is_true {
+            self.docket.forgiven.remove(row);
+        } else if self.docket.forgiven.insert(row.into()) {
+            *self.docket.excused.entry(excuse).or_default() += 1;
+        }
+    }
+
+    /// Counts a deadline that is missed only because of a fault.
+    fn forgive_lateness(&mut self, row: &[RobotId], since: Time, within: Duration, is_true: bool) {
+        if self.court.now.since(since) > within {
+            self.forgive(row, is_true, Excuse::Recovery);
+        }
+    }
+
+    /// How long it is since a moment, since the last fault, and since what is assumed was not so.
+    fn elapsed(&self, since: Time, row: &[RobotId]) -> Duration {
+        let now = self.court.now;
+        let unassumed = self.docket.unassumed.get(row);
+        let since = unassumed.map_or(since, |unassumed| since.max(*unassumed));
+        now.since(since).min(self.court.fleet.undisturbed())
+    }
+
+    fn claim(&mut self, row: &[RobotId]) -> Result<(), Reason> {
+        match self.property.claim {
+            Claim::Always(holds) => self.always(holds, row),
+            Claim::EventuallyAlways { holds, within } => {
+                // To be judged again although nothing may have changed.
+                self.court.looked_elsewhere.set(true);
+                let Some(within) = within.map(Duration) else {
+                    return Ok(());
+                };
+                if self.elapsed(Time::ZERO, row) > within {
+                    return self.always(holds, row);
+                }
+                if self.court.now.since(Time::ZERO) > within {
+                    let is_true = self.holds(holds, row).unwrap_or(false);
+                    self.forgive(row, is_true, Excuse::Recovery);
+                }
+                Ok(())
+            }
+            Claim::Eventually { holds, within } => self.eventually(holds, within, row),
+            Claim::LeadsTo {
+                cause,
+                consequence,
+                within,
+            } => self.leads_to([cause, consequence], within, row),
         }
     }
 
@@ -145,10 +231,11 @@ impl Hearing<'_> {
         }
         // Also where it is too late: to see for whom it does not hold.
         let is_true = self.holds(holds, row)?;
-        if let Some(within) = within.map(Duration)
-            && self.is_late(Time::ZERO + within, is_true)
-        {
-            return Err(Reason::NotInTime { within });
+        if let Some(within) = within.map(Duration) {
+            if is_late(self.elapsed(Time::ZERO, row), within, is_true) {
+                return Err(Reason::NotInTime { within });
+            }
+            self.forgive_lateness(row, Time::ZERO, within, is_true);
         }
         if is_true {
             self.docket.settled.insert(row.into());
@@ -156,12 +243,6 @@ impl Hearing<'_> {
             self.docket.lacks = true;
         }
         Ok(())
-    }
-
-    /// Whether what is or is not true now was to be true by the deadline at the latest, and was not.
-    fn is_late(&self, deadline: Time, is_true: bool) -> bool {
-        let now = self.court.now;
-        now > deadline || now == deadline && !is_true
     }
 
     fn leads_to(
@@ -177,10 +258,11 @@ impl Hearing<'_> {
             None => return Ok(()),
         };
         let is_true = self.holds(consequence, row)?;
-        if let Some(within) = within.map(Duration)
-            && self.is_late(since + within, is_true)
-        {
-            return Err(Reason::NotFollowed { since, within });
+        if let Some(within) = within.map(Duration) {
+            if is_late(self.elapsed(since, row), within, is_true) {
+                return Err(Reason::NotFollowed { since, within });
+            }
+            self.forgive_lateness(row, since, within, is_true);
         }
         if is_true {
             self.docket.waiting.remove(row);
@@ -205,6 +287,11 @@ impl Hearing<'_> {
         )
         .map_err(|error| Reason::Undecided(code.describe(&error)))
     }
+}
+
+/// Whether what is or is not true now was to be true within a time of which so much has elapsed, and was not.
+fn is_late(elapsed: Duration, within: Duration, is_true: bool) -> bool {
+    elapsed > within || elapsed == within && !is_true
 }
 
 /// A property may look at all robots, and at all pairs of them if they are not too many.

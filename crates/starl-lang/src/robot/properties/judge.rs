@@ -1,17 +1,18 @@
 //! Judging properties as time goes by: who has started, what is brought before the court, how things
 //! stand.
 
-use super::Fleet;
 use super::docket::{Docket, Row, UNKNOWN};
 use super::hearing::Hearing;
-use super::observables::Court;
+use super::observables::{Counted, Court};
 use super::violation::{Violation, read_variables};
+use super::{Excuse, Fleet};
 use crate::machine::{Claim, Property};
 use crate::robot::code::Code;
 use crate::robot::workbench::Workbench;
+use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use core::cell::Cell;
-use starl_core::{RobotId, Time};
+use starl_core::{Duration, RobotId, Time};
 
 /// How a property stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,12 +25,19 @@ pub enum Standing {
     Violated,
 }
 
+/// A robot that has restarted has learned from the others after this time what it has to remember.
+const REMEMBERS: Duration = Duration::from_seconds(10);
+
 /// Judges the properties of one program.
 #[derive(Clone)]
 pub struct Judge {
     code: Code,
     dockets: Vec<Docket>,
     bench: Workbench,
+    /// When robots were down last.
+    down: BTreeMap<RobotId, Time>,
+    /// Whether at some moment no more than half of the robots were up and remembered what others had told them.
+    lost_majority: bool,
     /// The robots that have started.
     roster: Row,
     /// The versions of their states; [`UNKNOWN`] where they are not known.
@@ -48,6 +56,8 @@ impl Judge {
             dockets: bytecode.properties.iter().map(docket).collect(),
             bench: Workbench::default(),
             roster: Row::new(),
+            down: BTreeMap::new(),
+            lost_majority: false,
             versions: Vec::new(),
             code: code.clone(),
         }
@@ -68,6 +78,7 @@ impl Judge {
     pub fn observe(&mut self, now: Time, fleet: &dyn Fleet) -> Vec<Violation> {
         let mut violations = Vec::new();
         self.call_roll(fleet);
+        self.count_majority(now, fleet);
         let bytecode = self.code.program().bytecode();
         for ((index, property), docket) in bytecode
             .properties
@@ -85,6 +96,8 @@ impl Judge {
                     memo: &mut self.bench.memo,
                     last: Cell::new(None),
                     first: None,
+                    counted: counted(property),
+                    has_majority: !self.lost_majority,
                     looked_elsewhere: Cell::new(false),
                 },
                 workspace: &mut self.bench.workspace,
@@ -97,6 +110,18 @@ impl Judge {
             hearing.run();
         }
         violations
+    }
+
+    /// Sees whether a majority of the robots is there.
+    fn count_majority(&mut self, now: Time, fleet: &dyn Fleet) {
+        for &robot in fleet.robots() {
+            if !fleet.is_up(robot) {
+                self.down.insert(robot, now);
+            }
+        }
+        let is_back = |down: &Time| now.since(*down) >= REMEMBERS;
+        self.down.retain(|_, down| !is_back(down));
+        self.lost_majority |= !self.down.is_empty() && 2 * self.down.len() >= fleet.robots().len();
     }
 
     /// Sees who has started, and what states there are.
@@ -117,6 +142,17 @@ impl Judge {
         let versions = self.roster.iter().map(|&robot| fleet.version(robot));
         self.versions
             .extend(versions.map(|version| version.unwrap_or(UNKNOWN)));
+    }
+
+    /// How often a property was false of some robots and that was excused, by reason.
+    pub fn excused(&self, property: usize) -> impl Iterator<Item = (Excuse, u64)> + '_ {
+        let dockets = self.dockets.get(property).into_iter();
+        dockets.flat_map(|docket| {
+            docket
+                .excused
+                .iter()
+                .map(|(excuse, count)| (*excuse, *count))
+        })
     }
 
     /// How a property stands, by its place among [`Judge::properties`].
@@ -150,5 +186,14 @@ impl Judge {
             }
             _ => Standing::Holds,
         }
+    }
+}
+
+/// Robots that are down are owed nothing, and what is to come is not owed to one that a wreck keeps from its target.
+fn counted(property: &Property) -> Counted {
+    match property.claim {
+        _ if property.is_despite_crashes => Counted::All,
+        Claim::Always(_) => Counted::Up,
+        _ => Counted::Able,
     }
 }

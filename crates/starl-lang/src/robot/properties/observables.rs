@@ -10,7 +10,7 @@ use crate::robot::shape::{Shape, Signature};
 use crate::robot::workbench::{Memo, robots};
 use alloc::borrow::Cow;
 use core::cell::Cell;
-use starl_core::{Pose, RobotId, Time};
+use starl_core::{Point, Pose, RobotId, Time};
 
 /// The machine's host where properties are judged.
 pub struct Court<'a> {
@@ -27,8 +27,23 @@ pub struct Court<'a> {
     pub last: Cell<Option<RobotId>>,
     /// The robot that the row of robots begins with.
     pub first: Option<RobotId>,
+    /// Which robots a property is about.
+    pub counted: Counted,
+    /// Whether more than half of the robots have been up at every moment so far.
+    pub has_majority: bool,
     /// Whether anything else was looked at than this robot's state.
     pub looked_elsewhere: Cell<bool>,
+}
+
+/// Which of the robots that have started a property is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Counted {
+    /// All of them.
+    All,
+    /// Those that are up.
+    Up,
+    /// Those that are up and that no robot which is down keeps from moving or from its target.
+    Able,
 }
 
 /// What properties may ask.
@@ -90,6 +105,18 @@ pub static OBSERVABLES: &[Observable] = &[
         call.set_bool(0, court.fleet.is_up(robot));
         Ok(0)
     }),
+    observable("majority", &[], Shape::Bool, |court, call| {
+        call.set_bool(0, court.has_majority);
+        Ok(0)
+    }),
+    observable("crashed", &[], Shape::Int, |court, call| {
+        let down = court
+            .roster
+            .iter()
+            .filter(|&&robot| !court.fleet.is_up(robot) || court.is_pinned(robot));
+        call.set_int(0, down.count() as i64);
+        Ok(0)
+    }),
     observable("now", &[], Shape::Time, |court, call| {
         call.set_nanoseconds(0, court.now.0);
         Ok(0)
@@ -148,6 +175,13 @@ pub static OBSERVABLES: &[Observable] = &[
     }),
 ];
 
+/// A robot does not get to a target that is nearer than this to a robot which is down, metres: somewhat less than two
+/// bodies of the usual size side by side.
+const BLOCKED: f64 = 0.6;
+
+/// A robot cannot move if another that is down is nearer than this, metres: a wreck fell on it, or it drove against it.
+const PINNED: f64 = 0.5;
+
 const NOT_KNOWN: &str = "this is not known where properties are judged";
 
 fn unknown(robot: RobotId) -> Cow<'static, str> {
@@ -162,6 +196,52 @@ impl Court<'_> {
         robot
     }
 
+    /// Whether the property is about a robot.
+    pub fn counts(&self, robot: RobotId) -> bool {
+        match self.counted {
+            Counted::All => true,
+            Counted::Up => self.fleet.is_up(robot),
+            Counted::Able => {
+                self.fleet.is_up(robot) && !self.is_blocked(robot) && !self.is_pinned(robot)
+            }
+        }
+    }
+
+    /// Whether `exists` and `forall` inside a property run over a robot. A robot that cannot get to its target still
+    /// stands where it stands.
+    fn exists(&self, robot: RobotId) -> bool {
+        self.counted == Counted::All || self.fleet.is_up(robot)
+    }
+
+    /// Whether a robot that is down lies where the robot is to go.
+    fn is_blocked(&self, robot: RobotId) -> bool {
+        let target = self.fleet.target(robot);
+        target.is_some_and(|target| {
+            let target = target.at_height(0.0);
+            self.is_wreck_near(robot, |wreck| {
+                wreck.at_height(0.0).distance(target) < BLOCKED
+            })
+        })
+    }
+
+    /// Whether a robot that is down touches the robot.
+    fn is_pinned(&self, robot: RobotId) -> bool {
+        let pose = self.fleet.pose(robot);
+        pose.is_some_and(|pose| {
+            self.is_wreck_near(robot, |wreck| wreck.distance(pose.position) < PINNED)
+        })
+    }
+
+    /// Whether some other robot that is down lies at such a place.
+    fn is_wreck_near(&self, robot: RobotId, is_near: impl Fn(Point) -> bool) -> bool {
+        let others = self.roster.iter().filter(|other| **other != robot);
+        let mut wrecks = others.filter(|other| !self.fleet.is_up(**other));
+        wrecks.any(|other| {
+            let pose = self.fleet.pose(*other);
+            pose.is_some_and(|pose| is_near(pose.position))
+        })
+    }
+
     fn pose(&self, call: &HostCall<'_>) -> Result<Pose, Cow<'static, str>> {
         let robot = self.asked(call);
         self.fleet.pose(robot).ok_or_else(|| unknown(robot))
@@ -169,9 +249,15 @@ impl Court<'_> {
 }
 
 fn all(court: &mut Court<'_>, call: &mut HostCall<'_>) -> Called {
-    let roster = court.roster.iter().copied();
-    let all = court.all.get_or_insert_with(|| robots(roster));
-    call.set_object(0, all.clone());
+    if court.all.is_none() {
+        let counted = court
+            .roster
+            .iter()
+            .copied()
+            .filter(|robot| court.exists(*robot));
+        court.all = Some(robots(counted));
+    }
+    call.set_object(0, court.all.clone().unwrap_or_default());
     Ok(0)
 }
 

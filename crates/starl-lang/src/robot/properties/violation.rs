@@ -117,7 +117,9 @@ impl Seen {
 
 fn first_function(claim: Claim) -> u32 {
     match claim {
-        Claim::Always(holds) | Claim::Eventually { holds, .. } => holds,
+        Claim::Always(holds)
+        | Claim::Eventually { holds, .. }
+        | Claim::EventuallyAlways { holds, .. } => holds,
         Claim::LeadsTo { cause, .. } => cause,
     }
 }

@@ -41,8 +41,10 @@ nodes! {
     ActionDeclaration
     /// What is indented under an action's name
     ActionBody
-    /// `pre condition`
+    /// `pre condition` or `pre condition for time`
     PreClause
+    /// `every time`
+    EveryClause
     /// `eff` and statements
     EffClause
     /// `on Message(from, a)` or `on input name(a: T)`, and statements
@@ -55,6 +57,8 @@ nodes! {
     RoleDeclaration
     /// What is indented under a role's name
     RoleBody
+    /// `check condition`
+    CheckDeclaration
     /// `invariant name: condition` and the like
     PropertyDeclaration
 }
@@ -109,6 +113,12 @@ impl ParameterDeclaration {
 }
 
 impl VariableDeclaration {
+    /// The values that it may have, if that is written.
+    #[must_use]
+    pub fn range(&self) -> Option<ParameterRange> {
+        child(&self.0)
+    }
+
     /// Whether it is declared `stable`.
     #[must_use]
     pub fn is_stable(&self) -> bool {
@@ -173,6 +183,12 @@ impl ActionDeclaration {
         child(&child::<ActionBody>(&self.0)?.0)
     }
 
+    /// How often it fires at most, if that is written.
+    #[must_use]
+    pub fn every(&self) -> Option<Expression> {
+        child(&child::<EveryClause>(&child::<ActionBody>(&self.0)?.0)?.0)
+    }
+
     /// Its effect.
     #[must_use]
     pub fn eff(&self) -> Option<EffClause> {
@@ -185,6 +201,12 @@ impl PreClause {
     #[must_use]
     pub fn condition(&self) -> Option<Expression> {
         child(&self.0)
+    }
+
+    /// For how long the condition has to hold, if that is written.
+    #[must_use]
+    pub fn hold(&self) -> Option<Expression> {
+        after(&token(&self.0, SyntaxKind::ForKeyword)?)
     }
 }
 
@@ -246,11 +268,25 @@ impl RoleDeclaration {
     }
 }
 
+impl CheckDeclaration {
+    /// What must be true.
+    #[must_use]
+    pub fn condition(&self) -> Option<Expression> {
+        child(&self.0)
+    }
+}
+
 impl PropertyDeclaration {
     /// Whether it must come true some time, rather than be true always.
     #[must_use]
     pub fn is_eventual(&self) -> bool {
         self.word() == "eventually"
+    }
+
+    /// Whether it must come true some time and stay so.
+    #[must_use]
+    pub fn is_eventually_always(&self) -> bool {
+        self.is_eventual() && word(&self.0, "always").is_some()
     }
 
     /// The word that it begins with.
@@ -277,6 +313,30 @@ impl PropertyDeclaration {
     /// How long it may take, if `within` is written.
     #[must_use]
     pub fn deadline(&self) -> Option<Expression> {
-        after(&word(&self.0, "within")?)
+        let word = word(&self.0, "within")?;
+        let mut before = word.siblings_with_tokens(rowan::Direction::Prev);
+        let is_recovery = before.any(|other| {
+            let token = other.into_token();
+            token.is_some_and(|token| token.text() == "recovers")
+        });
+        if is_recovery { None } else { after(&word) }
+    }
+
+    /// How long it may be false after a fault has overwritten variables, if `recovers within` is written.
+    #[must_use]
+    pub fn recovery(&self) -> Option<Expression> {
+        after(&word(&self.0, "recovers")?)
+    }
+
+    /// What has to hold for it to be judged, if `assuming` is written.
+    #[must_use]
+    pub fn assumption(&self) -> Option<Expression> {
+        after(&word(&self.0, "assuming")?)
+    }
+
+    /// Whether robots that are down count too.
+    #[must_use]
+    pub fn is_despite_crashes(&self) -> bool {
+        word(&self.0, "despite").is_some()
     }
 }

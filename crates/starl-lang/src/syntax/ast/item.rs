@@ -6,10 +6,11 @@ use alloc::vec::Vec;
 use super::super::{SyntaxKind, SyntaxNode, SyntaxToken};
 use super::node::{child, choice};
 use super::{
-    ActionDeclaration, AstNode, BindingDeclaration, ConstantDeclaration, EnumDeclaration, Field,
-    FunctionDeclaration, HandlerDeclaration, Import, InitDeclaration, LetStatement, LibraryHeader,
-    MessageDeclaration, Name, Parameter, ParameterDeclaration, ProgramHeader, PropertyDeclaration,
-    RecordDeclaration, RoleDeclaration, SharedDeclaration, SomeExpression, VariableDeclaration,
+    ActionDeclaration, AstNode, BindingDeclaration, CheckDeclaration, ConstantDeclaration,
+    EnumDeclaration, Field, FunctionDeclaration, HandlerDeclaration, Import, InitDeclaration,
+    LetStatement, LibraryHeader, MessageDeclaration, Name, Parameter, ParameterDeclaration,
+    ProgramHeader, PropertyDeclaration, RecordDeclaration, RoleDeclaration, SharedDeclaration,
+    SomeExpression, VariableDeclaration,
 };
 
 choice! {
@@ -47,6 +48,8 @@ choice! {
         Handler(HandlerDeclaration),
         /// `role name`
         Role(RoleDeclaration),
+        /// `check condition`
+        Check(CheckDeclaration),
         /// `invariant`, `always` or `eventually`
         Property(PropertyDeclaration),
     }

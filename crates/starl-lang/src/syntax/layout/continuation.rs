@@ -24,13 +24,13 @@ pub(super) fn rest(
         .map(|next| next.first)
 }
 
-/// Whether the line that starts with the token `first` is a property, which has no block.
+/// Whether the line that starts with the token `first` is a property or a check, which have no block.
 fn is_property(text: &str, tokens: &Tokens, first: usize) -> bool {
     let word = tokens.span(first).of(text);
     let second = (first + 1..tokens.len())
         .map(|index| tokens.kind(index))
         .find(|kind| !kind.is_trivia());
-    matches!(word, "invariant" | "always" | "eventually")
+    matches!(word, "invariant" | "always" | "eventually" | "check")
         && !matches!(
             second,
             Some(LeftParen | Equal | Newline | Dot | LeftBracket) | None

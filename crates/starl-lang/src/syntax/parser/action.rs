@@ -141,6 +141,10 @@ fn clauses(parser: &mut Parser<'_>) {
                 clause(parser);
                 parser.end_line();
             }
+            _ if at_every(parser) => {
+                every(parser);
+                parser.end_line();
+            }
             _ => outside_eff(parser, &mut seen),
         }
     }
@@ -186,18 +190,35 @@ impl Seen {
     }
 }
 
-/// `pre` and a condition, or `eff` and statements.
+/// `pre` and a condition, perhaps with `for` and a time, or `eff` and statements.
 fn clause(parser: &mut Parser<'_>) {
     if parser.at(PreKeyword) {
         parser.start(PreClause);
         parser.bump();
         slips::header_colon(parser, HeaderColon::Remove);
         expression::condition(parser);
+        if parser.eat(ForKeyword) {
+            expression::expression(parser);
+        }
     } else {
         parser.start(EffClause);
         parser.bump();
         block::after_word(parser, "`eff`", true);
     }
+    parser.finish();
+}
+
+/// Whether `every` and a time are next, rather than a statement that begins with a name.
+fn at_every(parser: &Parser<'_>) -> bool {
+    let next = parser.nth(1);
+    parser.at_word("every") && !next.is_assignment() && !matches!(next, Dot | Newline | Semicolon)
+}
+
+/// `every` and a time.
+fn every(parser: &mut Parser<'_>) {
+    parser.start(EveryClause);
+    parser.bump();
+    expression::expression(parser);
     parser.finish();
 }
 

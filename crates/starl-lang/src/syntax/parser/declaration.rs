@@ -37,13 +37,18 @@ pub(super) fn parameter(parser: &mut Parser<'_>) {
     name(parser);
     if parser.expect(Colon) {
         types::any(parser);
-        if parser.at(InKeyword) {
-            parser.start(ParameterRange);
-            parser.bump();
-            expression::expression(parser);
-            parser.finish();
-        }
+        range(parser);
         value(parser);
+    }
+}
+
+/// `in from..before`, if that is next.
+fn range(parser: &mut Parser<'_>) {
+    if parser.at(InKeyword) {
+        parser.start(ParameterRange);
+        parser.bump();
+        expression::expression(parser);
+        parser.finish();
     }
 }
 
@@ -59,11 +64,12 @@ pub(super) fn constant(parser: &mut Parser<'_>) {
     }
 }
 
-/// `name: Type`, and a value if it has one.
+/// `name: Type`, and a range and a value if it has them.
 pub(super) fn variable(parser: &mut Parser<'_>) {
     name(parser);
     parser.expect(Colon);
     types::any(parser);
+    range(parser);
     value(parser);
 }
 

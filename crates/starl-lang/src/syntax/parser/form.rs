@@ -48,6 +48,7 @@ fn by_word(parser: &Parser<'_>, word: &str) -> Option<Form> {
         "invariant" | "always" | "eventually" => {
             property::is_next(parser).then_some((PropertyDeclaration, property::property))
         }
+        "check" => property::is_check(parser).then_some((CheckDeclaration, property::check)),
         "stable" => stable::form(parser),
         "init" => declare::is_init(parser).then_some((InitDeclaration, declare::init)),
         _ => by_meaning(word).filter(|_| contextual(parser)),
@@ -88,6 +89,7 @@ pub(super) fn by_meaning(word: &str) -> Option<Form> {
         "allread" => (SharedDeclaration, shared::all_read),
         "allwrite" => (SharedDeclaration, shared::all_write),
         "invariant" | "always" | "eventually" => (PropertyDeclaration, property::property),
+        "check" => (CheckDeclaration, property::check),
         _ => return None,
     })
 }

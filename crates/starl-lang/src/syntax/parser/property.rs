@@ -1,5 +1,5 @@
-//! Properties: `invariant name: condition`, `eventually name: condition within 30s`,
-//! `always name: condition leads_to condition within 30s`.
+//! Properties and checks: `invariant name: condition`, `eventually name: condition within 30s`,
+//! `always name: condition leads_to condition within 30s`, `check condition`.
 
 use super::item::name;
 use super::{Parser, SyntaxKind::*, expression};
@@ -14,9 +14,24 @@ pub(super) fn is_next(parser: &Parser<'_>) -> bool {
     }
 }
 
+/// Whether the word `check` that is next begins a check: `check: Bool` is a variable.
+pub(super) fn is_check(parser: &Parser<'_>) -> bool {
+    parser.nth(1) != Colon && (parser.nth(1) == LeftBracket || is_next(parser))
+}
+
+/// A check, which has no name.
+pub(super) fn check(parser: &mut Parser<'_>) {
+    parser.bump();
+    expression::condition(parser);
+}
+
 /// A property, whose name may be missing.
 pub(super) fn property(parser: &mut Parser<'_>) {
+    let is_eventual = parser.at_word("eventually");
     parser.bump();
+    if is_eventual && parser.at_word("always") && parser.nth(1) != Colon {
+        parser.bump();
+    }
     if parser.nth(1) == Colon && (parser.at(Identifier) || parser.current().is_keyword()) {
         name(parser);
     }
@@ -29,5 +44,27 @@ pub(super) fn property(parser: &mut Parser<'_>) {
     if parser.at_word("within") {
         parser.bump();
         expression::expression(parser);
+    }
+    if parser.at_word("recovers") {
+        parser.bump();
+        word(parser, "within");
+        expression::expression(parser);
+    }
+    if parser.at_word("assuming") {
+        parser.bump();
+        expression::condition(parser);
+    }
+    if parser.at_word("despite") {
+        parser.bump();
+        word(parser, "crashes");
+    }
+}
+
+/// A word that has to come next.
+fn word(parser: &mut Parser<'_>, expected: &str) {
+    if parser.at_word(expected) {
+        parser.bump();
+    } else {
+        parser.unexpected(&alloc::format!("`{expected}`"));
     }
 }

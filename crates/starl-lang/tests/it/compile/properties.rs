@@ -91,7 +91,9 @@ fn claims_and_deadlines() {
             .unwrap();
         match found.claim {
             Claim::Always(_) => panic!("it has none"),
-            Claim::Eventually { within, .. } | Claim::LeadsTo { within, .. } => within,
+            Claim::Eventually { within, .. }
+            | Claim::EventuallyAlways { within, .. }
+            | Claim::LeadsTo { within, .. } => within,
         }
     };
     assert_eq!(within("done"), Some(240_000_000_000));

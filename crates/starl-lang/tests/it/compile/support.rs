@@ -239,7 +239,9 @@ impl Robot {
         let properties = &self.program.bytecode().properties;
         let property = properties.iter().find(|property| property.name == name);
         let functions = match property.expect("there is such a property").claim {
-            Claim::Always(holds) | Claim::Eventually { holds, .. } => vec![holds],
+            Claim::Always(holds)
+            | Claim::Eventually { holds, .. }
+            | Claim::EventuallyAlways { holds, .. } => vec![holds],
             Claim::LeadsTo {
                 cause, consequence, ..
             } => vec![cause, consequence],

@@ -140,7 +140,9 @@ impl<'a> Run<'a> {
         let mut results = Vec::new();
         for property in &program.bytecode().properties {
             let functions = match property.claim {
-                Claim::Always(holds) | Claim::Eventually { holds, .. } => vec![holds],
+                Claim::Always(holds)
+                | Claim::Eventually { holds, .. }
+                | Claim::EventuallyAlways { holds, .. } => vec![holds],
                 Claim::LeadsTo {
                     cause, consequence, ..
                 } => vec![cause, consequence],

@@ -190,7 +190,9 @@ impl<'a> Reference<'a> {
         let mut results = Vec::new();
         for property in &self.program.properties {
             let conditions = match &property.claim {
-                Claim::Always(holds) | Claim::Eventually { holds, .. } => vec![holds],
+                Claim::Always(holds)
+                | Claim::Eventually { holds, .. }
+                | Claim::EventuallyAlways { holds, .. } => vec![holds],
                 Claim::LeadsTo {
                     cause, consequence, ..
                 } => vec![cause, consequence],
