@@ -16,7 +16,7 @@ pub struct Stream {
     known: usize,
 }
 
-/// What the writer gives: first the header, later chunks, whose messages are known then.
+/// The bytes of the writer: first the header, later chunks, whose messages are known then.
 #[derive(Clone, Default)]
 struct Chunks(Arc<Mutex<Vec<u8>>>);
 
@@ -64,7 +64,7 @@ impl Stream {
         self.known = unfinished.len();
     }
 
-    /// What is new since the last time.
+    /// The bytes added since the last time.
     pub fn take(&mut self) -> Vec<u8> {
         mem::take(&mut self.fresh)
     }

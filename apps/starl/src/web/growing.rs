@@ -37,7 +37,7 @@ impl Growing {
         Ok((Growing { path, size }, Writer { file, size: sender }))
     }
 
-    /// Answers with the trace, which ends when nobody writes to it any more.
+    /// Answers with the trace, which ends when its writer has gone.
     pub async fn answer(&self) -> Response {
         let (sender, receiver) = tokio::io::duplex(CHUNK);
         let (path, size) = (self.path.clone(), self.size.clone());
