@@ -54,7 +54,7 @@ fn flocking() {
 
 #[test]
 fn auction() {
-    recovers("auction", "30s", 30);
+    recovers("auction", "15s", 30);
 }
 
 #[test]

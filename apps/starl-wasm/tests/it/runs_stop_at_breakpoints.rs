@@ -260,7 +260,7 @@ fn an_error_while_it_is_evaluated_stops_the_run() {
     let mut client = race();
     set(
         &mut client,
-        json!([{"when": {"expression": "target[currentIndex].x > 1000m"}}]),
+        json!([{"when": {"expression": "way_points()[currentIndex].x > 1000m"}}]),
     );
     let stopped = client.ask("run", json!({}))["stopped"].clone();
     let text = stopped["text"].as_str().expect("a text");

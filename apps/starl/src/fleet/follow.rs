@@ -2,7 +2,7 @@
 //!
 //! Each robot tells what happens on it (`starl_node::link::frame::Seen`). The times in the trace count from when the
 //! fleet is followed. How far a robot's clock is from that is taken from the quickest packet that came from it, so that
-//! events of different robots are in order but for the time that packets take.
+//! events of different robots are in order to within the time that packets take.
 
 use super::connect::connect;
 use super::file::Fleet;
@@ -19,7 +19,7 @@ use std::io;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// What has happened is shown this often.
+/// Events are shown this often.
 const PERIOD: Duration = Duration::from_millis(50);
 
 /// Events wait for so long for earlier ones of other robots.
@@ -47,7 +47,7 @@ impl Follower {
         &self.fleet.name
     }
 
-    /// Hands on a trace, piece by piece, until nobody takes it any more.
+    /// Hands on a trace, piece by piece, until its taker refuses.
     pub fn run(mut self, mut take: impl FnMut(&[u8]) -> io::Result<()>) -> Result<(), Failure> {
         let application = &self.fleet.application;
         let setting = starl_sim::setting(application.scenario());
@@ -114,7 +114,7 @@ struct Order {
 
 impl Order {
     fn insert(&mut self, mut record: Record) {
-        // What comes too late is shown late.
+        // An event that comes too late is shown late.
         record.at = record.at.max(self.last);
         self.count += 1;
         self.waiting.insert((record.at, self.count), record);
@@ -128,7 +128,7 @@ impl Order {
     }
 }
 
-/// What a robot has told.
+/// The events that a robot has sent.
 #[derive(Default)]
 struct Told {
     /// How much later it is for the follower than for the robot, nanoseconds; as of the quickest packet.
@@ -143,10 +143,10 @@ struct Told {
 }
 
 impl Told {
-    /// What a packet that arrived `now` tells, with the follower's times.
+    /// The events of a packet that arrived `now`, with the follower's times.
     fn take(&mut self, now: Duration, seen: Seen) -> std::vec::IntoIter<(Time, Event)> {
         if self.begun.is_some_and(|begun| seen.begun < begun) {
-            // What was still on its way when the robot began anew.
+            // It was still on its way when the robot restarted.
             return Vec::new().into_iter();
         }
         let before = self.begun.replace(seen.begun);

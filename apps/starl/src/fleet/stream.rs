@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub struct Stream {
     writer: Writer<Chunks>,
     chunks: Chunks,
-    /// What was not taken yet.
+    /// The bytes that were not taken yet.
     fresh: Vec<u8>,
     /// How much of the writer's unfinished chunk is in `fresh` or was taken.
     known: usize,

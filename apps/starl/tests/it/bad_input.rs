@@ -248,15 +248,44 @@ fn commands_that_do_not_exist_are_refused() {
 
 #[test]
 #[cfg(unix)]
-fn files_without_end_are_not_read_to_it() {
-    let folder = folder("files_without_end");
-    refused(&folder, &["run", "/dev/zero"], &["/dev/zero", "256 MiB"]);
-    let text =
-        "program = \"race\"\nworld.files = [\"/dev/zero\"]\n[[robots]]\nmodel = \"create\"\n";
-    file(&folder, "endless.toml", text);
-    refused(
-        &folder,
-        &["run", "endless.toml"],
-        &["endless.toml:2", "256 MiB"],
-    );
+fn what_is_not_an_ordinary_file_is_refused() {
+    let folder = folder("special_files");
+    let pipe = folder.join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.is_ok_and(|status| status.success()));
+    for special in ["/dev/zero", "pipe"] {
+        let message = "not an ordinary file";
+        refused(&folder, &["run", special], &[special, message]);
+        let text = format!(
+            "program = \"race\"\nworld.files = [\"{special}\"]\n[[robots]]\nmodel = \"create\"\n"
+        );
+        file(&folder, "special.toml", &text);
+        refused(
+            &folder,
+            &["run", "special.toml"],
+            &["special.toml:2", message],
+        );
+    }
+}
+
+#[test]
+fn a_fleet_beyond_the_limit_is_refused_before_it_is_placed() {
+    let folder = folder("huge_fleet");
+    let group = "[[robots]]\nmodel = \"create\"\ncount = 10000000\n";
+    let text = format!("program = \"race\"\n{}", group.repeat(1000));
+    file(&folder, "huge.toml", &text);
+    let message = "the fleet has 10000000000 robots";
+    refused(&folder, &["run", "huge.toml"], &[message]);
+}
+
+#[test]
+fn a_robot_whose_name_would_leave_its_folder_is_refused() {
+    let folder = folder("bad_names");
+    for name in ["../up", "a\\u0000b"] {
+        let text =
+            format!("program = \"race\"\n[[robots]]\nmodel = \"create\"\nname = \"{name}\"\n");
+        file(&folder, "name.toml", &text);
+        let message = "cannot be the name of a robot";
+        refused(&folder, &["run", "name.toml"], &["name.toml:4", message]);
+    }
 }

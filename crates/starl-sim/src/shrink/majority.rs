@@ -47,9 +47,14 @@ pub(super) fn is_lost(scenario: &Scenario) -> bool {
     })
 }
 
-/// The smallest fleet in which the failure of a scenario can be of the same kind: several robots where there
-/// were several, and three where a majority was lost, since of two robots there is none but both.
-pub(super) fn least_robots(scenario: &Scenario) -> usize {
-    let least = if is_lost(scenario) { 3 } else { 2 };
+/// The smallest fleet in which the failure of a scenario can be of the same kind. Where a majority was lost it has
+/// three robots, since of two robots only both are a majority; where something happened that should not have, it
+/// has two.
+pub(super) fn least_robots(scenario: &Scenario, has_happened: bool) -> usize {
+    let least = match (is_lost(scenario), has_happened) {
+        (true, _) => 3,
+        (false, true) => 2,
+        (false, false) => 1,
+    };
     scenario.fleet.len().min(least)
 }

@@ -81,7 +81,7 @@ pub fn shrink(
         fails,
     };
     search.loses_majority = majority::is_lost(&search.best);
-    search.least_robots = majority::least_robots(&search.best);
+    search.least_robots = majority::least_robots(&search.best, shorter);
     search.needs_trouble = !search.fails_without_trouble(scenario, limits.seeds);
     let mut is_minimal = false;
     while !is_minimal && !search.is_exhausted() {
