@@ -82,9 +82,10 @@ trace: $(STARL)
 schema: $(STARL)
 	$(VENV)/python tools/check_schema.py $(STARL)
 
-# Every example reaches its goal, in calm and in bad weather.
+# Every example reaches its goal, in calm and in bad weather, and looks as in its picture.
 examples: $(STARL)
 	tools/examples.sh $(STARL)
+	python3 tools/check_pictures.py $(STARL)
 
 # The emulated devices, driven by libraries that are not ours.
 FOREIGN = platforms/starl-emulate/tests/foreign

@@ -34,6 +34,8 @@ pub struct Shard {
     pub posted: Vec<Posted>,
     /// When something happens to each robot next, arrivals of datagrams aside.
     due: Vec<Time>,
+    /// The earliest of these.
+    earliest: Time,
     /// How many of the outbox have been routed.
     routed: usize,
     pub log: Log,
@@ -76,17 +78,23 @@ impl Shard {
         };
         self.due.clear();
         self.due.extend(self.minds.iter().map(due));
+        self.find_earliest();
     }
 
     /// When something happens to any robot next, arrivals of datagrams aside.
     pub fn next_due(&self) -> Time {
-        self.due.iter().copied().min().unwrap_or(Time::NEVER)
+        self.earliest
+    }
+
+    fn find_earliest(&mut self) {
+        self.earliest = self.due.iter().copied().min().unwrap_or(Time::NEVER);
     }
 
     /// A datagram arrives at one of the robots.
     pub fn arrives(&mut self, robot: RobotId, at: Time) {
         let due = &mut self.due[(robot.0 - self.first) as usize];
         *due = at.min(*due);
+        self.earliest = at.min(self.earliest);
     }
 
     /// Lets each robot take its inputs of this slot of the step that began at `step`.
@@ -123,6 +131,7 @@ impl Shard {
             };
             self.due[index] = turn.run(&mut scratch.arrivals);
         }
+        self.find_earliest();
     }
 
     /// Predicts the motion of each robot in a step; `next` receives the predicted positions.
