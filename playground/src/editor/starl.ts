@@ -8,7 +8,9 @@ const DECLARATIONS = new Set(
   ),
 );
 const CONTROL = new Set("if then elif else for in return let pre every eff".split(" "));
-const OPERATORS = new Set("and or not some forall exists leads_to within recovers assuming despite crashes".split(" "));
+const OPERATORS = new Set(
+  "and or not some forall exists leads_to within recovers assuming despite crashes".split(" "),
+);
 const ATOMS = new Set(["true", "false", "none"]);
 const TYPES = new Set(
   "Bool Int Float String Point Time Duration RobotId Area Obstacles List Set Map".split(" "),

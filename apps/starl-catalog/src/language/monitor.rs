@@ -10,6 +10,9 @@ use starl_properties::{Monitor, Violation, Witness};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+/// The fleet and the waypoints that programs know.
+type Known = (Arc<[RobotId]>, Arc<[WayPoint]>);
+
 /// Watches the properties of one program on the robots that run it.
 #[derive(Clone)]
 pub struct ProgramMonitor {
@@ -20,7 +23,7 @@ pub struct ProgramMonitor {
     /// The robots of which a check was false although no fault had overwritten variables.
     unsound: BTreeSet<RobotId>,
     /// The fleet and its waypoints at the start. Where an operator changes them checks may be false.
-    first: Option<(Arc<[RobotId]>, Arc<[WayPoint]>)>,
+    first: Option<Known>,
 }
 
 impl ProgramMonitor {

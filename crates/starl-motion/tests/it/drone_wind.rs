@@ -3,7 +3,7 @@
 use crate::conformance::{Positioning, Run};
 use starl_core::math::{TAU, radians, sin, tan};
 use starl_core::{Duration, Point, Pose};
-use starl_motion::{Goal, Model, models};
+use starl_motion::{Goal, models};
 
 /// The wind that an AR.Drone at its greatest tilt can just hold against, m/s: its drag is 0.3 kg/s,
 /// its mass 0.42 kg.
