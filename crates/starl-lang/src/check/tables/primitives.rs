@@ -82,7 +82,7 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "failed: Bool",
                 Query,
-                "Whether the robot entered the unsafe set.",
+                "Whether the robot entered the unsafe set, or the wind is stronger than it can hold against.",
             ),
         ],
         events: &[],
