@@ -86,6 +86,14 @@ fn warn(application: &Application, origin: &Origin) {
         let text = findings.render(&origin.name(findings), console::colour_of_errors());
         console::complain(&text);
     }
+    let network = &application.scenario().network;
+    if let Some(delay) = network.too_short_delays().next() {
+        let resolution = network.resolution;
+        console::complain(&format!(
+            "warning: network.delay: {delay} is shorter than network.resolution, so datagrams take up to {resolution}; \
+             lower `network.resolution`\n"
+        ));
+    }
 }
 
 /// Tells of programs with errors, each with its lines; the failure sums them up.

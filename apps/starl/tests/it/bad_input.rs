@@ -279,6 +279,25 @@ fn a_fleet_beyond_the_limit_is_refused_before_it_is_placed() {
 }
 
 #[test]
+fn a_delay_that_cannot_act_is_pointed_out() {
+    let folder = folder("short_delay");
+    let said = |sets: &[&str]| {
+        let sets = sets.iter().flat_map(|set| ["--set", *set]);
+        let arguments: Vec<&str> = ["run", "race", "--json"].into_iter().chain(sets).collect();
+        let output = starl(&folder, &arguments);
+        assert_eq!(status(&output), 0);
+        stderr(&output)
+    };
+    let (short, none) = ("network.delay=0.5ms", "network.jitter=0ms");
+    let warning = said(&[short, none]);
+    assert!(warning.starts_with("warning: network.delay: "), "{warning}");
+    assert!(warning.contains("network.resolution"), "{warning}");
+    assert_eq!(said(&[short, none, "network.resolution=0.1ms"]), "");
+    assert_eq!(said(&["network.delay=0ms", none]), "");
+    assert_eq!(said(&[]), "");
+}
+
+#[test]
 fn a_robot_whose_name_would_leave_its_folder_is_refused() {
     let folder = folder("bad_names");
     for name in ["../up", "a\\u0000b"] {

@@ -139,6 +139,14 @@ impl Network {
         }
     }
 
+    /// Delays that are shorter than the resolution, so that they do not act as they are given; none where
+    /// datagrams are to arrive at once.
+    pub fn too_short_delays(&self) -> impl Iterator<Item = Duration> {
+        let overrides = self.overrides.iter().map(|different| &different.link);
+        let delays = overrides.chain([&self.link]).map(|link| link.delay);
+        delays.filter(|delay| !delay.is_zero() && *delay < self.resolution)
+    }
+
     /// The properties of the link between two robots.
     pub fn link(&self, from: RobotId, to: RobotId) -> &Link {
         let names = |set: &Option<Vec<RobotId>>, robot| {
