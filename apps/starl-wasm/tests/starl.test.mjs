@@ -186,7 +186,7 @@ test("a failure is found and shrunk in pieces", async () => {
   assert.deepEqual([tried.outcome, tried.wrong, tried.seed], ["violated", "Shy.shy", "7"]);
   const first = starl.shrink(files, {}, "lossy", 7, { most: 1 });
   const last = starl.shrink(files, {}, "lossy", 7);
-  assert.deepEqual([first.trials, first.minimal, last.minimal, last.after.robots], [1, false, true, 1]);
+  assert.deepEqual([first.trials, first.minimal, last.minimal, last.after.robots], [1, false, true, 2]);
   const again = starl.open({ ...files, "small.toml": last.scenario });
   again.run({ until: last.tried.now });
   assert.equal(again.report().digest, last.tried.digest);

@@ -159,6 +159,11 @@ fn config(options: &ZenohOptions) -> Result<Config, ZenohError> {
     set("scouting/multicast/enabled", "false")?;
     set("scouting/gossip/enabled", "true")?;
     set("transport/link/tx/queue/size/data", "16")?;
+    // Microseconds that a packet waits for room, before it is dropped.
+    set(
+        "transport/link/tx/queue/congestion_control/drop/wait_before_drop",
+        "50000",
+    )?;
     if let Some(tls) = &options.tls {
         let path = |path: &PathBuf| format!("{:?}", path.display().to_string());
         set(
