@@ -1,11 +1,11 @@
-//! What a Crazyflie is to do: set-points, each for half a second, and manoeuvres, which it flies by itself.
+//! Commands to a Crazyflie. A set-point holds for half a second; a manoeuvre is flown by the Crazyflie itself.
 //!
 //! Angles are in degrees here, as on the wire. Pitch is positive nose up, roll positive to the right, yaw positive to the
 //! left.
 
 use crate::packet::{Numbers, Packet, port};
 
-/// What to do until the next set-point.
+/// A set-point: the motion until the next one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SetPoint {
     /// The motors stop at once, and a Crazyflie in the air falls.

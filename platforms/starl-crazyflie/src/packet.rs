@@ -24,9 +24,9 @@ pub mod port {
 /// A packet.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Packet {
-    /// What it is about, 0 to 15.
+    /// The port, 0 to 15: each service of the Crazyflie has its own.
     pub port: u8,
-    /// A part of that, 0 to 3.
+    /// The channel of the port, 0 to 3.
     pub channel: u8,
     /// The content, up to [`LONGEST`] bytes.
     pub content: Vec<u8>,

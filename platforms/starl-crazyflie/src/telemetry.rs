@@ -34,7 +34,7 @@ const TUMBLED: u16 = 1 << 5;
 const LOCKED: u16 = 1 << 6;
 const CRASHED: u16 = 1 << 7;
 
-/// What a Crazyflie says of itself.
+/// The state that a Crazyflie reports.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
     /// Where it believes to be, metres; its own frame.
@@ -98,7 +98,7 @@ enum Phase {
     Sending,
 }
 
-/// What a packet says.
+/// The content of a packet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum News {
     /// The log is set up a step further.

@@ -13,13 +13,13 @@ const POSITION_GAIN: f64 = 0.95;
 const VELOCITY_GAIN: f64 = 1.8;
 /// Rate of turn per error of yaw, 1/s.
 const YAW_GAIN: f64 = 2.0;
-/// What drag takes from the velocity, 1/s: what the integral part of a real loop learns.
+/// Drag per mass, 1/s. A real loop learns it by its integral part.
 const DRAG: f64 = 0.3 / 0.42;
 /// Greatest speed to a position, metres per second.
 const SPEED: f64 = 1.5;
 const GRAVITY: f64 = 9.80665;
 
-/// What a computer has asked for, in the world's frame; what it left out is `None`.
+/// The motion that a computer has asked for, in the world's frame. A part that it left out is `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SetPoint {
     pub position: Option<Point>,

@@ -1,4 +1,4 @@
-//! What an emulated Crazyflie does with set-points and manoeuvres.
+//! How an emulated Crazyflie flies set-points and manoeuvres.
 
 use crate::BodyHandle;
 use crate::control::{self, fly};
