@@ -259,16 +259,9 @@ impl Simulation {
             self.calendar.turn(robots, (end, slot.to), inboxes);
             self.act_in_slot(window.from, slot);
             for shard in &mut self.shards {
-                let posted = std::mem::take(&mut shard.posted);
-                radio::post(
-                    &mut self.calendar,
-                    &shard.outbox,
-                    &posted,
-                    sent_arrives,
-                    slots,
-                );
-                shard.posted = posted;
-                shard.posted.clear();
+                let Shard { outbox, posted, .. } = shard;
+                radio::post(&mut self.calendar, outbox, posted, sent_arrives, slots);
+                posted.clear();
             }
         }
         let shared = &self.shared;

@@ -155,9 +155,10 @@ impl Search<'_> {
         self.trials >= self.limits.trials
     }
 
-    /// Runs a scenario, unless so many were run that it is time to stop.
+    /// Runs a scenario, unless so many were run that it is time to stop, or it loses a majority that was there.
     fn try_out(&mut self, candidate: &Scenario) -> Option<Time> {
-        if self.is_exhausted() {
+        let loses_majority = !self.loses_majority && majority::is_lost(candidate);
+        if self.is_exhausted() || loses_majority {
             return None;
         }
         self.trials += 1;
@@ -166,9 +167,6 @@ impl Search<'_> {
 
     /// Keeps the candidate if it fails.
     fn propose(&mut self, candidate: Scenario) -> bool {
-        if majority::is_lost(&candidate) && !self.loses_majority {
-            return false;
-        }
         let failed_at = self.try_out(&candidate);
         if let Some(at) = failed_at {
             (self.best, self.failed_at) = (candidate, at);
@@ -179,9 +177,6 @@ impl Search<'_> {
     /// Keeps a candidate with a smaller fleet if it fails, and for the trouble that it is in if that was so
     /// before.
     fn propose_fleet(&mut self, candidate: Scenario) -> bool {
-        if majority::is_lost(&candidate) && !self.loses_majority {
-            return false;
-        }
         let failed_at = self.try_out(&candidate);
         let fails = failed_at.is_some()
             && !(self.needs_trouble && self.fails_without_trouble(&candidate, 0));
