@@ -7,10 +7,10 @@ use crate::examples::{self, EXAMPLES};
 use crate::programs::Registry;
 use crate::schema::schema;
 use crate::session::{
-    Budget, Document, Refused, Session, Status, World, check, fleet, formatted, states,
+    Budget, Disk, Document, Files, Refused, Session, Status, World, check, fleet, formatted, states,
 };
 use crate::trial::{Trials, profiles};
-use request::Request;
+use request::{Contents, Request};
 use serde::Serialize;
 use serde_json::{Value, json};
 use starl_core::Time;
@@ -27,6 +27,7 @@ pub struct Service {
     next: u32,
     trials: Trials,
     interrupt: Arc<AtomicBool>,
+    disk: Option<Disk>,
 }
 
 impl Service {
@@ -36,6 +37,29 @@ impl Service {
             registry,
             ..Service::default()
         }
+    }
+
+    /// The same, for a host with a disk: scenarios and programs find the files there that are not in a request.
+    #[must_use]
+    pub fn with_disk(self, disk: Disk) -> Service {
+        Service {
+            disk: Some(disk),
+            ..self
+        }
+    }
+
+    /// A simulation.
+    ///
+    /// # Errors
+    /// If there is none of this number.
+    pub fn session(&mut self, simulation: u32) -> Result<&mut Session, String> {
+        let session = self.sessions.get_mut(&simulation);
+        session
+            .ok_or_else(|| format!("there is no simulation {simulation}; it may have been closed"))
+    }
+
+    fn files(&self, contents: Contents) -> Files {
+        Files::from(contents).with_disk(self.disk)
     }
 
     /// A flag that stops what is under way: while it is set, no simulation runs on. Any thread may set it.
@@ -96,24 +120,24 @@ impl Service {
         let answer = match request {
             Request::Examples {} => answer(&all_examples()),
             Request::Schema {} => answer(&schema()),
-            Request::Check { files } => answer(&check(&files.into(), &self.registry)),
+            Request::Check { files } => answer(&check(&self.files(files), &self.registry)),
             Request::Hover {
                 files,
                 path,
                 position,
-            } => answer(&Document::open(&files.into(), &path)?.hover(position)),
+            } => answer(&Document::open(&self.files(files), &path)?.hover(position)),
             Request::Complete {
                 files,
                 path,
                 position,
-            } => answer(&Document::open(&files.into(), &path)?.complete(position)),
+            } => answer(&Document::open(&self.files(files), &path)?.complete(position)),
             Request::Definition {
                 files,
                 path,
                 position,
-            } => answer(&Document::open(&files.into(), &path)?.definition(position)),
+            } => answer(&Document::open(&self.files(files), &path)?.definition(position)),
             Request::Outline { files, path } => {
-                answer(&Document::open(&files.into(), &path)?.outline())
+                answer(&Document::open(&self.files(files), &path)?.outline())
             }
             Request::Format { text } => answer(&formatted(&text)),
             Request::Profiles {} => answer(&profiles()),
@@ -123,7 +147,7 @@ impl Service {
                 profile,
                 seed,
             } => {
-                let (target, trial) = ((files.into(), options), (&*profile, &*seed));
+                let (target, trial) = ((self.files(files), options), (&*profile, &*seed));
                 answer(&self.trials.try_out(target, trial, &self.registry)?)
             }
             Request::ProfileScenario {
@@ -132,7 +156,7 @@ impl Service {
                 profile,
                 seed,
             } => {
-                let (target, trial) = ((files.into(), options), (&*profile, &*seed));
+                let (target, trial) = ((self.files(files), options), (&*profile, &*seed));
                 answer(&self.trials.scenario(target, trial, &self.registry)?)
             }
             Request::Shrink {
@@ -142,7 +166,7 @@ impl Service {
                 seed,
                 most,
             } => {
-                let (target, trial) = ((files.into(), options), (&*profile, &*seed));
+                let (target, trial) = ((self.files(files), options), (&*profile, &*seed));
                 let most = most.unwrap_or(Limits::default().trials);
                 answer(&self.trials.shrink(target, trial, most, &self.registry)?)
             }
@@ -151,7 +175,7 @@ impl Service {
                 options,
                 topics,
             } => {
-                let mut session = Session::open(&files.into(), &options, &self.registry)?;
+                let mut session = Session::open(&self.files(files), &options, &self.registry)?;
                 if let Some(topics) = topics {
                     session.set_topics(&topics)?;
                 }
@@ -165,15 +189,15 @@ impl Service {
                 Answer::Json(self.adopt(session))
             }
             Request::Trace { simulation } => {
-                Answer::Text(starl_trace::json_bytes(&self.find(simulation)?.trace()?))
+                Answer::Text(starl_trace::json_bytes(&self.session(simulation)?.trace()?))
             }
             Request::Close { simulation } => {
-                self.find(simulation)?;
+                self.session(simulation)?;
                 self.sessions.remove(&simulation);
                 Answer::Json(Value::Null)
             }
-            Request::Status { simulation } => answer(&self.find(simulation)?.status()),
-            Request::Step { simulation } => answer(&self.find(simulation)?.step()),
+            Request::Status { simulation } => answer(&self.session(simulation)?.status()),
+            Request::Step { simulation } => answer(&self.session(simulation)?.step()),
             Request::Run {
                 simulation,
                 until,
@@ -185,13 +209,13 @@ impl Service {
                     steps: steps.unwrap_or(u64::MAX),
                 };
                 let sample = sample.map(|sample| sample.0);
-                answer(&self.find(simulation)?.advance(budget, sample))
+                answer(&self.session(simulation)?.advance(budget, sample))
             }
             Request::Breakpoints {
                 simulation,
                 breakpoints,
             } => {
-                self.find(simulation)?.set_breakpoints(breakpoints)?;
+                self.session(simulation)?.set_breakpoints(breakpoints)?;
                 Answer::Json(Value::Null)
             }
             Request::Apply {
@@ -199,47 +223,41 @@ impl Service {
                 at,
                 intervention,
             } => {
-                let session = self.find(simulation)?;
+                let session = self.session(simulation)?;
                 let at = at.map_or(Time::ZERO, |at| at.0);
                 session.apply(at, intervention)?;
                 Answer::Json(Value::Null)
             }
-            Request::Snapshot { simulation } => answer(&self.find(simulation)?.snapshot()),
+            Request::Snapshot { simulation } => answer(&self.session(simulation)?.snapshot()),
             Request::Restore {
                 simulation,
                 snapshot,
-            } => answer::<Status>(&self.find(simulation)?.restore(snapshot)?),
+            } => answer::<Status>(&self.session(simulation)?.restore(snapshot)?),
             Request::Drop {
                 simulation,
                 snapshot,
             } => {
-                self.find(simulation)?.forget(snapshot)?;
+                self.session(simulation)?.forget(snapshot)?;
                 Answer::Json(Value::Null)
             }
-            Request::Scenario { simulation } => answer(&self.find(simulation)?.scenario()),
+            Request::Scenario { simulation } => answer(&self.session(simulation)?.scenario()),
             Request::Records { simulation, max } => {
-                let session = self.find(simulation)?;
+                let session = self.session(simulation)?;
                 let batch = session.take_records(max.unwrap_or(usize::MAX));
                 let records = starl_trace::json_list(&batch.records);
                 let rest = format!(r#","left":{},"dropped":{}}}"#, batch.left, batch.dropped);
                 Answer::Text([br#"{"records":"#, &records[..], rest.as_bytes()].concat())
             }
-            Request::World { simulation } => answer(&World::of(self.find(simulation)?.run())),
-            Request::Fleet { simulation } => answer(&fleet(self.find(simulation)?.run())),
-            Request::States { simulation } => answer(&states(self.find(simulation)?.run())),
+            Request::World { simulation } => answer(&World::of(self.session(simulation)?.run())),
+            Request::Fleet { simulation } => answer(&fleet(self.session(simulation)?.run())),
+            Request::States { simulation } => answer(&states(self.session(simulation)?.run())),
             Request::Robot { simulation, robot } => {
-                let found = self.find(simulation)?.robot(robot);
+                let found = self.session(simulation)?.robot(robot);
                 answer(&found.ok_or_else(|| format!("there is no robot {robot}"))?)
             }
-            Request::Report { simulation } => answer(&self.find(simulation)?.report()),
+            Request::Report { simulation } => answer(&self.session(simulation)?.report()),
         };
         Ok(answer)
-    }
-
-    fn find(&mut self, simulation: u32) -> Result<&mut Session, String> {
-        let session = self.sessions.get_mut(&simulation);
-        session
-            .ok_or_else(|| format!("there is no simulation {simulation}; it may have been closed"))
     }
 }
 

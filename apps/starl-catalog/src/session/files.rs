@@ -1,39 +1,70 @@
 //! Files that are held in memory, and how scenarios and programs find each other among them.
 //!
-//! Paths are relative, with `/` between their parts; `.` and `..` are resolved.
+//! Paths have `/` between their parts; `.` and `..` are resolved. They are relative, but on a host that has a disk.
 
 use crate::examples::Example;
 use crate::language::SUFFIX;
 use starl_lang::check::{Libraries, StandardLibraries};
 use starl_lang::editor::is_library;
 use starl_sim::read::Loader;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Files by path.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Files(BTreeMap<String, Vec<u8>>);
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Files {
+    held: BTreeMap<String, Vec<u8>>,
+    disk: Option<Disk>,
+}
+
+/// Reads a file of the disk; the error says why it cannot be read.
+#[derive(Clone, Copy, Debug)]
+pub struct Disk(pub fn(&str) -> Result<Vec<u8>, String>);
+
+/// A file on disk may have changed since.
+impl PartialEq for Disk {
+    fn eq(&self, _: &Disk) -> bool {
+        false
+    }
+}
 
 impl FromIterator<(String, Vec<u8>)> for Files {
     fn from_iter<T: IntoIterator<Item = (String, Vec<u8>)>>(files: T) -> Files {
         let files = files.into_iter();
-        Files(
-            files
+        Files {
+            held: files
                 .map(|(path, content)| (resolve("", &path), content))
                 .collect(),
-        )
+            disk: None,
+        }
     }
 }
 
 impl Files {
+    /// The same; scenarios and programs also find the files on a disk. What is opened by its name must be held.
+    #[must_use]
+    pub fn with_disk(self, disk: Option<Disk>) -> Files {
+        Files { disk, ..self }
+    }
+
+    /// The content of a file that is held or, if there is a disk, on it.
+    fn content(&self, path: &str) -> Result<Cow<'_, [u8]>, String> {
+        match (self.held.get(path), self.disk) {
+            (Some(held), _) => Ok(Cow::Borrowed(held)),
+            (None, Some(Disk(read))) => read(path).map(Cow::Owned),
+            (None, None) => Err("there is no such file".to_string()),
+        }
+    }
+
     /// The paths of the files that end with `suffix`, in order.
     pub fn ending_with(&self, suffix: &str) -> impl Iterator<Item = &str> {
-        let paths = self.0.keys().map(String::as_str);
+        let paths = self.held.keys().map(String::as_str);
         paths.filter(move |path| path.ends_with(suffix))
     }
 
     /// Whether there is a file at this path.
     pub fn has(&self, path: &str) -> bool {
-        self.0.contains_key(&resolve("", path))
+        self.held.contains_key(&resolve("", path))
     }
 
     /// The text of a file.
@@ -41,7 +72,7 @@ impl Files {
     /// # Errors
     /// Where there is no such file, or it is not text in UTF-8.
     pub fn text(&self, path: &str) -> Result<&str, String> {
-        let bytes = self.0.get(&resolve("", path));
+        let bytes = self.held.get(&resolve("", path));
         let bytes = bytes.ok_or_else(|| "there is no such file".to_string())?;
         str::from_utf8(bytes).map_err(|error| {
             let before = &bytes[..error.valid_up_to()];
@@ -100,10 +131,10 @@ impl<'a> Beside<'a> {
 
 impl Loader for Beside<'_> {
     fn load(&self, path: &str) -> Result<Vec<u8>, String> {
-        match (self.files.0.get(&self.resolve(path)), self.example) {
-            (Some(content), _) => Ok(content.clone()),
-            (None, Some(example)) => example.load(path),
-            (None, None) => Err("there is no such file".to_string()),
+        match (self.files.content(&self.resolve(path)), self.example) {
+            (Ok(content), _) => Ok(content.into_owned()),
+            (Err(_), Some(example)) => example.load(path),
+            (Err(reason), None) => Err(reason),
         }
     }
 }
@@ -112,9 +143,10 @@ impl Loader for Beside<'_> {
 impl Libraries for Beside<'_> {
     fn source(&self, name: &str) -> Option<String> {
         let path = self.resolve(&format!("{name}{}", SUFFIX));
-        match self.files.text(&path) {
-            Ok(text) => Some(text.to_string()),
-            Err(_) => StandardLibraries.source(name),
+        let beside = self.files.content(&path).ok();
+        match beside.and_then(|content| String::from_utf8(content.into_owned()).ok()) {
+            Some(text) => Some(text),
+            None => StandardLibraries.source(name),
         }
     }
 
@@ -137,23 +169,26 @@ fn folder(path: &str) -> &str {
     path.rfind('/').map_or("", |end| &path[..=end])
 }
 
-/// The path of a file that is named from a folder. Beyond the outermost folder there is nothing.
+/// The path of a file that is named from a folder.
 fn resolve(folder: &str, named: &str) -> String {
+    let folder = if named.starts_with('/') { "" } else { folder };
+    let root = match named.starts_with('/') || folder.starts_with('/') {
+        true => "/",
+        false => "",
+    };
     let mut parts: Vec<&str> = Vec::new();
     for part in folder.split('/').chain(named.split('/')) {
         match part {
             "" | "." => {}
-            ".." => {
-                if parts.last().is_none_or(|&last| last == "..") {
-                    parts.push(part);
-                } else {
-                    parts.pop();
-                }
-            }
+            ".." => match parts.last() {
+                Some(&last) if last != ".." => _ = parts.pop(),
+                None if !root.is_empty() => {}
+                _ => parts.push(part),
+            },
             part => parts.push(part),
         }
     }
-    parts.join("/")
+    root.to_string() + &parts.join("/")
 }
 
 #[cfg(test)]

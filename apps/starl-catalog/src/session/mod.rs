@@ -17,7 +17,7 @@ mod report;
 pub use breakpoint::{Breakpoint, Stopped};
 pub use diagnostic::{Diagnostic, Edit, Related, check};
 pub use editor::{Completion, Definition, Document, Hover, Part, formatted};
-pub use files::{Beside, Files};
+pub use files::{Beside, Disk, Files};
 pub use inspect::{
     ActionReport, ClockReport, MailReport, PrimitiveReport, RobotReport, TimerReport,
     VariableReport,
@@ -42,7 +42,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// So many records are kept until they are taken; then the oldest are dropped.
+/// So many records are kept at first until they are taken; then the oldest are dropped.
 pub const MOST_RECORDS: usize = 200_000;
 
 /// A simulation with the moments of it that are kept. A copy goes on exactly as the original would.
@@ -52,6 +52,7 @@ pub struct Session {
     global_names: BTreeMap<String, String>,
     warnings: Vec<Diagnostic>,
     topics: Option<BTreeSet<Topic>>,
+    most_records: usize,
     breakpoints: Breakpoints,
     live: Live,
     kept: BTreeMap<u32, Live>,
@@ -143,6 +144,7 @@ impl Session {
             global_names,
             warnings,
             topics: None,
+            most_records: MOST_RECORDS,
             breakpoints: Breakpoints::default(),
             live: Live {
                 run,
@@ -180,6 +182,16 @@ impl Session {
         Ok(())
     }
 
+    /// Keeps up to so many records that were not taken.
+    pub fn set_most_records(&mut self, most: usize) {
+        self.most_records = most;
+    }
+
+    /// The records that are kept, in order.
+    pub fn records(&self) -> impl ExactSizeIterator<Item = &Record> {
+        self.live.records.iter()
+    }
+
     /// The warnings of the compiler.
     pub fn warnings(&self) -> &[Diagnostic] {
         &self.warnings
@@ -197,7 +209,8 @@ impl Session {
 
     /// Makes one physics step, also when the run is over.
     pub fn step(&mut self) -> Status {
-        let stopped = self.live.step(self.topics.as_ref(), &mut self.breakpoints);
+        let kept = (self.topics.as_ref(), self.most_records);
+        let stopped = self.live.step(kept, &mut self.breakpoints);
         Status {
             stopped,
             ..Status::of(&self.live.run, 1)
@@ -216,7 +229,8 @@ impl Session {
             if is_spent || live.run.is_over() || self.interrupt.load(Ordering::Relaxed) {
                 return Status::of(&live.run, steps);
             }
-            let stopped = live.step(self.topics.as_ref(), &mut self.breakpoints);
+            let kept = (self.topics.as_ref(), self.most_records);
+            let stopped = live.step(kept, &mut self.breakpoints);
             steps += 1;
             if let Some(period) = sample {
                 live.frames.sample(&live.run, before, period);
@@ -326,10 +340,11 @@ impl Session {
 }
 
 impl Live {
-    /// Makes a step; gives the breakpoint that was met in it.
+    /// Makes a step, of whose records it keeps those of some topics, and no more than so many; gives the breakpoint that
+    /// was met in it.
     fn step(
         &mut self,
-        topics: Option<&BTreeSet<Topic>>,
+        (topics, most): (Option<&BTreeSet<Topic>>, usize),
         breakpoints: &mut Breakpoints,
     ) -> Option<Stopped> {
         self.run.step();
@@ -338,7 +353,7 @@ impl Live {
             topics.is_none_or(|topics| topics.contains(&Topic::of(&record.event)))
         });
         self.records.extend(wanted.cloned());
-        let excess = self.records.len().saturating_sub(MOST_RECORDS);
+        let excess = self.records.len().saturating_sub(most);
         self.records.drain(..excess);
         self.dropped += excess as u64;
         match breakpoints.are_none() {

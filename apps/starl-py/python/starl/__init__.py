@@ -1,0 +1,26 @@
+"""StarL from Python: simulate, test and train fleets of robots.
+
+Unless something else is said, times are seconds since the start of the run, lengths are metres, angles are radians, and
+places are in one right-handed world frame with z up. Robots are numbers, from 0.
+"""
+
+from starl._errors import Diagnostic, StarlError
+from starl._files import Program, Scenario, examples
+from starl._simulation import Robot, Simulation, Snapshot, Status
+from starl._tables import Table
+from starl._trace import Trace, read_trace
+
+__all__ = [
+    "Diagnostic",
+    "Program",
+    "Robot",
+    "Scenario",
+    "Simulation",
+    "Snapshot",
+    "StarlError",
+    "Status",
+    "Table",
+    "Trace",
+    "examples",
+    "read_trace",
+]

@@ -1,0 +1,215 @@
+"""Scenarios and programs: what is to be simulated."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from starl._errors import Diagnostic, StarlError
+from starl._native import Engine
+from starl._requests import request
+
+#: Answers what belongs to no simulation.
+_SHARED = Engine()
+
+
+@dataclass(frozen=True)
+class Program:
+    """A program in the StarL language.
+
+    Raises StarlError, with all diagnostics, if it has errors. Warnings stand in `warnings`.
+    """
+
+    text: str
+    #: What messages call the program; libraries that it imports are looked for in the folder of this path.
+    path: str = "program.starl"
+    #: Libraries by name, which come before those in the folder.
+    libraries: Mapping[str, str] = field(default_factory=dict)
+    warnings: list[Diagnostic] = field(init=False, compare=False, repr=False)
+
+    def __post_init__(self) -> None:
+        found = [Diagnostic._of(one) for one in request(_SHARED, "check", files=self._files())]
+        errors = [one for one in found if one.severity == "error"]
+        if errors:
+            raise StarlError("\n".join(map(str, errors)), found)
+        object.__setattr__(self, "warnings", found)
+
+    @classmethod
+    def from_file(cls, path: str | Path) -> Program:
+        """The program in a file."""
+        return cls(_read(path), path=str(path))
+
+    def _files(self) -> dict[str, str]:
+        folder = Path(self.path).parent
+        libraries = {str(folder / f"{name}.starl"): text for name, text in self.libraries.items()}
+        return {self.path: self.text, **libraries}
+
+    def formatted(self) -> str:
+        """The text as `starl fmt` lays it out."""
+        text: str = request(_SHARED, "format", text=self.text)
+        return text
+
+
+class Scenario:
+    """A fleet, its world, its network and its programs: all that a run depends on but the seed, which it may name.
+
+    `Scenario("race")` is an example of that name, `Scenario.from_file(path)` a file and `Scenario.from_text(text)` the
+    text of one. Without any of these it starts from an empty floor with a few robots. Keywords are fields of the
+    scenario (docs/reference/scenario.md), tables as dictionaries:
+
+        Scenario(program=Program(text), robots="create=4", network={"loss": 0.1}, duration="60s")
+
+    Lengths, times and other quantities are text with a unit, or a number in the unit that the reference gives. Raises
+    StarlError that names file, line and field of everything that is wrong.
+    """
+
+    def __init__(
+        self,
+        example: str | None = None,
+        *,
+        program: Program | str | None = None,
+        robots: str | None = None,
+        faults: str | Path | None = None,
+        seed: int | None = None,
+        duration: str | float | None = None,
+        **fields: Any,
+    ) -> None:
+        self._files: dict[str, str] = {}
+        self._options: dict[str, Any] = {"scenario": example} if example is not None else {}
+        self._change(program=program, robots=robots, faults=faults, seed=seed, duration=duration, **fields)
+
+    @classmethod
+    def from_file(cls, path: str | Path, **changes: Any) -> Scenario:
+        """The scenario of a file; it finds the files that it names beside it. Keywords change it as for `with_`."""
+        return cls._of({str(path): _read(path)}, str(path), changes)
+
+    @classmethod
+    def from_text(
+        cls, text: str, *, path: str = "scenario.toml", files: Mapping[str, str] | None = None, **changes: Any
+    ) -> Scenario:
+        """The scenario of a text. `files` are others that it names; those that are not there are looked for on disk,
+        from the folder of `path`."""
+        return cls._of({path: text, **(files or {})}, path, changes)
+
+    @classmethod
+    def _of(cls, files: dict[str, str], path: str, changes: Mapping[str, Any]) -> Scenario:
+        scenario = cls.__new__(cls)
+        scenario._files = files
+        scenario._options = {"scenario": path}
+        scenario._change(**changes)
+        return scenario
+
+    def with_(self, **changes: Any) -> Scenario:
+        """The same scenario with other fields, as keywords: see Scenario."""
+        scenario = Scenario.__new__(Scenario)
+        scenario._files = dict(self._files)
+        scenario._options = {**self._options, "set": list(self._options.get("set", []))}
+        scenario._change(**changes)
+        return scenario
+
+    def set(self, field: str, value: Any) -> Scenario:
+        """The same scenario with another value of a field, such as `set("network.loss", 0.2)`."""
+        scenario = self.with_()
+        scenario._options["set"].append(f"{field}={_toml(field, value)}")
+        scenario._check()
+        return scenario
+
+    def _change(
+        self,
+        *,
+        program: Program | str | None = None,
+        robots: str | None = None,
+        faults: str | Path | None = None,
+        seed: int | None = None,
+        duration: str | float | None = None,
+        **fields: Any,
+    ) -> None:
+        options = self._options
+        if isinstance(program, Program):
+            self._files.update(program._files())
+            options["program"] = program.path
+        elif program is not None:
+            if program.endswith(".starl") and program not in self._files and Path(program).exists():
+                self._files[program] = _read(program)
+            options["program"] = program
+        if robots is not None:
+            options["robots"] = robots
+        if faults is not None:
+            self._files[str(faults)] = _read(faults)
+            options["faults"] = str(faults)
+        if seed is not None:
+            options["seed"] = str(seed)
+        if duration is not None:
+            options["duration"] = duration if isinstance(duration, str) else f"{duration}s"
+        assignments = options.setdefault("set", [])
+        for name, value in fields.items():
+            assignments.extend(f"{name}={_toml(name, value)}" for name, value in _leaves(name, value))
+        self._check()
+
+    def _check(self) -> None:
+        opened = request(_SHARED, "open", files=self._files, options=self._options, topics=[])
+        request(_SHARED, "close", simulation=opened["simulation"])
+        self._title: str = opened["title"]
+
+    @property
+    def title(self) -> str:
+        """What the scenario is called."""
+        return self._title
+
+    def text(self) -> str:
+        """The whole scenario as the text of a file, changes and defaults included."""
+        opened = request(_SHARED, "open", files=self._files, options=self._options, topics=[])
+        try:
+            text: str = request(_SHARED, "scenario", simulation=opened["simulation"])
+        finally:
+            request(_SHARED, "close", simulation=opened["simulation"])
+        return text
+
+    def __repr__(self) -> str:
+        return f"<starl.Scenario {self._title!r}>"
+
+
+def examples() -> dict[str, str]:
+    """The examples that come with StarL: name, and what one sees in one line."""
+    return {example["name"]: example["summary"] for example in request(_SHARED, "examples")}
+
+
+def _read(path: str | Path) -> str:
+    try:
+        return Path(path).read_bytes().decode()
+    except UnicodeDecodeError as error:
+        line = error.object[: error.start].count(b"\n") + 1
+        raise StarlError(f"{path}:{line}: is not text in UTF-8; save it as that") from None
+    except OSError as error:
+        raise StarlError(f"{path}: cannot be read: {error.strerror}") from None
+
+
+def _leaves(name: str, value: Any) -> list[tuple[str, Any]]:
+    """The single fields of a table."""
+    if isinstance(value, Mapping) and value:
+        return [leaf for key, inner in value.items() for leaf in _leaves(f"{name}.{key}", inner)]
+    return [(name, value)]
+
+
+def _toml(name: str, value: Any) -> str:
+    """A value as scenario files write it."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float) and math.isfinite(value):
+        return repr(value)
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=True)
+    if isinstance(value, Mapping):
+        inner = ", ".join(f"{json.dumps(key)} = {_toml(name, one)}" for key, one in value.items())
+        return f"{{{inner}}}"
+    if hasattr(value, "tolist"):
+        return _toml(name, value.tolist())
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(_toml(name, one) for one in value)}]"
+    raise StarlError(f"{name}: a scenario holds numbers, texts, lists and dictionaries, not {value!r}")

@@ -1,0 +1,23 @@
+"""Requests to the simulator and its answers, as apps/starl-catalog/src/service/request.rs lists them."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from starl._errors import Diagnostic, StarlError
+from starl._native import Engine
+
+
+def request(engine: Engine, name: str, **parameters: Any) -> Any:
+    """The answer to a request; raises the StarlError that it is refused with. Parameters that are None are left out."""
+    given = {key: value for key, value in parameters.items() if value is not None}
+    try:
+        text = json.dumps({name: given}, allow_nan=False)
+    except (TypeError, ValueError) as error:
+        raise StarlError(f"{name}: {error}") from None
+    answer = json.loads(engine.request(text.encode()))
+    if "error" in answer:
+        error = answer["error"]
+        raise StarlError(error["message"], [Diagnostic._of(found) for found in error["diagnostics"]])
+    return answer["ok"]

@@ -1,0 +1,61 @@
+"""Records as data frames."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from starl import _native
+
+if TYPE_CHECKING:
+    import pandas
+    import polars
+
+
+class Table:
+    """Rows of records, which Polars, pandas, PyArrow, DuckDB and others take over through the Arrow PyCapsule interface.
+
+    Every table has the columns `time` (seconds), `time_ns` (nanoseconds, exact) and `robot` (its number; null where
+    something happened to the world).
+    """
+
+    def __init__(self, native: _native.Table) -> None:
+        self._native = native
+
+    @property
+    def columns(self) -> list[str]:
+        """The names of the columns."""
+        return self._native.columns
+
+    def __len__(self) -> int:
+        return len(self._native)
+
+    def __repr__(self) -> str:
+        return f"<starl.Table of {len(self):,} rows: {', '.join(self.columns)}>"
+
+    def _repr_html_(self) -> str | None:
+        try:
+            return self.to_polars()._repr_html_()
+        except ImportError:
+            return None
+
+    def to_polars(self) -> polars.DataFrame:
+        """As a data frame of Polars."""
+        import polars
+
+        return polars.DataFrame(self)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """As a data frame of pandas, which needs pandas 2.2 with PyArrow, or pandas 3."""
+        import pandas
+
+        if hasattr(pandas.DataFrame, "from_arrow"):
+            return pandas.DataFrame.from_arrow(self)
+        import pyarrow
+
+        return pyarrow.table(self).to_pandas()
+
+    def __arrow_c_schema__(self) -> Any:
+        return self._native.__arrow_c_schema__()
+
+    def __arrow_c_stream__(self, requested_schema: Any = None) -> Any:
+        return self._native.__arrow_c_stream__(requested_schema)

@@ -1,0 +1,23 @@
+//! The native module of the Python package `starl`: the simulator behind requests in JSON, the same that the page in a
+//! browser sends, and what is too large for JSON: arrays and tables.
+//!
+//! The classes that people use are written in Python, in `python/starl/`.
+
+mod disk;
+mod engine;
+mod numbers;
+mod table;
+mod trace;
+
+use pyo3::prelude::*;
+
+/// The native part of StarL. Use the package `starl` instead.
+#[pymodule]
+mod _native {
+    #[pymodule_export]
+    use super::engine::Engine;
+    #[pymodule_export]
+    use super::table::Table;
+    #[pymodule_export]
+    use super::trace::Trace;
+}

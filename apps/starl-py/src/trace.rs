@@ -1,0 +1,97 @@
+//! Traces of any host, read from their files.
+
+use crate::table::{self, Table};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+use starl_core::{Event, Record};
+use starl_trace::{Header, Reader};
+use std::fs::File;
+use std::io::BufReader;
+
+/// A trace that was read.
+#[pyclass(frozen, module = "starl._native")]
+pub struct Trace {
+    header: Header,
+    records: Vec<Record>,
+    end: Value,
+}
+
+#[pymethods]
+impl Trace {
+    /// Reads a trace. One that is cut off or damaged is read as far as it goes; `end` says so.
+    #[new]
+    fn new(py: Python<'_>, path: &str) -> PyResult<Trace> {
+        py.detach(|| read(path))
+            .map_err(|reason| PyValueError::new_err(format!("{path}: {reason}")))
+    }
+
+    /// How the run ended, in JSON: `outcome`, `digest` and `end_ns`; or `error`, why the trace ends before.
+    #[getter]
+    fn end(&self) -> String {
+        self.end.to_string()
+    }
+
+    /// What the trace holds of how its run was started and steered, in JSON, as the request `open_recorded` takes it.
+    #[getter]
+    fn recorded(&self) -> String {
+        let steered = self
+            .records
+            .iter()
+            .filter_map(|record| match &record.event {
+                Event::Intervention(what) => Some((record.at.0, what)),
+                _ => None,
+            });
+        let recorded = json!({
+            "scenario": self.header.scenario,
+            "files": self.header.files,
+            "interventions": steered.collect::<Vec<_>>(),
+        });
+        recorded.to_string()
+    }
+
+    /// What the header says, in JSON: `program`, `seed` as text, and the `robots` with their names and models.
+    #[getter]
+    fn header(&self) -> String {
+        let robot = |robot: &starl_trace::RobotEntry| json!({ "id": robot.id.index(), "name": robot.name, "model": robot.model });
+        let robots: Vec<Value> = self.header.robots.iter().map(robot).collect();
+        json!({ "program": self.header.program, "seed": self.header.seed.to_string(), "robots": robots }).to_string()
+    }
+
+    fn __len__(&self) -> usize {
+        self.records.len()
+    }
+
+    /// The records of one topic, or of all topics, as a table.
+    #[pyo3(signature = (topic=None))]
+    fn records(&self, py: Python<'_>, topic: Option<&str>) -> PyResult<Table> {
+        let topic = topic.map(table::topic).transpose()?;
+        let table = py.detach(|| Table::of_records(self.records.iter(), topic));
+        table.map_err(PyValueError::new_err)
+    }
+}
+
+fn read(path: &str) -> Result<Trace, String> {
+    let file = File::open(path).map_err(|error| format!("cannot be read: {error}"))?;
+    let mut reader = Reader::new(BufReader::new(file)).map_err(|error| error.to_string())?;
+    let mut records = Vec::new();
+    let mut end = Value::Null;
+    for record in &mut reader {
+        match record {
+            Ok(record) => records.push(record),
+            Err(error) => end = json!({ "error": error.to_string() }),
+        }
+    }
+    if let Some(summary) = reader.summary() {
+        end = json!({
+            "outcome": summary.outcome.outcome,
+            "digest": format!("{:016x}", summary.outcome.digest),
+            "end_ns": summary.outcome.end.0,
+        });
+    }
+    Ok(Trace {
+        header: reader.header().clone(),
+        records,
+        end,
+    })
+}
