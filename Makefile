@@ -65,6 +65,22 @@ site: page
 	node playground/build/compress.mjs $(CARGO_TARGET_DIR)/site
 	@echo "the page is in $(CARGO_TARGET_DIR)/site"
 
+# The package for Python as a wheel in target/wheels, with the viewer for notebooks in it.
+VIEWER = apps/starl-py/python/starl/_viewer
+WHEEL_PROFILE = release
+wheel: setup viewer
+	rm -f $(CARGO_TARGET_DIR)/wheels/starl-*.whl
+	$(VENV)/maturin build --locked --profile $(WHEEL_PROFILE) --manifest-path apps/starl-py/Cargo.toml \
+		--out $(CARGO_TARGET_DIR)/wheels
+
+viewer: setup $(MODULE)
+	cd playground && npm run --silent embedded
+	mkdir -p $(VIEWER)
+	cp playground/embedded/viewer.html $(VIEWER)
+	gzip -9 -n < $(MODULE) > $(VIEWER)/starl.wasm.gz
+
+$(MODULE): wasm-module
+
 # The page in a real browser.
 web: page $(STARL)
 	cd playground && npm run --silent check && npm run --silent unit

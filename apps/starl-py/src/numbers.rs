@@ -20,9 +20,8 @@ impl Arrays<'_> {
     pub fn fill(self, simulation: &Simulation) -> bool {
         let robots = simulation.robots();
         let fits = |numbers: &[f64], row: usize| numbers.len() == robots.len() * row;
-        let fit = fits(self.poses, POSE)
-            && fits(self.estimates, POSE)
-            && fits(self.velocities, VELOCITY);
+        let fit =
+            fits(self.poses, POSE) && fits(self.estimates, POSE) && fits(self.velocities, VELOCITY);
         if !fit {
             return false;
         }

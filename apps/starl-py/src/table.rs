@@ -7,11 +7,12 @@ use arrow_array::ffi::FFI_ArrowSchema;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::types::ArrowPrimitiveType;
 use arrow_array::{
-    ArrayRef, BooleanArray, Float64Array, Int64Array, PrimitiveArray, RecordBatch,
-    RecordBatchIterator, StringArray,
+    Array, ArrayRef, BooleanArray, Float64Array, Int64Array, PrimitiveArray, RecordBatch,
+    RecordBatchIterator, StringArray, UInt32Array,
 };
 use arrow_schema::{Field, Schema};
-use pyo3::exceptions::PyValueError;
+use numpy::PyArray1;
+use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
 use serde_json::Value;
@@ -32,6 +33,35 @@ impl Table {
         let schema = self.0.schema();
         let fields = schema.fields().iter();
         fields.map(|field| field.name().clone()).collect()
+    }
+
+    /// The numbers of a column: integers as int64 if none is missing, else all numbers as float64, and NaN for what is
+    /// missing. None for a column of another type.
+    fn numbers<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let column = self.0.column_by_name(name);
+        let column = column.ok_or_else(|| {
+            PyKeyError::new_err(format!("there is no column {name:?}; see `columns`"))
+        })?;
+        let any = column.as_any();
+        if let Some(column) = any.downcast_ref::<Float64Array>() {
+            let numbers = column.iter().map(|number| number.unwrap_or(f64::NAN));
+            return Ok(Some(PyArray1::from_iter(py, numbers).into_any()));
+        }
+        let integers: Vec<Option<i64>> = if let Some(column) = any.downcast_ref::<Int64Array>() {
+            column.iter().collect()
+        } else if let Some(column) = any.downcast_ref::<UInt32Array>() {
+            column.iter().map(|number| number.map(i64::from)).collect()
+        } else {
+            return Ok(None);
+        };
+        let whole: Option<Vec<i64>> = integers.iter().copied().collect();
+        Ok(Some(match whole {
+            Some(whole) => PyArray1::from_vec(py, whole).into_any(),
+            None => {
+                let number = |number: &Option<i64>| number.map_or(f64::NAN, |number| number as f64);
+                PyArray1::from_iter(py, integers.iter().map(number)).into_any()
+            }
+        }))
     }
 
     fn __len__(&self) -> usize {

@@ -50,12 +50,20 @@ impl Trace {
         recorded.to_string()
     }
 
-    /// What the header says, in JSON: `program`, `seed` as text, and the `robots` with their names and models.
+    /// What the header says, in JSON: `program`, `seed` as text, the `robots` with their names and models, and the world.
     #[getter]
     fn header(&self) -> String {
         let robot = |robot: &starl_trace::RobotEntry| json!({ "id": robot.id.index(), "name": robot.name, "model": robot.model });
         let robots: Vec<Value> = self.header.robots.iter().map(robot).collect();
-        json!({ "program": self.header.program, "seed": self.header.seed.to_string(), "robots": robots }).to_string()
+        let obstacle = |obstacle| json!({ "obstacle": obstacle });
+        let obstacles: Vec<Value> = self.header.obstacles.iter().map(obstacle).collect();
+        let header = json!({
+            "program": self.header.program,
+            "seed": self.header.seed.to_string(),
+            "robots": robots,
+            "world": { "obstacles": obstacles, "way_points": self.header.way_points },
+        });
+        header.to_string()
     }
 
     fn __len__(&self) -> usize {

@@ -12,7 +12,9 @@ export type Start =
   | { mode: "web"; static?: boolean }
   | { mode: "run"; opened: ServerRun; files: Record<string, string> }
   | { mode: "trace"; name: string; size: number }
-  | { mode: "fleet"; name: string };
+  | { mode: "fleet"; name: string }
+  /** By a page that holds a trace, which it shows or, if it is `live`, simulates again. */
+  | { mode: "embedded"; name: string; live: boolean };
 
 export const start = signal<Start>({ mode: "web" });
 

@@ -1,9 +1,9 @@
 // The worker in which runs are simulated, so that the page never has to wait for them.
 
 import { load, type Starl, StarlError } from "../../../apps/starl-wasm/starl.mjs";
-import wasm from "../../wasm/starl.wasm?url";
 import { Driver } from "./driver.ts";
 import { RECORDED } from "./engine.ts";
+import { moduleSource } from "./module.ts";
 import { Playback } from "./playback.ts";
 import { Refused, remote, Socket } from "./remote.ts";
 import type { FromWorker, Opened, Request, Source, ToWorker, Update } from "./types.ts";
@@ -12,7 +12,7 @@ let module: Promise<Starl> | null = null;
 
 /** The instance; another one if a run has brought the last one down. */
 async function starl(): Promise<Starl> {
-  if ((await module?.catch(() => null))?.failed !== false) module = load(new URL(wasm, self.location.href));
+  if ((await module?.catch(() => null))?.failed !== false) module = moduleSource().then(load);
   return module as Promise<Starl>;
 }
 

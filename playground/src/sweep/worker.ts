@@ -1,7 +1,7 @@
 // A worker in which runs of a sweep are simulated.
 
 import { load, type Starl, StarlError } from "../../../apps/starl-wasm/starl.mjs";
-import wasm from "../../wasm/starl.wasm?url";
+import { moduleSource } from "../engine/module.ts";
 import type { Ask, FromWorker, Target, ToWorker } from "./protocol.ts";
 
 let starl: Starl | null = null;
@@ -16,7 +16,7 @@ self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
   }
   try {
     // A run that needs too much memory brings the instance down.
-    if (!starl || starl.failed) starl = await load(new URL(wasm, self.location.href));
+    if (!starl || starl.failed) starl = await load(await moduleSource());
     say({ ok: answer(starl, data.ask) });
   } catch (error) {
     const message = error instanceof Error ? error.message : String(error);

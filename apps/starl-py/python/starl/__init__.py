@@ -6,6 +6,7 @@ places are in one right-handed world frame with z up. Robots are numbers, from 0
 
 from starl._errors import Diagnostic, StarlError
 from starl._files import Program, Scenario, examples
+from starl._show import Viewer
 from starl._simulation import Robot, Simulation, Snapshot, Status
 from starl._tables import Table
 from starl._trace import Trace, read_trace
@@ -21,6 +22,7 @@ __all__ = [
     "Status",
     "Table",
     "Trace",
+    "Viewer",
     "examples",
     "read_trace",
 ]

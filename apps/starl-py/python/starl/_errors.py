@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 
@@ -26,11 +26,12 @@ class Diagnostic:
     #: A suggested fix.
     help: str | None
     #: More that is worth knowing, a line each.
-    notes: list[str] = field(default_factory=list)
+    notes: tuple[str, ...] = ()
 
     @classmethod
     def _of(cls, found: dict[str, Any]) -> Diagnostic:
-        return cls(**{name: found[name] for name in cls.__dataclass_fields__})
+        members = {name: found[name] for name in cls.__dataclass_fields__}
+        return cls(**{**members, "notes": tuple(found["notes"])})
 
     def __str__(self) -> str:
         place = f"{self.file}:{self.line}:{self.column}: " if self.file and self.line else ""

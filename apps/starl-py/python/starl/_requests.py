@@ -18,6 +18,6 @@ def request(engine: Engine, name: str, **parameters: Any) -> Any:
         raise StarlError(f"{name}: {error}") from None
     answer = json.loads(engine.request(text.encode()))
     if "error" in answer:
-        error = answer["error"]
-        raise StarlError(error["message"], [Diagnostic._of(found) for found in error["diagnostics"]])
+        refused = answer["error"]
+        raise StarlError(refused["message"], [Diagnostic._of(found) for found in refused["diagnostics"]])
     return answer["ok"]

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import base64
 import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -14,6 +16,7 @@ from starl._errors import Diagnostic
 from starl._files import Scenario
 from starl._native import Engine
 from starl._requests import request
+from starl._show import Viewer
 from starl._tables import Table
 
 if TYPE_CHECKING:
@@ -238,12 +241,12 @@ class Simulation:
         text: str = self._ask("scenario")
         return text
 
-    def save_trace(self, path: str) -> None:
+    def save_trace(self, path: str | Path) -> None:
         """Writes the trace of the run so far, as `starl run --trace` does. Takes as long as the run."""
-        import base64
-        from pathlib import Path
+        Path(path).write_bytes(self._trace())
 
-        Path(path).write_bytes(base64.b64decode(self._ask("trace")))
+    def _trace(self) -> bytes:
+        return base64.b64decode(self._ask("trace"))
 
     # Moments
 
@@ -295,7 +298,7 @@ class Simulation:
 
     def set_way_point(self, name: str, position: Sequence[float], *, at: float | None = None) -> None:
         """Sets a waypoint, new or not."""
-        self.apply({"set_way_point": {"name": name, "position": _point(position), "group": None}}, at=at)
+        self.apply({"set_way_point": {"name": name, "position": _point(position), "group": 0}}, at=at)
 
     # Pictures
 
@@ -303,7 +306,15 @@ class Simulation:
         """Draws the world from above, the paths so far and where robots are."""
         from starl._plot import plot
 
-        return plot(self, ax)
+        return plot(self.records("pose"), [robot.name for robot in self.robots], self.world(), ax)
+
+    def show(self, *, live: bool = False, height: int = 560) -> Viewer:
+        """The viewer with the run so far, for a notebook; it needs no server. If `live`, the page simulates the run
+        itself, from its start and steered as it was, and it can be steered there."""
+        return Viewer(self.title, self._trace(), live=live, height=height)
+
+    def _repr_html_(self) -> str:
+        return self.show()._repr_html_()
 
     def __repr__(self) -> str:
         return f"<starl.Simulation of {self.title!r} at {self.now:g} s{' (over)' if self.over else ''}>"

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from numpy.typing import NDArray
+
 from starl import _native
 
 if TYPE_CHECKING:
@@ -53,6 +55,11 @@ class Table:
         import pyarrow
 
         return pyarrow.table(self).to_pandas()
+
+    def to_numpy(self) -> dict[str, NDArray[Any]]:
+        """The columns of numbers, as arrays; NaN stands for what is missing."""
+        found = {name: self._native.numbers(name) for name in self.columns}
+        return {name: numbers for name, numbers in found.items() if numbers is not None}
 
     def __arrow_c_schema__(self) -> Any:
         return self._native.__arrow_c_schema__()

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import json
 from os import PathLike, fspath
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from starl import _native
 from starl._errors import StarlError
+from starl._show import Viewer
 from starl._simulation import Simulation
 from starl._tables import Table
+
+if TYPE_CHECKING:
+    import matplotlib.axes
 
 
 class Trace:
@@ -33,6 +38,7 @@ class Trace:
         self.end: float | None = end["end_ns"] * 1e-9 if "end_ns" in end else None
         self.program: str = header["program"]
         self.seed = int(header["seed"])
+        self._world: dict[str, Any] = header["world"]
         #: The number, name and model of each robot.
         self.robots: list[dict[str, Any]] = header["robots"]
 
@@ -43,6 +49,16 @@ class Trace:
     def simulation(self) -> Simulation:
         """The recorded run of the simulator, at its start and steered as it was: it goes as it went."""
         return Simulation._recorded(json.loads(self._native.recorded))
+
+    def plot(self, ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
+        """Draws the world from above, the paths and where robots end."""
+        from starl._plot import plot
+
+        return plot(self.records("pose"), [robot["name"] for robot in self.robots], self._world, ax)
+
+    def show(self, *, height: int = 560) -> Viewer:
+        """The viewer with the trace, for a notebook; it needs no server."""
+        return Viewer(Path(self.path).name, Path(self.path).read_bytes(), live=False, height=height)
 
     def __len__(self) -> int:
         return len(self._native)
