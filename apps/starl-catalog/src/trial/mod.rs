@@ -56,6 +56,11 @@ impl Subject {
         })
     }
 
+    /// Faults of profiles set in within this time.
+    pub fn span(&self) -> Duration {
+        self.span
+    }
+
     /// The scenario with the faults that a seed draws.
     pub fn scenario(&self, profile: Profile, seed: u64) -> Scenario {
         profile.apply(self.application.scenario(), self.span, seed)

@@ -39,6 +39,7 @@ mod world_file;
 
 pub use inputs::{Content, Inputs, Loader, Override, Request, Source};
 pub use problem::{Place, Problem, Problems};
+pub use unit::Quantity;
 
 use crate::Scenario;
 use inputs::Recorder;
@@ -48,7 +49,7 @@ use section::Section;
 use starl_core::Duration;
 use std::collections::BTreeMap;
 use tree::{Node, Table, Value};
-use unit::{Dimension, Quantity};
+use unit::Dimension;
 
 /// A scenario that was read.
 #[derive(Clone, Debug)]

@@ -173,7 +173,7 @@ const ALIASES: &[(&str, &str)] = &[
 
 /// A number and its unit, read from a text.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Quantity<'a> {
+pub struct Quantity<'a> {
     /// The number as written.
     pub number: f64,
     /// The unit as written; may be empty.
