@@ -1,9 +1,8 @@
 //! Tasks on the cores of this machine.
 
-use crate::{Error, Plan, Row, Runner, spread};
+use crate::{Error, Row, Runner, Task, spread};
 use cpu_time::ThreadTime;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
 
 /// A row, and what it cost on this machine.
@@ -16,31 +15,29 @@ pub struct Measured {
     pub cpu_seconds: f64,
 }
 
-/// Runs the tasks of a plan that are not `done`, on so many threads, and gives each row to `take` as it comes. Ends early
-/// when `stop` is set; runs under way are then given up.
+/// Runs tasks on so many threads, and gives each row to `take` as it comes, with the key of its task. Ends early when `stop`
+/// is set; runs under way are then given up.
 ///
 /// # Errors
 /// The first error of a task or of `take`.
-pub fn execute(
-    plan: &Plan,
-    done: &BTreeMap<u64, Measured>,
+pub fn execute<K: Send>(
+    tasks: impl Iterator<Item = (K, Task)> + Send,
     runner: &Runner,
     threads: usize,
     stop: &AtomicBool,
-    mut take: impl FnMut(Measured) -> Result<(), Error>,
+    mut take: impl FnMut(K, Measured) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    let open = (0..plan.len()).filter(|number| !done.contains_key(number));
-    let work = |number: u64| {
+    let work = |(key, task): (K, Task)| {
         let before = ThreadTime::try_now();
-        let task = plan.task(number);
         let row = runner.run_unless(&task, stop)?;
         let spent = before.and_then(|before| before.try_elapsed());
-        Ok(row.map(|row| Measured {
+        let measured = row.map(|row| Measured {
             row,
             cpu_seconds: spent.map_or(0.0, |spent| spent.as_secs_f64()),
-        }))
+        });
+        Ok(measured.map(|measured| (key, measured)))
     };
-    spread(threads, open, stop, work, |result: Result<_, Error>| {
-        result?.map_or(Ok(()), &mut take)
+    spread(threads, tasks, stop, work, |result: Result<_, Error>| {
+        result?.map_or(Ok(()), |(key, measured)| take(key, measured))
     })
 }

@@ -4,7 +4,7 @@
 //! `combination * seeds + seed`. So the numbers of a plan never depend on how it is carried out.
 
 use crate::task::{named_profile, setting};
-use crate::{Axis, Error, FLEET, Seeds, Task};
+use crate::{Axis, Error, FLEET, Measured, Seeds, Task};
 use serde::{Deserialize, Serialize};
 use starl_catalog::{Application, read};
 use starl_core::Digest;
@@ -175,6 +175,12 @@ impl Plan {
         }
     }
 
+    /// The numbers of the tasks whose rows are not there yet, in order.
+    pub fn open(&self, rows: &BTreeMap<u64, Measured>) -> Vec<u64> {
+        let all = 0..self.len();
+        all.filter(|number| !rows.contains_key(number)).collect()
+    }
+
     /// Identifies the plan with all its texts, for this version of StarL.
     pub fn identity(&self) -> String {
         let text = serde_json::to_vec(self);
@@ -226,8 +232,15 @@ fn check_axes(axes: &[Axis], application: &Application) -> Result<(), Error> {
             return Err(Error::option(&option, "this axis is given twice", help));
         }
     }
+    let request = &application.resolved().inputs.request;
+    let has_own_option =
+        |set: &&Override| !set.option.starts_with("--set") && fields.contains_key(&*set.path);
+    if let Some(Override { option, path, .. }) = request.overrides.iter().find(has_own_option) {
+        let message = format!("it contradicts {option}, which sets this field too");
+        let help = "leave one of them out";
+        return Err(Error::option(&crate::axis::option(path), message, help));
+    }
     if fields.contains_key(FLEET) {
-        let request = &application.resolved().inputs.request;
         let set = request.overrides.iter().map(|set| &*set.path);
         let counts = |path: &&str| {
             *path == "robots" || path.starts_with("robots.") && path.ends_with(".count")

@@ -110,7 +110,7 @@ impl Runner {
     pub fn run_unless(&self, task: &Task, stop: &AtomicBool) -> Result<Option<Row>, Error> {
         let cell = self.cell(task);
         let prepared = cell.get_or_init(|| self.prepare(task).map_err(Arc::new));
-        let prepared = prepared.as_ref().map_err(|error| again(error))?;
+        let prepared = prepared.as_ref().map_err(again)?;
         let Prepared { application, span } = prepared;
         let run = application.run_of(scenario(task, *span)?);
         let mut run = run.map_err(|error| start_error(application, &error))?;

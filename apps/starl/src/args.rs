@@ -37,6 +37,10 @@ pub enum Command {
     Explore(ExploreArguments),
     /// Look for violations: run with many seeds and kinds of faults, and shrink failures
     Test(TestArguments),
+    /// Run every combination of some fields' values with many seeds, and tabulate the results
+    Sweep(SweepArguments),
+    /// Compare two versions of a program or a scenario, seed by seed
+    Compare(CompareArguments),
     /// Draw the messages of a run as a space-time diagram
     Diagram(DiagramArguments),
     /// Check programs and libraries of the language
@@ -302,7 +306,7 @@ pub struct FleetKeyArguments {
 }
 
 /// Changes of a target that is run many times, or drawn.
-#[derive(Args, Debug, Default)]
+#[derive(Args, Clone, Debug, Default)]
 pub struct ChangeArguments {
     /// The scenario for a program, as for `starl run`
     #[arg(long, value_name = "SCENARIO")]
@@ -382,6 +386,83 @@ pub struct TestArguments {
     #[arg(long)]
     pub quiet: bool,
     /// Changes of the targets.
+    #[command(flatten)]
+    pub changes: ChangeArguments,
+}
+
+/// Arguments of `starl sweep`.
+#[derive(Args, Debug)]
+#[command(mut_arg("set", |set| set
+    .value_name("FIELD=VALUES")
+    .help("A field of the scenario and its values: A,B,C, or LOW..HIGH:N for N values from LOW to HIGH; the field \
+        `fleet` is the number of robots; may be repeated")))]
+pub struct SweepArguments {
+    /// An example's name (see `starl list`), a scenario file, or a program: a file ending in .starl
+    pub target: String,
+    /// The number of seeds for each combination, or the first and the last one: FIRST..LAST
+    #[arg(long, value_name = "N", default_value = "100")]
+    pub seeds: String,
+    /// Add the faults of this profile to each run: calm, lossy, partitions, crashes, clocks, chaos, swarm or corruption
+    #[arg(long, value_name = "NAME")]
+    pub profile: Option<String>,
+    /// Write a row for each run to this file (.parquet, .csv or .jsonl), with a journal beside it from which an
+    /// interrupted sweep goes on
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Metrics of the summary and, the first, of the plot: `goal` or columns of the table; several with commas
+    /// [default: goal,time_to_goal_seconds,messages_sent]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    pub metric: Vec<String>,
+    /// Draw the first metric against the first axis to this .svg or .png file, with a line for each value of the others
+    #[arg(long, value_name = "PATH")]
+    pub plot: Option<PathBuf>,
+    /// Threads to run on; the results are the same for any number [default: all cores]
+    #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
+    pub threads: Option<u32>,
+    /// Print the summary as one JSON object
+    #[arg(long)]
+    pub json: bool,
+    /// Print only errors
+    #[arg(long)]
+    pub quiet: bool,
+    /// Changes of the target.
+    #[command(flatten)]
+    pub changes: ChangeArguments,
+}
+
+/// Arguments of `starl compare`.
+#[derive(Args, Debug)]
+pub struct CompareArguments {
+    /// The version to compare with: an example's name, a scenario file, or a program
+    pub a: String,
+    /// The version to judge [default: A, with the fields of --set-b]
+    #[arg(required_unless_present_any = ["set_a", "set_b"])]
+    pub b: Option<String>,
+    /// The number of seeds, or the first and the last one: FIRST..LAST
+    #[arg(long, value_name = "N", default_value = "100")]
+    pub seeds: String,
+    /// Add the faults of this profile to each run, as for `starl sweep`
+    #[arg(long, value_name = "NAME")]
+    pub profile: Option<String>,
+    /// Set a field of A alone; may be repeated
+    #[arg(long, value_name = "FIELD=VALUE")]
+    pub set_a: Vec<String>,
+    /// Set a field of B alone; may be repeated
+    #[arg(long, value_name = "FIELD=VALUE")]
+    pub set_b: Vec<String>,
+    /// Metrics to compare, as for `starl sweep`; several with commas [default: all that are not 0 in all runs]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    pub metric: Vec<String>,
+    /// Threads to run on; the results are the same for any number [default: all cores]
+    #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
+    pub threads: Option<u32>,
+    /// Print the comparison as one JSON object
+    #[arg(long)]
+    pub json: bool,
+    /// Print only seeds that became worse
+    #[arg(long)]
+    pub quiet: bool,
+    /// Changes of both.
     #[command(flatten)]
     pub changes: ChangeArguments,
 }

@@ -25,3 +25,9 @@ impl From<starl_sim::read::Problem> for Failure {
         Failure(problem.to_string())
     }
 }
+
+impl From<starl_sweep::Error> for Failure {
+    fn from(error: starl_sweep::Error) -> Failure {
+        Failure(error.to_string())
+    }
+}

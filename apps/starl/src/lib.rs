@@ -26,6 +26,7 @@ mod args;
 mod bench;
 mod changed_program;
 mod check;
+mod compare;
 mod console;
 mod diagram;
 mod explain;
@@ -52,6 +53,7 @@ mod report;
 mod run;
 mod sources;
 mod summary;
+mod sweep;
 mod target;
 mod test;
 mod threads;
@@ -122,6 +124,8 @@ impl CommandLine {
             },
             Command::Verify(arguments) => verify::verify(arguments, registry),
             Command::Test(arguments) => test::test(arguments, registry),
+            Command::Sweep(arguments) => sweep::sweep(arguments, registry),
+            Command::Compare(arguments) => compare::compare(arguments, registry),
             Command::Diagram(arguments) => diagram::diagram(arguments, registry),
             Command::Check(arguments) => check::run(arguments),
             Command::Fmt(arguments) => fmt::run(arguments),

@@ -70,7 +70,11 @@ impl Outputs {
         read: &[PathBuf],
         picture: Option<Picture>,
     ) -> Result<Outputs, Failure> {
-        refuse_to_overwrite(arguments, read)?;
+        let named = [
+            ("--trace", arguments.trace.as_deref()),
+            ("--plot", arguments.plot.as_deref()),
+        ];
+        refuse_to_overwrite(&named, read)?;
         let plot = |(path, picture): (&PathBuf, Picture)| -> Result<PlotOutput, Failure> {
             let (output, file) = Output::create(path)?;
             Ok(PlotOutput {
@@ -140,24 +144,28 @@ impl Outputs {
     }
 }
 
-/// Whether the outputs are files of their own: not one another, and nothing that was read.
-fn refuse_to_overwrite(arguments: &RunArguments, read: &[PathBuf]) -> Result<(), Failure> {
-    let trace = arguments.trace.as_deref().map(identity);
-    let plot = arguments.plot.as_deref().map(identity);
-    if trace.is_some() && trace == plot {
-        return Err(Failure(
-            "--trace and --plot name the same file; name two".to_string(),
-        ));
+/// Whether the outputs, each with its option, are files of their own: not one another, and nothing that was read.
+pub fn refuse_to_overwrite(
+    outputs: &[(&str, Option<&Path>)],
+    read: &[PathBuf],
+) -> Result<(), Failure> {
+    let outputs = outputs.iter();
+    let outputs = outputs.filter_map(|(option, path)| Some((*option, identity((*path)?))));
+    let outputs: Vec<(&str, PathBuf)> = outputs.collect();
+    for (index, (option, path)) in outputs.iter().enumerate() {
+        if let Some((other, _)) = outputs[..index].iter().find(|(_, other)| other == path) {
+            return Err(Failure(format!(
+                "{other} and {option} name the same file; name two"
+            )));
+        }
     }
     for path in read {
         let is_read = identity(path);
-        for (option, written) in [("--trace", &trace), ("--plot", &plot)] {
-            if written.as_ref() == Some(&is_read) {
-                return Err(Failure(format!(
-                    "{option} {}: the run reads this file; name another to write to",
-                    path.display()
-                )));
-            }
+        if let Some((option, _)) = outputs.iter().find(|(_, written)| *written == is_read) {
+            return Err(Failure(format!(
+                "{option} {}: the run reads this file; name another to write to",
+                path.display()
+            )));
         }
     }
     Ok(())

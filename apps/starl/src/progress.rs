@@ -58,6 +58,12 @@ impl Count {
         Count(bar)
     }
 
+    /// So many were done before, and say nothing about the time that is left.
+    pub fn begin_at(&self, done: u64) {
+        self.0.set_position(done);
+        self.0.reset_eta();
+    }
+
     /// So many more are done.
     pub fn add(&self, more: u64) {
         self.0.inc(more);

@@ -16,6 +16,14 @@ pub fn count(asked: Option<u32>, robots: usize) -> usize {
     }
 }
 
+/// How many runs to do at once.
+pub fn for_runs(asked: Option<u32>) -> usize {
+    match asked {
+        Some(threads) => threads as usize,
+        None => std::thread::available_parallelism().map_or(1, |cores| cores.get()),
+    }
+}
+
 /// Does `job` where so many threads are at hand.
 pub fn with<T: Send>(threads: usize, job: impl FnOnce() -> T + Send) -> Result<T, Failure> {
     Ok(match pool(threads)? {

@@ -164,7 +164,7 @@ fn extent(data: &PlotData) -> ((f64, f64), (f64, f64)) {
 }
 
 /// A step of 1, 2 or 5 times a power of ten that gives four to eleven ticks over a length.
-fn step_for(length: f64) -> f64 {
+pub fn step_for(length: f64) -> f64 {
     let rough = length / 10.0;
     let power = 10f64.powf(rough.log10().floor());
     let factor = [1.0, 2.0, 5.0, 10.0]
@@ -174,7 +174,7 @@ fn step_for(length: f64) -> f64 {
 }
 
 /// The multiples of `step` from `low` to `high`.
-fn ticks(low: f64, high: f64, step: f64) -> impl Iterator<Item = f64> {
+pub fn ticks(low: f64, high: f64, step: f64) -> impl Iterator<Item = f64> {
     let (first, last) = ((low / step).ceil(), (high / step).floor());
     let count = if last >= first {
         (last - first).min(100.0) as u32 + 1
@@ -185,7 +185,7 @@ fn ticks(low: f64, high: f64, step: f64) -> impl Iterator<Item = f64> {
 }
 
 /// A tick's number, with as many decimals as its step has.
-fn label(value: f64, step: f64) -> String {
+pub fn label(value: f64, step: f64) -> String {
     let decimals = (-step.log10().floor()).clamp(0.0, 9.0) as usize;
     let text = format!("{value:.decimals$}");
     if text

@@ -23,6 +23,8 @@ use starl_core::event::MarkShape;
 use starl_core::{Obstacle, Point, WayPoint};
 use std::collections::BTreeMap;
 
+pub use frame::{label, step_for, ticks};
+
 /// The content of a picture. Coordinates that are not finite are omitted.
 #[derive(Clone, Debug, Default)]
 pub struct PlotData {

@@ -12,6 +12,7 @@ use crate::failure::Failure;
 use crate::json;
 use crate::progress::Count;
 use crate::run::stop_on_interrupt;
+use crate::threads;
 use counterexample::Counterexample;
 use report::Report;
 use search::Search;
@@ -42,10 +43,7 @@ pub fn test(arguments: &TestArguments, registry: &Registry) -> Result<bool, Fail
         first_seed: arguments.first_seed.into(),
         seeds: arguments.seeds.into(),
     };
-    let threads = match arguments.threads {
-        Some(threads) => threads as usize,
-        None => std::thread::available_parallelism().map_or(1, |cores| cores.get()),
-    };
+    let threads = threads::for_runs(arguments.threads);
     std::fs::create_dir_all(&arguments.out)
         .map_err(|error| Failure::file(&arguments.out, error))?;
     let shown = !arguments.quiet && !arguments.json;

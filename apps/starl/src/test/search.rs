@@ -7,9 +7,11 @@ use starl_core::event::Name;
 use starl_properties::Excuse;
 use starl_sim::profile::Profile;
 use starl_sim::{Finding, Outcome, Trial};
+use starl_sweep::spread;
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::thread;
+use std::collections::btree_map::Entry;
+use std::convert::Infallible;
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 /// The runs to do: every subject with every profile and every seed.
@@ -65,43 +67,31 @@ impl Search {
 
     /// Does all runs, or as many as there is time for until someone stops it.
     pub fn run(&self, threads: usize, stop: &AtomicBool, progress: &Count) -> Found {
-        let next = AtomicU64::new(0);
         let begun = Instant::now();
         let before = cpu_time::ProcessTime::try_now();
-        let mut all = Found::default();
-        thread::scope(|scope| {
-            let work = || self.work(&next, stop, progress);
-            let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-            for worker in workers {
-                match worker.join() {
-                    Ok(found) => all.add(found),
-                    // A bug of ours: it is told as such.
-                    Err(panic) => std::panic::resume_unwind(panic),
-                }
-            }
-        });
-        all.wall = begun.elapsed();
-        all.processors = match (before, cpu_time::ProcessTime::try_now()) {
-            (Ok(before), Ok(after)) => after.duration_since(before),
-            _ => all.wall,
-        };
-        all
-    }
-
-    fn work(&self, next: &AtomicU64, stop: &AtomicBool, progress: &Count) -> Found {
         let mut found = Found::default();
-        let runs = self.runs();
-        loop {
-            let place = next.fetch_add(1, Ordering::Relaxed);
-            if place >= runs || stop.load(Ordering::Relaxed) {
-                return found;
-            }
+        let work = |place| {
             let (subject, profile, seed) = self.at(place);
-            let tested = &self.subjects[subject].tested;
-            let (_, trial) = tested.try_out(profile, seed);
-            found.note(place, (subject, profile, seed), trial);
-            progress.add(1);
-        }
+            let (_, trial) = self.subjects[subject].tested.try_out(profile, seed);
+            (place, (subject, profile, seed), trial)
+        };
+        let Ok(()) = spread(
+            threads,
+            0..self.runs(),
+            stop,
+            work,
+            |(place, key, trial)| {
+                found.note(place, key, trial);
+                progress.add(1);
+                Ok::<(), Infallible>(())
+            },
+        );
+        found.wall = begun.elapsed();
+        found.processors = match (before, cpu_time::ProcessTime::try_now()) {
+            (Ok(before), Ok(after)) => after.duration_since(before),
+            _ => found.wall,
+        };
+        found
     }
 
     /// The run at a place in the list.
@@ -136,38 +126,17 @@ impl Found {
             finding: finding.clone(),
             text: trial.text,
         };
-        self.keep((subject, finding), (place, case, 1));
-    }
-
-    fn keep(&mut self, key: (usize, Finding), (place, case, times): (u64, Case, u64)) {
-        match self.first.get_mut(&key) {
-            Some(known) => {
-                known.2 += times;
-                if place < known.0 {
-                    (known.0, known.1) = (place, case);
+        match self.first.entry((subject, finding)) {
+            Entry::Occupied(mut known) => {
+                let (first, its_case, times) = known.get_mut();
+                *times += 1;
+                if place < *first {
+                    (*first, *its_case) = (place, case);
                 }
             }
-            None => {
-                self.first.insert(key, (place, case, times));
+            Entry::Vacant(vacant) => {
+                vacant.insert((place, case, 1));
             }
-        }
-    }
-
-    fn add(&mut self, other: Found) {
-        for (key, tally) in other.tallies {
-            let sum = self.tallies.entry(key).or_default();
-            sum.runs += tally.runs;
-            sum.reached += tally.reached;
-            sum.timed_out += tally.timed_out;
-            sum.violated += tally.violated;
-            sum.failed += tally.failed;
-            sum.wrong += tally.wrong;
-            for (excused, count) in tally.excused {
-                *sum.excused.entry(excused).or_default() += count;
-            }
-        }
-        for (key, case) in other.first {
-            self.keep(key, case);
         }
     }
 

@@ -1,0 +1,101 @@
+//! `starl compare`: two versions of a program or a scenario with the same seeds. See `docs/reference/command.md`.
+
+mod report;
+
+use crate::args::{ChangeArguments, CompareArguments};
+use crate::console;
+use crate::failure::Failure;
+use crate::json;
+use crate::progress::Count;
+use crate::run::stop_on_interrupt;
+use crate::sweep::{Shown, shown};
+use crate::target::{self, Selection};
+use crate::threads;
+use report::{Circumstances, Report, Side};
+use starl_catalog::programs::Registry;
+use starl_sweep::{Comparison, Error, Plan, Row, Runner, Seeds, execute};
+use std::time::Instant;
+
+/// Compares what the arguments name; whether no seed became worse.
+pub fn compare(arguments: &CompareArguments, registry: &Registry) -> Result<bool, Failure> {
+    let metrics: Option<Vec<Shown>> = match arguments.metric.is_empty() {
+        true => None,
+        false => Some(shown(&arguments.metric)?),
+    };
+    let seeds: Seeds = arguments.seeds.parse()?;
+    let b = arguments.b.as_ref().unwrap_or(&arguments.a);
+    let sides = [(&arguments.a, &arguments.set_a), (b, &arguments.set_b)];
+    let [a, b] = sides.map(|(target, set)| plan(target, set, arguments, seeds, registry));
+    let plans = [a?, b?];
+    let stop = stop_on_interrupt();
+    let progress = Count::new(!arguments.quiet && !arguments.json, 2 * seeds.count());
+    let threads = threads::for_runs(arguments.threads);
+    let begun = Instant::now();
+    // In turn, so that an interrupted comparison has pairs.
+    let tasks = (0..2 * seeds.count()).map(|number| {
+        let side = (number % 2) as usize;
+        (side, plans[side].task(number / 2))
+    });
+    let mut rows: [Vec<Row>; 2] = Default::default();
+    let runner = Runner::new(registry.clone());
+    let done = execute(tasks, &runner, threads, &stop, |side: usize, measured| {
+        rows[side].push(measured.row);
+        progress.add(1);
+        Ok::<(), Error>(())
+    });
+    progress.clear();
+    done?;
+    for rows in &mut rows {
+        rows.sort_by_key(|row| row.seed);
+    }
+    let [a, b] = sides.map(|(target, set)| Side::new(target, set, &arguments.changes));
+    let comparison = Comparison::of(&rows[0], &rows[1]);
+    let report = Report::of(
+        comparison,
+        Circumstances {
+            sides: [a, b],
+            seeds,
+            profile: arguments.profile.clone(),
+            wall_seconds: begun.elapsed().as_secs_f64(),
+            threads,
+        },
+    );
+    match arguments.json {
+        true => json::print(&report)?,
+        false => console::print(&report.text(metrics.as_deref(), arguments.quiet))?,
+    }
+    Ok(report.is_success())
+}
+
+fn plan(
+    target: &str,
+    set: &[String],
+    arguments: &CompareArguments,
+    seeds: Seeds,
+    registry: &Registry,
+) -> Result<Plan, Failure> {
+    let common = &arguments.changes;
+    let mut changes = ChangeArguments {
+        set: [&common.set[..], set].concat(),
+        ..common.clone()
+    };
+    // A program may be compared with a scenario, which `--scenario` is not for.
+    if !target.ends_with(starl_catalog::language::SUFFIX) {
+        changes.scenario = None;
+    }
+    let quiet = arguments.quiet || arguments.json;
+    let Selection {
+        application,
+        origin,
+        ..
+    } = target::read(&changes.of(target, None, quiet), registry)?;
+    let profile = arguments.profile.as_deref();
+    Ok(Plan::new(
+        target,
+        &application,
+        Vec::new(),
+        seeds,
+        profile,
+        &origin,
+    )?)
+}

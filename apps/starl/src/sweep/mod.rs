@@ -1,0 +1,145 @@
+//! `starl sweep`: every combination of some fields' values with many seeds, on all cores. See
+//! `docs/reference/command.md`; the work is that of the crate `starl-sweep`.
+
+mod metrics;
+mod output;
+mod plot;
+mod report;
+
+pub use metrics::{Shown, shown};
+
+use crate::args::{ChangeArguments, SweepArguments};
+use crate::console;
+use crate::failure::Failure;
+use crate::json;
+use crate::outputs::{Picture, refuse_to_overwrite};
+use crate::progress::Count;
+use crate::run::stop_on_interrupt;
+use crate::target::{self, Selection};
+use crate::threads;
+use output::Outputs;
+use report::{Circumstances, Report};
+use starl_catalog::programs::Registry;
+use starl_sweep::{Axis, Error, FLEET, Format, Plan, Runner, Seeds, execute};
+use std::path::PathBuf;
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+/// Runs the sweep that the arguments describe; whether all of it was run.
+pub fn sweep(arguments: &SweepArguments, registry: &Registry) -> Result<bool, Failure> {
+    let metrics = shown(&arguments.metric)?;
+    let seeds: Seeds = arguments.seeds.parse()?;
+    let out = arguments.out.as_deref();
+    let format = out.map(Format::of).transpose();
+    let format = format.map_err(|error| Failure(format!("--out {error}")))?;
+    let picture = arguments.plot.as_deref().map(Picture::of).transpose()?;
+    let (plan, title, read) = plan(arguments, seeds, registry)?;
+    if picture.is_some() && plan.axes().is_empty() {
+        let message =
+            "--plot: there is no axis to draw against; give a field several values with --set";
+        return Err(Failure(message.to_string()));
+    }
+    let stop = stop_on_interrupt();
+    let journal = out.map(output::journal_path);
+    let named = [
+        ("--out", out),
+        ("--plot", arguments.plot.as_deref()),
+        ("the journal of --out", journal.as_deref()),
+    ];
+    refuse_to_overwrite(&named, &read)?;
+    let (mut outputs, mut rows) = Outputs::open(out.zip(format), &plan)?;
+    let done_before = rows.len() as u64;
+    let progress = Count::new(!arguments.quiet && !arguments.json, plan.len());
+    progress.begin_at(done_before);
+    let threads = threads::for_runs(arguments.threads);
+    let begun = Instant::now();
+    let open = plan.open(&rows);
+    let tasks = open.into_iter().map(|number| ((), plan.task(number)));
+    let runner = Runner::new(registry.clone());
+    let done = execute(tasks, &runner, threads, &stop, |(), row| {
+        outputs.keep(&row)?;
+        rows.insert(row.row.number, row);
+        progress.add(1);
+        Ok::<(), Error>(())
+    });
+    progress.clear();
+    done?;
+    let is_whole = rows.len() as u64 == plan.len();
+    let report = Report::of(
+        &plan,
+        &rows,
+        Circumstances {
+            title,
+            done_before,
+            wall_seconds: begun.elapsed().as_secs_f64(),
+            threads,
+            interrupted: !is_whole && stop.load(Ordering::Relaxed),
+            out: arguments.out.clone(),
+            plot: arguments.plot.clone(),
+        },
+    );
+    if is_whole {
+        outputs.finish(&plan, &rows)?;
+        if let Some((path, picture)) = arguments.plot.as_deref().zip(picture) {
+            output::save(path, &plot::file(&plan, &report, metrics[0], picture))?;
+        }
+    }
+    match (arguments.json, arguments.quiet) {
+        (true, _) => json::print(&report)?,
+        (false, true) if is_whole => {}
+        (false, _) => console::print(&report.text(&metrics))?,
+    }
+    Ok(is_whole)
+}
+
+/// The plan, the scenario's title, and the files that it was read from.
+fn plan(
+    arguments: &SweepArguments,
+    seeds: Seeds,
+    registry: &Registry,
+) -> Result<(Plan, String, Vec<PathBuf>), Failure> {
+    let axes: Result<Vec<Axis>, Error> = arguments
+        .changes
+        .set
+        .iter()
+        .map(|set| Axis::parse(set))
+        .collect();
+    let axes = axes?;
+    // The scenario may need a field that is an axis, so it is read with the first value of each.
+    let set = axes
+        .iter()
+        .filter(|axis| axis.field != FLEET)
+        .map(|axis| format!("{}={}", axis.field, axis.values[0]));
+    let changes = ChangeArguments {
+        set: set.collect(),
+        ..arguments.changes.clone()
+    };
+    let quiet = arguments.quiet || arguments.json;
+    let arguments_of_run = changes.of(&arguments.target, None, quiet);
+    let Selection {
+        application,
+        mut files,
+        origin,
+    } = target::read(&arguments_of_run, registry)?;
+    let axes = axes.into_iter();
+    let axes = axes.filter(|axis| axis.values.len() > 1 || axis.field == FLEET);
+    let plan = Plan::new(
+        &arguments.target,
+        &application,
+        axes.collect(),
+        seeds,
+        arguments.profile.as_deref(),
+        &origin,
+    );
+    let plan = plan.map_err(|error| match error {
+        Error::Refused(refusal) => target::tell(&refusal, |findings| origin.name(findings)),
+        error => error.into(),
+    })?;
+    files.extend(
+        plan.inputs()
+            .files
+            .keys()
+            .filter_map(|path| origin.path(path)),
+    );
+    Ok((plan, application.scenario().title.clone(), files))
+}
