@@ -132,15 +132,15 @@ fn rows(path: &Path, text: &[u8], plan: &Plan) -> Result<BTreeMap<u64, Measured>
     if header != expected {
         let difference = header.difference(&expected);
         let message = format!(
-            "this journal belongs to another sweep: {difference} differs; delete it to start over, or name another file \
-             with --out"
+            "this journal belongs to a sweep that differs in {difference}; delete it to start over, or name another \
+             file with --out"
         );
         return Err(Error::file(path, message));
     }
     for (number, line) in lines.filter(|(_, line)| !line.is_empty()) {
         let row = serde_json::from_slice::<Measured>(line).ok();
         let row = row.filter(|Measured { row, .. }| {
-            row.number < plan.len() && plan.task(row.number).seed == row.seed
+            row.number < plan.len() && plan.seed(row.number) == row.seed
         });
         let Some(row) = row else {
             let message =

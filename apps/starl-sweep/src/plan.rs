@@ -28,7 +28,7 @@ pub struct Plan {
 }
 
 /// A plan with more runs is a slip.
-const MOST_RUNS: u64 = 100_000_000;
+const MOST_RUNS: u64 = 10_000_000;
 
 impl Plan {
     /// A plan for a target that was read with the first value of each axis. `loader` brings the files that the other
@@ -150,6 +150,11 @@ impl Plan {
         number / self.seeds.count()
     }
 
+    /// The seed of a task.
+    pub fn seed(&self, number: u64) -> u64 {
+        self.seeds.first() + number % self.seeds.count()
+    }
+
     /// A task.
     ///
     /// # Panics
@@ -171,7 +176,7 @@ impl Plan {
             settings,
             robots,
             profile: self.profile.clone(),
-            seed: self.seeds.first() + number % self.seeds.count(),
+            seed: self.seed(number),
         }
     }
 

@@ -450,7 +450,7 @@ pub struct CompareArguments {
     /// Set a field of B alone; may be repeated
     #[arg(long, value_name = "FIELD=VALUE")]
     pub set_b: Vec<String>,
-    /// Metrics to compare, as for `starl sweep`; several with commas [default: all that are not 0 in all runs]
+    /// Metrics to compare, as for `starl sweep`; several with commas [default: all that differ for some seed]
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     pub metric: Vec<String>,
     /// Threads to run on; the results are the same for any number [default: all cores]

@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::json;
 use crate::progress::Count;
 use crate::run::stop_on_interrupt;
-use crate::sweep::{Shown, shown};
+use crate::sweep::{Shown, refused, shown};
 use crate::target::{self, Selection};
 use crate::threads;
 use report::{Circumstances, Report, Side};
@@ -75,14 +75,10 @@ fn plan(
     registry: &Registry,
 ) -> Result<Plan, Failure> {
     let common = &arguments.changes;
-    let mut changes = ChangeArguments {
+    let changes = ChangeArguments {
         set: [&common.set[..], set].concat(),
         ..common.clone()
     };
-    // A program may be compared with a scenario, which `--scenario` is not for.
-    if !target.ends_with(starl_catalog::language::SUFFIX) {
-        changes.scenario = None;
-    }
     let quiet = arguments.quiet || arguments.json;
     let Selection {
         application,

@@ -47,16 +47,12 @@ impl Side {
     /// The arguments of `starl run` for a version.
     pub fn new(target: &str, set: &[String], changes: &ChangeArguments) -> Side {
         let mut words = vec![quoted(target)];
-        let is_program = target.ends_with(starl_catalog::language::SUFFIX);
         let faults = changes
             .faults
             .as_ref()
             .map(|path| path.display().to_string());
         let options = [
-            (
-                "--scenario",
-                changes.scenario.clone().filter(|_| is_program),
-            ),
+            ("--scenario", changes.scenario.clone()),
             ("--robots", changes.robots.clone()),
             ("--duration", changes.duration.clone()),
             ("--faults", faults),
@@ -147,7 +143,7 @@ impl Report {
             rows.push([name, percent(goal.a), percent(goal.b), difference, ends]);
         }
         let is_something = |difference: &&Difference| {
-            metrics.is_some() || difference.a != Some(0.0) || difference.b != Some(0.0)
+            metrics.is_some() || !difference.difference.is_none_or(is_zero)
         };
         let shown = differences
             .iter()
@@ -208,6 +204,12 @@ impl Report {
             _ => Ok(()),
         }
     }
+}
+
+/// Whether no run differs.
+fn is_zero(interval: Interval) -> bool {
+    let ends = [interval.low, interval.high];
+    interval.estimate == 0.0 && ends.into_iter().flatten().all(|end| end == 0.0)
 }
 
 fn scaled(interval: Interval, by: f64) -> Interval {

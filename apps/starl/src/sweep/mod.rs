@@ -12,6 +12,7 @@ use crate::args::{ChangeArguments, SweepArguments};
 use crate::console;
 use crate::failure::Failure;
 use crate::json;
+use crate::origin::Origin;
 use crate::outputs::{Picture, refuse_to_overwrite};
 use crate::progress::Count;
 use crate::run::stop_on_interrupt;
@@ -131,10 +132,7 @@ fn plan(
         arguments.profile.as_deref(),
         &origin,
     );
-    let plan = plan.map_err(|error| match error {
-        Error::Refused(refusal) => target::tell(&refusal, |findings| origin.name(findings)),
-        error => error.into(),
-    })?;
+    let plan = plan.map_err(|error| refused(error, &origin))?;
     files.extend(
         plan.inputs()
             .files
@@ -142,4 +140,12 @@ fn plan(
             .filter_map(|path| origin.path(path)),
     );
     Ok((plan, application.scenario().title.clone(), files))
+}
+
+/// Tells of programs with errors, each with its lines, and sums them up.
+pub fn refused(error: Error, origin: &Origin) -> Failure {
+    match error {
+        Error::Refused(refusal) => target::tell(&refusal, |findings| origin.name(findings)),
+        error => error.into(),
+    }
 }

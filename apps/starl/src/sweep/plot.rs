@@ -46,8 +46,17 @@ fn draw(plan: &Plan, report: &Report, metric: Shown) -> Drawing {
     let mut drawing = Drawing::default();
     heading(&mut drawing, plan, report, metric);
     frame.draw_axes(&mut drawing, plan, &scale);
-    for (index, line) in lines.iter().enumerate() {
-        frame.draw_line(&mut drawing, line, color(index, lines.len()));
+    let colored = || {
+        (0..)
+            .zip(&lines)
+            .map(|(index, line)| (line, color(index, lines.len())))
+    };
+    // No band covers a line.
+    for (line, color) in colored() {
+        frame.draw_band(&mut drawing, line, color);
+    }
+    for (line, color) in colored() {
+        frame.draw_line(&mut drawing, line, color);
     }
     let right = match plan.axes().len() {
         1 => CORNER.0 + FIELD.0,
@@ -207,17 +216,11 @@ impl Frame {
         });
     }
 
-    fn draw_line(&self, drawing: &mut Drawing, line: &Line, color: Color) {
-        let along = |of: fn(&Mark) -> f64| {
-            line.marks
-                .iter()
-                .map(move |mark| self.spot(mark.x, of(mark)))
-        };
-        let band: Vec<Spot> = along(|mark| mark.high)
-            .chain(along(|mark| mark.low).rev())
-            .collect();
+    fn draw_band(&self, drawing: &mut Drawing, line: &Line, color: Color) {
+        let highs = self.spots(line, |mark| mark.high);
+        let lows = self.spots(line, |mark| mark.low);
         drawing.push(Shape::Line {
-            points: band,
+            points: highs.chain(lows.rev()).collect(),
             closed: true,
             fill: Some(Fill {
                 color,
@@ -225,8 +228,12 @@ impl Frame {
             }),
             stroke: None,
         });
-        drawing.line(along(|mark| mark.y).collect(), Stroke::solid(color, 2.0));
-        for center in along(|mark| mark.y) {
+    }
+
+    fn draw_line(&self, drawing: &mut Drawing, line: &Line, color: Color) {
+        let spots = || self.spots(line, |mark| mark.y);
+        drawing.line(spots().collect(), Stroke::solid(color, 2.0));
+        for center in spots() {
             drawing.push(Shape::Circle {
                 center,
                 radius: 3.0,
@@ -234,6 +241,11 @@ impl Frame {
                 stroke: None,
             });
         }
+    }
+
+    fn spots(&self, line: &Line, of: fn(&Mark) -> f64) -> impl DoubleEndedIterator<Item = Spot> {
+        let marks = line.marks.iter();
+        marks.map(move |mark| self.spot(mark.x, of(mark)))
     }
 }
 

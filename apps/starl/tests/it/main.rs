@@ -3,6 +3,7 @@
 mod bad_input;
 mod bench_workloads;
 mod check_programs;
+mod compare_command;
 mod diagram_command;
 mod exit_status;
 mod explain_program;
@@ -26,6 +27,7 @@ mod run_programs;
 mod same_seed_same_run;
 mod schema_command;
 mod support;
+mod sweep_command;
 mod test_command;
 mod trace_is_never_lost;
 mod verify_trace;
