@@ -1,5 +1,5 @@
 # The two commands of the README, and the parts that `make test` is made of.
-.PHONY: run setup test check unit portable wasm golden wasm-module page site web trace schema examples faults mutants nightly million docs deny bench editors diagrams devices
+.PHONY: run setup test check unit portable wheel viewer python wasm golden wasm-module page site web trace schema examples faults mutants nightly million docs deny bench editors diagrams devices
 
 VENV = target/venv/bin
 CARGO_TARGET_DIR ?= target
@@ -14,7 +14,7 @@ run:
 	cargo run --release --locked -- run race
 
 # Everything that continuous integration runs.
-test: setup check unit portable wasm web trace schema examples devices faults docs deny
+test: setup check unit portable wasm web python trace schema examples devices faults docs deny
 
 setup:
 	tools/setup.sh
@@ -72,6 +72,16 @@ wheel: setup viewer
 	rm -f $(CARGO_TARGET_DIR)/wheels/starl-*.whl
 	$(VENV)/maturin build --locked --profile $(WHEEL_PROFILE) --manifest-path apps/starl-py/Cargo.toml \
 		--out $(CARGO_TARGET_DIR)/wheels
+
+# The package for Python as its users get it: the wheel in an environment of its own.
+PYTHON_TESTS = $(CARGO_TARGET_DIR)/python-tests
+python: wheel $(STARL)
+	rm -rf $(PYTHON_TESTS)
+	python3 -m venv $(PYTHON_TESTS)
+	$(PYTHON_TESTS)/bin/pip install --quiet --disable-pip-version-check $(CARGO_TARGET_DIR)/wheels/starl-*.whl \
+		-r apps/starl-py/tests/requirements.txt
+	$(PYTHON_TESTS)/bin/mypy --strict apps/starl-py/python/starl apps/starl-py/tests
+	cd apps/starl-py && STARL=$(abspath $(STARL)) $(abspath $(PYTHON_TESTS))/bin/python -m pytest -q tests
 
 viewer: setup $(MODULE)
 	cd playground && npm run --silent embedded

@@ -6,9 +6,12 @@ use numpy::PyReadwriteArray2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use starl_catalog::Application;
 use starl_catalog::programs::Registry;
 use starl_catalog::service::Service;
 use starl_catalog::session::Disk;
+use starl_sim::read::Loader;
+use std::collections::BTreeMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Any number of simulations. Calls from several threads wait for each other; engines share nothing.
@@ -63,6 +66,19 @@ impl Engine {
         Ok(())
     }
 
+    /// The files that the scenario of a simulation names, by their paths from its folder.
+    fn inputs(&self, simulation: u32) -> PyResult<BTreeMap<String, Vec<u8>>> {
+        let application = self.application(simulation)?;
+        let inputs = &application.resolved().inputs;
+        let files = inputs
+            .files
+            .keys()
+            .map(|path| Ok((path.clone(), inputs.load(path)?)));
+        files
+            .collect::<Result<_, String>>()
+            .map_err(PyValueError::new_err)
+    }
+
     /// The records of one topic, or of all topics, as a table.
     #[pyo3(signature = (simulation, topic=None))]
     fn records(&self, py: Python<'_>, simulation: u32, topic: Option<&str>) -> PyResult<Table> {
@@ -77,6 +93,13 @@ impl Engine {
 }
 
 impl Engine {
+    /// The scenario of a simulation with its programs.
+    pub fn application(&self, simulation: u32) -> PyResult<Application> {
+        let mut service = self.service();
+        let session = service.session(simulation).map_err(PyValueError::new_err)?;
+        Ok(session.application().clone())
+    }
+
     fn service(&self) -> MutexGuard<'_, Service> {
         // Nothing is left half done where a request panics: it is answered by the next one.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)

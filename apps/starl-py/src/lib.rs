@@ -6,6 +6,7 @@
 mod disk;
 mod engine;
 mod numbers;
+mod sweep;
 mod table;
 mod trace;
 
@@ -16,6 +17,8 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use super::engine::Engine;
+    #[pymodule_export]
+    use super::sweep::Sweep;
     #[pymodule_export]
     use super::table::Table;
     #[pymodule_export]

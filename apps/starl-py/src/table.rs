@@ -17,6 +17,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
 use serde_json::Value;
 use starl_core::{Event, Pose, Record};
+use starl_sweep::Values;
 use starl_trace::Topic;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -118,6 +119,22 @@ impl Table {
             Some(Topic::Pose | Topic::Estimate) => poses(chosen),
             _ => members(chosen, topic.is_none()),
         }
+    }
+}
+
+impl Table {
+    /// The rows of a sweep.
+    pub fn of_sweep(table: starl_sweep::Table) -> Result<Table, String> {
+        let columns = table.columns.into_iter().map(|column| {
+            let values: ArrayRef = match column.values {
+                Values::Whole(values) => Arc::new(Int64Array::from(values)),
+                Values::Numbers(values) => Arc::new(Float64Array::from(values)),
+                Values::Texts(values) => Arc::new(StringArray::from(values)),
+                Values::Flags(values) => Arc::new(BooleanArray::from(values)),
+            };
+            (column.name, values)
+        });
+        self::table(columns.collect())
     }
 }
 

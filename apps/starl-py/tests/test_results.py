@@ -8,6 +8,7 @@ import pandas
 import polars
 import pyarrow
 import pytest
+from matplotlib.figure import Figure
 
 import starl
 
@@ -72,9 +73,11 @@ def test_a_cut_trace_is_read_as_far_as_it_goes(race: starl.Simulation, tmp_path:
 
 def test_a_plot_shows_every_path(race: starl.Simulation, tmp_path: Path) -> None:
     axes = race.plot()
-    labels = [text.get_text() for text in axes.get_legend().get_texts()]
+    legend, figure = axes.get_legend(), axes.get_figure()
+    assert legend and isinstance(figure, Figure)
+    labels = [text.get_text() for text in legend.get_texts()]
     assert labels == [robot.name for robot in race.robots]
-    axes.figure.savefig(tmp_path / "plot.png")
+    figure.savefig(tmp_path / "plot.png")
 
 
 def test_the_viewer_is_one_page_that_holds_the_run(race: starl.Simulation, tmp_path: Path) -> None:

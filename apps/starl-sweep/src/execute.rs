@@ -28,16 +28,26 @@ pub fn execute<K: Send>(
     mut take: impl FnMut(K, Measured) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let work = |(key, task): (K, Task)| {
-        let before = ThreadTime::try_now();
-        let row = runner.run_unless(&task, stop)?;
-        let spent = before.and_then(|before| before.try_elapsed());
-        let measured = row.map(|row| Measured {
-            row,
-            cpu_seconds: spent.map_or(0.0, |spent| spent.as_secs_f64()),
-        });
+        let measured = runner.measure(&task, stop)?;
         Ok(measured.map(|measured| (key, measured)))
     };
     spread(threads, tasks, stop, work, |result: Result<_, Error>| {
         result?.map_or(Ok(()), |(key, measured)| take(key, measured))
     })
+}
+
+impl Runner {
+    /// Runs a task to its end and measures what it costs; none if `stop` was set before.
+    ///
+    /// # Errors
+    /// As for [`run_task`](crate::run_task).
+    pub fn measure(&self, task: &Task, stop: &AtomicBool) -> Result<Option<Measured>, Error> {
+        let before = ThreadTime::try_now();
+        let row = self.run_unless(task, stop)?;
+        let spent = before.and_then(|before| before.try_elapsed());
+        Ok(row.map(|row| Measured {
+            row,
+            cpu_seconds: spent.map_or(0.0, |spent| spent.as_secs_f64()),
+        }))
+    }
 }

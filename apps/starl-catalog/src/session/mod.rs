@@ -197,6 +197,11 @@ impl Session {
         &self.warnings
     }
 
+    /// The scenario with its programs, as they were opened.
+    pub fn application(&self) -> &Application {
+        &self.application
+    }
+
     /// The run.
     pub fn run(&self) -> &Run {
         &self.live.run

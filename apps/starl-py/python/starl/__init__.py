@@ -4,25 +4,32 @@ Unless something else is said, times are seconds since the start of the run, len
 places are in one right-handed world frame with z up. Robots are numbers, from 0.
 """
 
+from starl._campaign import CampaignResults, Failure, test
 from starl._errors import Diagnostic, StarlError
 from starl._files import Program, Scenario, examples
 from starl._show import Viewer
 from starl._simulation import Robot, Simulation, Snapshot, Status
+from starl._sweep import SweepResults, sweep
 from starl._tables import Table
 from starl._trace import Trace, read_trace
 
 __all__ = [
+    "CampaignResults",
     "Diagnostic",
+    "Failure",
     "Program",
     "Robot",
     "Scenario",
     "Simulation",
     "Snapshot",
     "StarlError",
+    "SweepResults",
     "Status",
     "Table",
     "Trace",
     "Viewer",
     "examples",
     "read_trace",
+    "sweep",
+    "test",
 ]

@@ -50,11 +50,14 @@ class Table:
         """As a data frame of pandas, which needs pandas 2.2 with PyArrow, or pandas 3."""
         import pandas
 
-        if hasattr(pandas.DataFrame, "from_arrow"):
-            return pandas.DataFrame.from_arrow(self)
-        import pyarrow
+        frame: pandas.DataFrame
+        if from_arrow := getattr(pandas.DataFrame, "from_arrow", None):
+            frame = from_arrow(self)
+        else:
+            import pyarrow
 
-        return pyarrow.table(self).to_pandas()
+            frame = pyarrow.table(self).to_pandas()
+        return frame
 
     def to_numpy(self) -> dict[str, NDArray[Any]]:
         """The columns of numbers, as arrays; NaN stands for what is missing."""
