@@ -24,11 +24,11 @@ class Program:
     Raises StarlError, with all diagnostics, if it has errors. Warnings stand in `warnings`.
     """
 
-    text: str
+    text: str = field(repr=False)
     #: What messages call the program; libraries that it imports are looked for in the folder of this path.
     path: str = "program.starl"
     #: Libraries by name, which come before those in the folder.
-    libraries: Mapping[str, str] = field(default_factory=dict)
+    libraries: Mapping[str, str] = field(default_factory=dict, repr=False)
     warnings: list[Diagnostic] = field(init=False, compare=False, repr=False)
 
     def __post_init__(self) -> None:
