@@ -32,7 +32,7 @@ impl Trace {
         self.end.to_string()
     }
 
-    /// What the trace holds of how its run was started and steered, in JSON, as the request `open_recorded` takes it.
+    /// The start of the run and how it was steered, in JSON, as the request `open_recorded` takes it.
     #[getter]
     fn recorded(&self) -> String {
         let steered = self
@@ -50,7 +50,7 @@ impl Trace {
         recorded.to_string()
     }
 
-    /// What the header says, in JSON: `program`, `seed` as text, the `robots` with their names and models, and the world.
+    /// The header, in JSON: `program`, `seed` as text, the `robots` with their names and models, and the world.
     #[getter]
     fn header(&self) -> String {
         let robot = |robot: &starl_trace::RobotEntry| json!({ "id": robot.id.index(), "name": robot.name, "model": robot.model });

@@ -41,7 +41,7 @@ impl FromIterator<(String, Vec<u8>)> for Files {
 }
 
 impl Files {
-    /// The same; scenarios and programs also find the files on a disk. What is opened by its name must be held.
+    /// The same; scenarios and programs also find the files on a disk. A file that is opened by its name must be held.
     #[must_use]
     pub fn with_disk(self, disk: Option<Disk>) -> Files {
         Files { disk, ..self }

@@ -161,7 +161,7 @@ class Simulation:
         status = self._status
         return Status(status["now"], status["over"], status["outcome"], steps)
 
-    # What the robots do
+    # The robots
 
     @property
     def robots(self) -> list[Robot]:
@@ -195,7 +195,7 @@ class Simulation:
             self._refresh()
         views = tuple(array.view() for array in self._arrays)
         for view in views:
-            view.flags.writeable = False
+            view.setflags(write=False)
         return views
 
     def _refresh(self) -> None:
