@@ -7,7 +7,7 @@ use crate::Error;
 use serde::{Deserialize, Serialize};
 use starl_sim::read::{Override, Quantity};
 
-/// The name of the axis that is no field: the number of robots.
+/// The name of the axis for the number of robots, which is not a field of scenarios.
 pub const FLEET: &str = "fleet";
 
 /// A field and its values.
@@ -69,8 +69,8 @@ impl Axis {
     fn check(&self) -> Result<(), Error> {
         let option = option(&self.field);
         if self.field == "seed" {
-            let help = "the seeds are those of --seeds";
-            return Err(Error::option(&option, "this is no axis", help));
+            let help = "give the seeds with --seeds";
+            return Err(Error::option(&option, "the seed cannot be an axis", help));
         }
         for (index, value) in self.values.iter().enumerate() {
             if self.values[..index].contains(value) {
@@ -279,7 +279,7 @@ mod tests {
                 "fleet=4..16:4,2.5",
                 "--set fleet: 2.5 is not a number of robots",
             ),
-            ("seed=1,2", "--set seed: this is no axis"),
+            ("seed=1,2", "--set seed: the seed cannot be an axis"),
         ];
         for (text, message) in cases {
             let found = refused(text);

@@ -8,7 +8,7 @@ use std::sync::atomic::AtomicBool;
 /// A row, and what it cost on this machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
-    /// What came of the run.
+    /// The result of the run.
     #[serde(flatten)]
     pub row: Row,
     /// Time that the run had of a processor, seconds. It differs from machine to machine.

@@ -196,8 +196,8 @@ impl Plan {
         digest.to_string()
     }
 
-    /// A fleet of so many robots, as `--robots` has it: of each model its share of the scenario's fleet. What is left
-    /// over goes to the largest remainders, and among equal ones to the first model (Hamilton's method).
+    /// A fleet of so many robots, as `--robots` has it: each model keeps its share of the scenario's fleet. Robots that are
+    /// left over go to the models with the largest remainders, and among equal ones to the first (Hamilton's method).
     fn fleet(&self, robots: &str) -> String {
         let robots: u64 = robots.parse().unwrap_or(0);
         let all: u64 = self.models.iter().map(|(_, count)| count).sum();

@@ -1,4 +1,4 @@
-//! A row: what came of one run.
+//! A row: the result of one run.
 
 use crate::Task;
 use serde::{Deserialize, Serialize};
@@ -7,7 +7,7 @@ use starl_core::{Event, Record};
 use starl_sim::scenario::Goal;
 use starl_sim::{Outcome, Run};
 
-/// What came of one run. The same task gives the same row on every machine.
+/// The result of one run. The same task gives the same row on every machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// The place of the task in its plan.
@@ -58,7 +58,7 @@ pub struct Row {
     pub gave_up: u64,
 }
 
-/// What only the records of a run tell.
+/// Counts that only the records of a run contain.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counts {
     bytes_sent: u64,

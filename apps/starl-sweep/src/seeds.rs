@@ -53,7 +53,7 @@ impl FromStr for Seeds {
         seeds.ok_or_else(|| {
             let help =
                 "give their number, such as 100, or the first and the last one, such as 101..200";
-            Error::option(&format!("--seeds {text}"), "these are no seeds", help)
+            Error::option(&format!("--seeds {text}"), "these are not seeds", help)
         })
     }
 }

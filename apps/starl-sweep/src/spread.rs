@@ -32,7 +32,7 @@ pub fn spread<I: Send, T: Send, E>(
         while !stop.load(Ordering::Relaxed)
             && let Some(item) = next()
         {
-            // Nobody takes results any more once one could not be taken.
+            // After a failure no more results are taken.
             if sender.send(work(item)).is_err() {
                 return;
             }

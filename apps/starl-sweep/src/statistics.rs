@@ -74,7 +74,7 @@ pub fn mean(samples: &[f64]) -> Option<Interval> {
 }
 
 /// The difference of two shares of the same samples, of which `gained` have only the second property and `lost` only the
-/// first, with the interval of Agresti and Min (2005), who add half a sample to each of the four cells; none without
+/// first, with the interval of Agresti and Min (2005): half a sample is added to each of the four cells. None without
 /// samples.
 pub fn agresti_min(gained: u64, lost: u64, samples: u64) -> Option<Interval> {
     if samples == 0 {

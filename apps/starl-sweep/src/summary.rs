@@ -1,4 +1,4 @@
-//! What came of each combination: the share of runs that reached their goal, and the mean of each metric.
+//! The result of each combination: the share of runs that reached their goal, and the mean of each metric.
 
 use crate::statistics::{Interval, mean, wilson};
 use crate::{METRICS, Measured, Metric, Plan, Row};

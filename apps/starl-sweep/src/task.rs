@@ -71,7 +71,7 @@ pub struct Runner {
     kept: Mutex<VecDeque<(Task, Cell)>>,
 }
 
-/// What several threads may want at once is prepared by the first of them.
+/// Several threads may need a combination at once; the first of them prepares it.
 type Cell = Arc<OnceLock<Result<Prepared, Arc<Error>>>>;
 
 /// So many combinations are kept: tasks come in order, and threads are never far apart.
@@ -100,7 +100,7 @@ impl Runner {
     pub fn run(&self, task: &Task) -> Result<Row, Error> {
         let never = AtomicBool::new(false);
         let row = self.run_unless(task, &never)?;
-        Ok(row.unwrap_or_else(|| unreachable!("nobody stopped it")))
+        Ok(row.unwrap_or_else(|| unreachable!("it was not stopped")))
     }
 
     /// Runs a task to its end; none if `stop` was set before.

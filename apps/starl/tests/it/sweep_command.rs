@@ -453,8 +453,8 @@ fn bad_input_is_refused_with_one_message() {
             &["--set", "network.loss=0,1", "--set", "network.loss=0,1"],
             "error: --set network.loss: this axis is given twice",
         ),
-        (&["--set", "seed=1,2"], "error: --set seed: this is no axis"),
-        (&["--seeds", "0"], "error: --seeds 0: these are no seeds"),
+        (&["--set", "seed=1,2"], "error: --set seed: the seed cannot be an axis"),
+        (&["--seeds", "0"], "error: --seeds 0: these are not seeds"),
         (
             &["--profile", "lossi"],
             "error: --profile lossi: there is no such profile; did you mean `lossy`?",
