@@ -1,5 +1,6 @@
 //! Simulations: requests and answers in JSON, as for the page in a browser, and arrays of numbers.
 
+use crate::robot::PyProgram;
 use crate::table::{self, Table};
 use crate::{disk, numbers};
 use numpy::PyReadwriteArray2;
@@ -9,7 +10,7 @@ use pyo3::types::PyBytes;
 use starl_catalog::Application;
 use starl_catalog::programs::Registry;
 use starl_catalog::service::Service;
-use starl_catalog::session::Disk;
+use starl_catalog::session::{Disk, Session};
 use starl_sim::read::Loader;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -20,10 +21,17 @@ pub struct Engine(Mutex<Service>);
 
 #[pymethods]
 impl Engine {
+    /// An engine that knows these programs in Python by their names, beside those of StarL.
     #[new]
-    fn new() -> Engine {
-        let service = Service::new(Registry::default()).with_disk(Disk(disk::read));
-        Engine(Mutex::new(service))
+    #[pyo3(signature = (programs=None))]
+    fn new(py: Python<'_>, programs: Option<BTreeMap<String, Py<PyAny>>>) -> PyResult<Engine> {
+        let mut registry = Registry::default();
+        for (name, object) in programs.unwrap_or_default() {
+            let prototype = PyProgram::new(py, object)?;
+            registry = registry.with(&name, "a program in Python", move |_| prototype.clone());
+        }
+        let service = Service::new(registry).with_disk(Disk(disk::read));
+        Ok(Engine(Mutex::new(service)))
     }
 
     /// Answers a request, both in JSON. Other threads of Python run meanwhile.
@@ -33,42 +41,42 @@ impl Engine {
     }
 
     /// The number of robots of a simulation.
-    fn robots(&self, simulation: u32) -> PyResult<usize> {
-        let mut service = self.service();
-        let session = service.session(simulation).map_err(PyValueError::new_err)?;
-        Ok(session.run().simulation().robots().len())
+    fn robots(&self, py: Python<'_>, simulation: u32) -> PyResult<usize> {
+        self.with(py, simulation, |session| {
+            session.run().simulation().robots().len()
+        })
     }
 
     /// Writes the poses, the estimates and the velocities of a simulation's robots into arrays, a row a robot. False,
     /// and nothing is written, if an array has another number of rows.
     fn fill(
         &self,
+        py: Python<'_>,
         simulation: u32,
         mut poses: PyReadwriteArray2<'_, f64>,
         mut estimates: PyReadwriteArray2<'_, f64>,
         mut velocities: PyReadwriteArray2<'_, f64>,
     ) -> PyResult<bool> {
-        let mut service = self.service();
-        let session = service.session(simulation).map_err(PyValueError::new_err)?;
         let arrays = numbers::Arrays {
             poses: poses.as_slice_mut()?,
             estimates: estimates.as_slice_mut()?,
             velocities: velocities.as_slice_mut()?,
         };
-        Ok(arrays.fill(session.run().simulation()))
+        self.with(py, simulation, |session| {
+            arrays.fill(session.run().simulation())
+        })
     }
 
     /// Keeps the records of a simulation without a limit.
-    fn keep_all_records(&self, simulation: u32) -> PyResult<()> {
-        let mut service = self.service();
-        let session = service.session(simulation).map_err(PyValueError::new_err)?;
-        session.set_most_records(usize::MAX);
-        Ok(())
+    fn keep_all_records(&self, py: Python<'_>, simulation: u32) -> PyResult<()> {
+        self.with(py, simulation, |session| {
+            session.set_most_records(usize::MAX)
+        })
     }
 
     /// The files that the scenario of a simulation names, by their paths from its folder.
-    fn inputs(&self, simulation: u32) -> PyResult<BTreeMap<String, Vec<u8>>> {
-        let application = self.application(simulation)?;
+    fn inputs(&self, py: Python<'_>, simulation: u32) -> PyResult<BTreeMap<String, Vec<u8>>> {
+        let application = self.application(py, simulation)?;
         let inputs = &application.resolved().inputs;
         let files = inputs
             .files
@@ -83,21 +91,29 @@ impl Engine {
     #[pyo3(signature = (simulation, topic=None))]
     fn records(&self, py: Python<'_>, simulation: u32, topic: Option<&str>) -> PyResult<Table> {
         let topic = topic.map(table::topic).transpose()?;
-        py.detach(|| {
-            let mut service = self.service();
-            let session = service.session(simulation)?;
+        let table = self.with(py, simulation, |session| {
             Table::of_records(session.records(), topic)
-        })
-        .map_err(PyValueError::new_err)
+        })?;
+        table.map_err(PyValueError::new_err)
     }
 }
 
 impl Engine {
     /// The scenario of a simulation with its programs.
-    pub fn application(&self, simulation: u32) -> PyResult<Application> {
-        let mut service = self.service();
-        let session = service.session(simulation).map_err(PyValueError::new_err)?;
-        Ok(session.application().clone())
+    pub fn application(&self, py: Python<'_>, simulation: u32) -> PyResult<Application> {
+        self.with(py, simulation, |session| session.application().clone())
+    }
+
+    /// Does something with a simulation. Python's lock is not held meanwhile: a program in Python takes it in the middle
+    /// of a request, so a thread that held it while it waits for the engine would wait for ever.
+    fn with<T: Send>(
+        &self,
+        py: Python<'_>,
+        simulation: u32,
+        run: impl FnOnce(&mut Session) -> T + Send,
+    ) -> PyResult<T> {
+        let done = py.detach(|| self.service().session(simulation).map(run));
+        done.map_err(PyValueError::new_err)
     }
 
     fn service(&self) -> MutexGuard<'_, Service> {

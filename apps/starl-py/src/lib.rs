@@ -6,6 +6,7 @@
 mod disk;
 mod engine;
 mod numbers;
+mod robot;
 mod sweep;
 mod table;
 mod trace;
@@ -17,6 +18,10 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use super::engine::Engine;
+    #[pymodule_export]
+    use super::robot::Handle;
+    #[pymodule_export]
+    use super::robot::Primitive;
     #[pymodule_export]
     use super::sweep::Sweep;
     #[pymodule_export]

@@ -44,7 +44,7 @@ impl Sweep {
         seeds: &str,
         profile: Option<&str>,
     ) -> PyResult<Sweep> {
-        let application = engine.application(simulation)?;
+        let application = engine.application(py, simulation)?;
         let plan = py.detach(|| {
             let axes: Result<Vec<Axis>, Error> =
                 axes.iter().map(|axis| Axis::parse(axis)).collect();

@@ -291,6 +291,13 @@ impl<'a> Robot<'a> {
         self.effects.list.len()
     }
 
+    /// Takes over the effects that a handle of the same robot has collected, for software that cannot borrow this one.
+    pub fn absorb(&mut self, effects: Effects) {
+        self.effects.list.extend(effects.list);
+        self.effects.upcalls.extend(effects.upcalls);
+        self.effects.verdicts.extend(effects.verdicts);
+    }
+
     /// Runs something and discards its effects. Its random draws are kept.
     pub fn rehearse<T>(&mut self, run: impl FnOnce(&mut Robot<'_>) -> T) -> T {
         let mut effects = Effects::default();

@@ -12,6 +12,7 @@ from typing import Any
 from starl._errors import Diagnostic, StarlError
 from starl._native import Engine
 from starl._requests import request
+from starl._robots import RobotProgram
 
 #: Answers what belongs to no simulation.
 _SHARED = Engine()
@@ -71,7 +72,7 @@ class Scenario:
         self,
         example: str | None = None,
         *,
-        program: Program | str | None = None,
+        program: Program | RobotProgram | str | None = None,
         robots: str | None = None,
         faults: str | Path | None = None,
         seed: int | None = None,
@@ -79,6 +80,7 @@ class Scenario:
         **fields: Any,
     ) -> None:
         self._files: dict[str, str] = {}
+        self._programs: dict[str, RobotProgram] = {}
         self._options: dict[str, Any] = {"scenario": example} if example is not None else {}
         self._change(program=program, robots=robots, faults=faults, seed=seed, duration=duration, **fields)
 
@@ -99,6 +101,7 @@ class Scenario:
     def _of(cls, files: dict[str, str], path: str, changes: Mapping[str, Any]) -> Scenario:
         scenario = cls.__new__(cls)
         scenario._files = files
+        scenario._programs = {}
         scenario._options = {"scenario": path}
         scenario._change(**changes)
         return scenario
@@ -107,6 +110,7 @@ class Scenario:
         """The same scenario with other fields, as keywords: see Scenario."""
         scenario = Scenario.__new__(Scenario)
         scenario._files = dict(self._files)
+        scenario._programs = dict(self._programs)
         scenario._options = {**self._options, "set": list(self._options.get("set", []))}
         scenario._change(**changes)
         return scenario
@@ -121,7 +125,7 @@ class Scenario:
     def _change(
         self,
         *,
-        program: Program | str | None = None,
+        program: Program | RobotProgram | str | None = None,
         robots: str | None = None,
         faults: str | Path | None = None,
         seed: int | None = None,
@@ -132,6 +136,10 @@ class Scenario:
         if isinstance(program, Program):
             self._files.update(program._files())
             options["program"] = program.path
+        elif isinstance(program, RobotProgram):
+            name = type(program).__name__
+            self._programs = {name: program}
+            options["program"] = name
         elif program is not None:
             if program.endswith(".starl") and program not in self._files and Path(program).exists():
                 self._files[program] = _read(program)
@@ -150,9 +158,14 @@ class Scenario:
             assignments.extend(f"{name}={_toml(name, value)}" for name, value in _leaves(name, value))
         self._check()
 
+    def _engine(self) -> Engine:
+        """An engine that knows the programs in Python."""
+        return Engine(self._programs) if self._programs else _SHARED
+
     def _check(self) -> None:
-        opened = request(_SHARED, "open", files=self._files, options=self._options, topics=[])
-        request(_SHARED, "close", simulation=opened["simulation"])
+        engine = self._engine()
+        opened = request(engine, "open", files=self._files, options=self._options, topics=[])
+        request(engine, "close", simulation=opened["simulation"])
         self._title: str = opened["title"]
 
     @property
@@ -162,6 +175,8 @@ class Scenario:
 
     def _portable(self) -> dict[str, Any]:
         """The scenario with all files that it names, as requests take it on any machine: `files` and `options`."""
+        if self._programs:
+            raise StarlError("a program in Python runs in simulations, not in sweeps and campaigns")
         opened = request(_SHARED, "open", files=self._files, options=self._options, topics=[])
         try:
             named = _SHARED.inputs(opened["simulation"])
@@ -176,11 +191,12 @@ class Scenario:
 
     def text(self) -> str:
         """The whole scenario as the text of a file, changes and defaults included."""
-        opened = request(_SHARED, "open", files=self._files, options=self._options, topics=[])
+        engine = self._engine()
+        opened = request(engine, "open", files=self._files, options=self._options, topics=[])
         try:
-            text: str = request(_SHARED, "scenario", simulation=opened["simulation"])
+            text: str = request(engine, "scenario", simulation=opened["simulation"])
         finally:
-            request(_SHARED, "close", simulation=opened["simulation"])
+            request(engine, "close", simulation=opened["simulation"])
         return text
 
     def __repr__(self) -> str:

@@ -90,7 +90,7 @@ class Simulation:
         scenario = Scenario(scenario) if isinstance(scenario, str) else scenario
         options = scenario._options if seed is None else {**scenario._options, "seed": str(seed)}
         topics = None if records == "all" else [_topic(name) for name in records]
-        self._engine = Engine()
+        self._engine = Engine(scenario._programs)
         self._adopt(request(self._engine, "open", files=scenario._files, options=options, topics=topics))
 
     @classmethod

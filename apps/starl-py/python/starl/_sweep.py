@@ -111,6 +111,8 @@ def sweep(
     all cores by default. The rows are the same anywhere."""
     scenario = Scenario(scenario) if isinstance(scenario, str) else scenario
     axes = [_axis(*leaf) for name, values in (set or {}).items() for leaf in _leaves(name, values)]
+    if scenario._programs:
+        raise StarlError("a program in Python runs in simulations, not in sweeps and campaigns")
     first = _native_call(_native.Sweep.first_values, axes)
     engine = _native.Engine()
     options = {**scenario._options, "set": [*scenario._options.get("set", []), *first]}

@@ -1,0 +1,192 @@
+//! The handle through which a program in Python sees and moves its robot.
+//!
+//! Python objects may outlive a call, and a [`Robot`] may not. So a handle owns copies of what the robot knows, collects
+//! effects of its own, and gives them up when the call returns; from then on it is empty.
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use starl_core::effect::Effects;
+use starl_core::motion::{Body, Obstacles};
+use starl_core::sensor::{Contact, Detection, Ray};
+use starl_core::{Command, Estimate, Point, Random, Robot, RobotId, Sensors, Time, View, WayPoint};
+use std::sync::{Mutex, PoisonError};
+
+/// x, y and z, metres.
+pub type Place = (f64, f64, f64);
+
+/// A robot, for as long as one call of its program takes.
+#[pyclass(frozen, module = "starl._native")]
+pub struct Handle(Mutex<Option<Context>>);
+
+/// All that a [`Robot`] borrows.
+pub struct Context {
+    id: RobotId,
+    now: Time,
+    estimate: Estimate,
+    body: Body,
+    fleet: Vec<RobotId>,
+    way_points: Vec<WayPoint>,
+    obstacles: Obstacles,
+    bumper: Option<Contact>,
+    proximity: Vec<Ray>,
+    detections: Vec<Detection>,
+    holding: Option<u32>,
+    pub effects: Effects,
+    pub random: Random,
+}
+
+impl Context {
+    fn of(robot: &mut Robot<'_>) -> Context {
+        let sensors = *robot.sensors();
+        Context {
+            id: robot.id(),
+            now: robot.now(),
+            estimate: *robot.estimate(),
+            body: *robot.body(),
+            fleet: robot.fleet().to_vec(),
+            way_points: robot.way_points().to_vec(),
+            obstacles: robot.obstacles(),
+            bumper: sensors.bumper,
+            proximity: sensors.proximity.to_vec(),
+            detections: sensors.detections.to_vec(),
+            holding: sensors.holding,
+            effects: Effects::default(),
+            random: robot.random().clone(),
+        }
+    }
+}
+
+impl Handle {
+    /// A handle of this robot.
+    pub fn of(robot: &mut Robot<'_>) -> Handle {
+        Handle(Mutex::new(Some(Context::of(robot))))
+    }
+
+    /// Ends the call: the robot gets the effects and the random stream.
+    pub fn end(&self, robot: &mut Robot<'_>) {
+        let context = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Some(context) = context {
+            robot.absorb(context.effects);
+            *robot.random() = context.random;
+        }
+    }
+
+    /// Does something with the robot.
+    pub fn with<T>(&self, run: impl FnOnce(&mut Robot<'_>) -> T) -> PyResult<T> {
+        let mut context = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let Some(context) = context.as_mut() else {
+            let message = "this robot belongs to a call that has returned; use the one that is passed to each call";
+            return Err(PyRuntimeError::new_err(message));
+        };
+        let view = View {
+            id: context.id,
+            now: context.now,
+            estimate: context.estimate,
+            body: context.body,
+            sensors: Sensors {
+                bumper: context.bumper,
+                proximity: &context.proximity,
+                detections: &context.detections,
+                holding: context.holding,
+                thing_names: &[],
+            },
+            fleet: &context.fleet,
+            way_points: &context.way_points,
+            obstacles: &context.obstacles,
+        };
+        Ok(run(&mut Robot::new(
+            &view,
+            &mut context.effects,
+            &mut context.random,
+        )))
+    }
+}
+
+#[pymethods]
+impl Handle {
+    #[getter]
+    fn id(&self) -> PyResult<usize> {
+        self.with(|robot| robot.id().index())
+    }
+
+    #[getter]
+    fn now(&self) -> PyResult<f64> {
+        self.with(|robot| robot.now().seconds())
+    }
+
+    #[getter]
+    fn fleet(&self) -> PyResult<Vec<usize>> {
+        self.with(|robot| robot.fleet().iter().map(|robot| robot.index()).collect())
+    }
+
+    #[getter]
+    fn position(&self) -> PyResult<Place> {
+        self.with(|robot| numbers(robot.position()))
+    }
+
+    #[getter]
+    fn velocity(&self) -> PyResult<Place> {
+        self.with(|robot| numbers(robot.velocity()))
+    }
+
+    #[getter]
+    fn heading(&self) -> PyResult<f64> {
+        self.with(|robot| robot.heading())
+    }
+
+    /// Name and position of each waypoint.
+    #[getter]
+    fn way_points(&self) -> PyResult<Vec<(String, Place)>> {
+        let of = |point: &WayPoint| (point.name.clone(), numbers(point.position));
+        self.with(|robot| robot.way_points().iter().map(of).collect())
+    }
+
+    /// Bearing and distance of each proximity ray; the range where nothing is near.
+    #[getter]
+    fn proximity(&self) -> PyResult<Vec<(f64, f64)>> {
+        let of = |ray: &Ray| (ray.bearing, ray.distance);
+        self.with(|robot| robot.sensors().proximity.iter().map(of).collect())
+    }
+
+    #[getter]
+    fn bumped(&self) -> PyResult<bool> {
+        self.with(|robot| robot.sensors().bumper.is_some())
+    }
+
+    fn finish(&self) -> PyResult<()> {
+        self.with(|robot| robot.finish())
+    }
+
+    fn fail(&self, reason: String) -> PyResult<()> {
+        self.with(|robot| robot.fail(reason))
+    }
+
+    /// A guarded action fired.
+    fn action(&self, name: String) -> PyResult<()> {
+        self.with(|robot| robot.action(name))
+    }
+
+    fn log(&self, text: String) -> PyResult<()> {
+        self.with(|robot| robot.log(starl_core::event::Level::Info, text))
+    }
+
+    /// Turns the wheels of a differential drive at these rim speeds, metres per second.
+    fn wheels(&self, left: f64, right: f64) -> PyResult<()> {
+        self.with(|robot| robot.drive(Command::Wheels { left, right }))
+    }
+
+    /// Stands still, or hovers.
+    fn halt(&self) -> PyResult<()> {
+        self.with(|robot| robot.drive(Command::Stop))
+    }
+
+    /// A number from 0 to 1 of the robot's random stream.
+    fn random(&self) -> PyResult<f64> {
+        self.with(|robot| robot.random().uniform())
+    }
+}
+
+/// x, y and z.
+pub fn numbers(point: Point) -> Place {
+    (point.x, point.y, point.z)
+}

@@ -1,0 +1,191 @@
+"""Robots programmed in Python."""
+
+import threading
+from typing import Any
+
+import pytest
+
+import starl
+
+
+class Race(starl.RobotProgram):
+    """The Race of the thesis (figure 2.1)."""
+
+    def __init__(self) -> None:
+        self.motion = starl.ReachAvoid()
+        self.radio = starl.Broadcast()
+        self.current = 0
+        self.moving = False
+
+    def activate(self, robot: starl.RobotHandle) -> None:
+        points = robot.way_points
+        if self.current == len(points):
+            robot.action("finish")
+            self.motion.stop(robot)
+            robot.finish()
+        elif not self.moving or not (self.motion.active or self.motion.done):
+            robot.action("pick")
+            self.motion.reach_avoid(robot, points[self.current][1])
+            self.moving = True
+        elif self.motion.done:
+            robot.action("wait")
+            self.radio.broadcast(robot, {"reached": self.current})
+            self.current += 1
+            self.moving = False
+
+    def receive(self, robot: starl.RobotHandle, sender: int, message: Any, primitive: starl.Broadcast | None) -> None:  # type: ignore[override]
+        assert primitive is self.radio
+        if message["reached"] >= self.current:
+            self.current = message["reached"] + 1
+            self.moving = False
+
+
+def race(seed: int = 7, **fields: Any) -> starl.Simulation:
+    return starl.Simulation(starl.Scenario("race", program=Race(), **fields), seed=seed)
+
+
+def test_race_in_python_reaches_its_goal_and_keeps_all_properties() -> None:
+    simulation = race()
+    simulation.run()
+    assert simulation.outcome == "reached"
+    assert {robot.program for robot in simulation.robots} == {"Race"}
+    assert not [one for one in simulation.report()["properties"] if one["verdict"] == "violated"]
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_runs_repeat_and_snapshots_are_exact(seed: int) -> None:
+    first, second = race(seed, network={"loss": 0.3}), race(seed, network={"loss": 0.3})
+    first.run()
+    second.run(3.0)
+    kept = second.snapshot()
+    second.run(6.0)
+    second.restore(kept)
+    second.run()
+    assert first.digest == second.digest and first.outcome == "reached"
+
+
+def test_a_restarted_robot_has_a_fresh_copy() -> None:
+    simulation = race()
+    simulation.crash(0, at=5.0)
+    simulation.restart(0, at=6.0)
+    simulation.run()
+    assert simulation.outcome == "reached"
+    picks = simulation.records("action").to_polars()
+    assert len(picks) > 8
+
+
+def test_the_same_object_serves_many_simulations() -> None:
+    program = Race()
+    scenario = starl.Scenario("race", program=program)
+    digests = set()
+    for _ in range(2):
+        simulation = starl.Simulation(scenario, seed=7)
+        simulation.run()
+        digests.add(simulation.digest)
+    assert len(digests) == 1 and program.current == 0
+
+
+class Broken(starl.RobotProgram):
+    def activate(self, robot: starl.RobotHandle) -> None:
+        if robot.now > 1.0:
+            raise KeyError("no such thing")
+
+
+def test_an_exception_fails_the_robot_and_names_its_line() -> None:
+    simulation = starl.Simulation(starl.Scenario("race", program=Broken()))
+    simulation.run()
+    assert simulation.outcome == "failed"
+    assert "test_robots.py:" in simulation.report()["failures"][0]["text"]
+    assert "no such thing" in simulation.report()["failures"][0]["text"]
+
+
+class Primitives(starl.RobotProgram):
+    """Uses every primitive."""
+
+    def __init__(self) -> None:
+        self.mutex = starl.Mutex(algorithm="quorum")
+        self.election = starl.LeaderElection()
+        self.detector = starl.FailureDetector()
+        self.registration = starl.Registration()
+        self.barrier = starl.Barrier()
+        self.memory = starl.SharedMemory()
+        self.mail = starl.Unicast()
+        self.local = starl.LocalBroadcast()
+        self.heard: list[Any] = []
+        self.stage = 0
+        self.entered = False
+
+    def start(self, robot: starl.RobotHandle) -> None:
+        self.barrier.arrive(robot)
+        self.election.elect(robot)
+        self.registration.register(robot)
+        self.mutex.acquire(robot, ["door"])
+        self.local.broadcast(robot, ["hello", robot.id, robot.random()])
+        if robot.id == 0:
+            self.memory.write(robot, "colour", {"red": 1})
+
+    def activate(self, robot: starl.RobotHandle) -> None:
+        if self.mutex.held:
+            robot.action("enter")
+            self.entered = True
+            self.mutex.release(robot, ["door"])
+        if self.stage == 0 and self.barrier.passed and self.election.leader is not None:
+            self.stage = 1
+            self.mail.send(robot, self.election.leader, f"from {robot.id}")
+        members = self.registration.members
+        ready = self.entered and self.stage == 1 and members == robot.fleet
+        if ready and self.memory.read("colour") == {"red": 1} and len(self.heard) >= len(robot.fleet) - 1:
+            robot.finish()
+
+    def receive(self, robot: starl.RobotHandle, sender: int, message: Any, primitive: starl.Primitive | None) -> None:
+        if primitive is self.local:
+            assert message[1] == sender and 0 <= message[2] < 1
+            self.heard.append(message)
+
+
+@pytest.mark.parametrize("robots", [2, 5])
+def test_every_primitive_works(robots: int) -> None:
+    scenario = starl.Scenario("race", program=Primitives(), robots=f"create={robots}")
+    simulation = starl.Simulation(scenario)
+    simulation.run()
+    failures = simulation.report()["failures"]
+    assert simulation.outcome == "reached", failures
+    used = [one["property"] for one in simulation.report()["properties"] if one["verdict"] == "holds"]
+    assert {"mutex.safety", "barrier.safety", "unicast.integrity"} <= set(used)
+
+
+class Keeper(starl.RobotProgram):
+    kept: list[starl.RobotHandle] = []
+
+    def activate(self, robot: starl.RobotHandle) -> None:
+        Keeper.kept.append(robot)
+
+
+def test_a_handle_that_outlives_its_call_is_refused() -> None:
+    simulation = starl.Simulation(starl.Scenario("race", program=Keeper(), robots="create=1"))
+    simulation.run(0.5)
+    with pytest.raises(RuntimeError, match="has returned"):
+        Keeper.kept[0].finish()
+
+
+def test_another_thread_may_look_while_a_program_in_python_runs() -> None:
+    simulation = race()
+    thread = threading.Thread(target=simulation.run)
+    thread.start()
+    while thread.is_alive():
+        assert simulation.poses.shape == (4, 7)
+    thread.join()
+    assert simulation.outcome == "reached"
+
+
+def test_bad_options_and_unbound_primitives_are_refused() -> None:
+    class Bad(starl.RobotProgram):
+        def __init__(self) -> None:
+            self.motion = starl.ReachAvoid(vicinity=-1.0)
+
+    with pytest.raises(starl.StarlError, match="motion: vicinity"):
+        starl.Scenario("race", program=Bad())
+    with pytest.raises(starl.StarlError, match="belongs to no running program"):
+        starl.ReachAvoid().active  # noqa: B018
+    with pytest.raises(starl.StarlError, match="not in sweeps"):
+        starl.sweep(starl.Scenario("race", program=Race()))
