@@ -86,12 +86,6 @@ fn plan(
         ..
     } = target::read(&changes.of(target, None, quiet), registry)?;
     let profile = arguments.profile.as_deref();
-    Ok(Plan::new(
-        target,
-        &application,
-        Vec::new(),
-        seeds,
-        profile,
-        &origin,
-    )?)
+    let plan = Plan::new(target, &application, Vec::new(), seeds, profile, &origin);
+    plan.map_err(|error| refused(error, &origin))
 }
