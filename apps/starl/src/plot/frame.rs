@@ -1,17 +1,19 @@
 //! The part of the world that is shown, where it lies in the picture, and its axes.
 
-use super::PlotData;
-use super::drawing::{Anchor, Drawing, Shape, Spot, Stroke};
-use super::palette::{GRID, INK};
+use super::drawing::{Anchor, Drawing, Fill, Shape, Spot, Stroke};
+use super::labels::text_width;
+use super::palette::{GRID, INK, WHITE};
+use super::{PlotData, extent};
 use starl_core::Point;
-use starl_core::geometry::Bounds;
 
 /// The largest width and height of the world's part of the picture.
 const LARGEST: f64 = 600.0;
 /// Worlds are not shown narrower than this part of their length.
 const NARROWEST: f64 = 0.3;
-/// Room to the left of and above the world's part, for text.
+/// Room to the left of the world's part, at least, and above it, for text.
 const MARGIN: (f64, f64) = (58.0, 62.0);
+/// Height of the numbers at the axes.
+const SIZE: f64 = 12.0;
 
 /// Maps the world to the picture with one scale for both axes.
 #[derive(Clone, Copy, Debug)]
@@ -22,24 +24,38 @@ pub struct Frame {
     high: (f64, f64),
     /// Units of the picture in a metre.
     pub scale: f64,
+    /// Width and height of the whole world, if more of it lies beyond the edge.
+    pub world: Option<(f64, f64)>,
+    /// Whether there is more world to the left, to the right, above and below.
+    beyond: [bool; 4],
+    /// Where the world's part begins in the picture.
+    left: f64,
 }
 
 impl Frame {
     /// A frame around all that is to be shown.
     pub fn around(data: &PlotData) -> Frame {
-        let (low, high) = extent(data);
-        let (width, height) = (high.0 - low.0, high.1 - low.1);
-        let longest = width.max(height);
+        let extent::Extent { low, high, world } = extent::of(data);
+        let longest = (high.0 - low.0).max(high.1 - low.1);
         let widen = |low: f64, high: f64| {
             let missing = (longest * NARROWEST - (high - low)).max(0.0) / 2.0;
             (low - missing, high + missing)
         };
         let (x, y) = (widen(low.0, high.0), widen(low.1, high.1));
-        Frame {
+        let beyond = world.map_or([false; 4], |(least, most)| {
+            [least.0 < x.0, most.0 > x.1, most.1 > y.1, least.1 < y.0]
+        });
+        let mut frame = Frame {
             low: (x.0, y.0),
             high: (x.1, y.1),
             scale: LARGEST / longest,
-        }
+            world: world.map(|(low, high)| (high.0 - low.0, high.1 - low.1)),
+            beyond,
+            left: MARGIN.0,
+        };
+        let numbers = frame.numbers(y).map(|(_, label)| text_width(&label, SIZE));
+        frame.left = numbers.fold(MARGIN.0, |most, width| most.max(width + 14.0));
+        frame
     }
 
     /// Whether a point can be shown: beyond this, differences of coordinates mean nothing any more.
@@ -47,9 +63,15 @@ impl Frame {
         point.x.abs() < 1e12 && point.y.abs() < 1e12
     }
 
+    /// Whether a point is in the shown part of the world.
+    pub fn has(&self, point: &Point) -> bool {
+        let within = |low: f64, at: f64, high: f64| low <= at && at <= high;
+        within(self.low.0, point.x, self.high.0) && within(self.low.1, point.y, self.high.1)
+    }
+
     /// Where a point of the world is in the picture.
     pub fn spot(&self, point: Point) -> Spot {
-        let x = MARGIN.0 + (point.x - self.low.0) * self.scale;
+        let x = self.left + (point.x - self.low.0) * self.scale;
         let y = MARGIN.1 + (self.high.1 - point.y) * self.scale;
         (x, y)
     }
@@ -63,37 +85,32 @@ impl Frame {
         (self.spot(low), self.spot(high))
     }
 
+    /// The coordinates that have a number at the axis, from the first to the second.
+    fn numbers(&self, (low, high): (f64, f64)) -> impl Iterator<Item = (f64, String)> + use<> {
+        let step = step_for((self.high.0 - self.low.0).max(self.high.1 - self.low.1));
+        ticks(low, high, step).map(move |at| (at, label(at, step)))
+    }
+
     /// Lines and numbers every so many metres, and the edge.
     pub fn draw_axes(&self, drawing: &mut Drawing) {
         let ((left, top), (right, bottom)) = self.corners();
-        let step = step_for((self.high.0 - self.low.0).max(self.high.1 - self.low.1));
-        let thin = Stroke::solid(GRID, 1.0);
-        for x in ticks(self.low.0, self.high.0, step) {
+        let (thin, ink) = (Stroke::solid(GRID, 1.0), Stroke::solid(INK, 1.0));
+        let mut free = f64::NEG_INFINITY;
+        for (x, number) in self.numbers((self.low.0, self.high.0)) {
             let at = self.spot(Point::planar(x, 0.0)).0;
             drawing.line(vec![(at, top), (at, bottom)], thin);
-            drawing.line(
-                vec![(at, bottom), (at, bottom + 4.0)],
-                Stroke::solid(INK, 1.0),
-            );
-            drawing.text(
-                (at, bottom + 17.0),
-                Anchor::Middle,
-                label(x, step),
-                12.0,
-                INK,
-            );
+            drawing.line(vec![(at, bottom), (at, bottom + 4.0)], ink);
+            let half = text_width(&number, SIZE) / 2.0;
+            if at - half > free {
+                free = at + half + 4.0;
+                drawing.text((at, bottom + 17.0), Anchor::Middle, number, SIZE, INK);
+            }
         }
-        for y in ticks(self.low.1, self.high.1, step) {
+        for (y, number) in self.numbers((self.low.1, self.high.1)) {
             let at = self.spot(Point::planar(0.0, y)).1;
             drawing.line(vec![(left, at), (right, at)], thin);
-            drawing.line(vec![(left - 4.0, at), (left, at)], Stroke::solid(INK, 1.0));
-            drawing.text(
-                (left - 8.0, at + 4.0),
-                Anchor::End,
-                label(y, step),
-                12.0,
-                INK,
-            );
+            drawing.line(vec![(left - 4.0, at), (left, at)], ink);
+            drawing.text((left - 8.0, at + 4.0), Anchor::End, number, SIZE, INK);
         }
         drawing.text(
             ((left + right) / 2.0, bottom + 36.0),
@@ -120,47 +137,46 @@ impl Frame {
             fill: None,
             stroke: Some(Stroke::solid(INK, 1.0)),
         });
+        let [to_left, to_right, above, below] = self.beyond;
+        let sides = [
+            (to_left, (-1.0, 0.0)),
+            (to_right, (1.0, 0.0)),
+            (above, (0.0, -1.0)),
+            (below, (0.0, 1.0)),
+        ];
+        for (_, direction) in sides.into_iter().filter(|(is_more, _)| *is_more) {
+            for share in [0.25, 0.75] {
+                let along = |low: f64, high: f64, to: f64| match to {
+                    0.0 => low + (high - low) * share,
+                    to if to < 0.0 => low + 3.0,
+                    _ => high - 3.0,
+                };
+                let tip = (
+                    along(left, right, direction.0),
+                    along(top, bottom, direction.1),
+                );
+                arrow(drawing, tip, direction);
+            }
+        }
     }
 }
 
-/// The smallest rectangle around all that is to be shown, with room at the edges.
-fn extent(data: &PlotData) -> ((f64, f64), (f64, f64)) {
-    let mut low = (f64::INFINITY, f64::INFINITY);
-    let mut high = (f64::NEG_INFINITY, f64::NEG_INFINITY);
-    let mut include = |point: Point, reach: f64| {
-        if Frame::shows(&point) && reach.abs() < 1e12 {
-            low = (low.0.min(point.x - reach), low.1.min(point.y - reach));
-            high = (high.0.max(point.x + reach), high.1.max(point.y + reach));
-        }
+/// An arrow head with its tip at a spot: there is more world in this direction.
+pub fn arrow(drawing: &mut Drawing, tip: Spot, (dx, dy): (f64, f64)) {
+    let (length, half) = (10.0, 6.0);
+    let corner = |side: f64| {
+        let (back, across) = (-length, side * half);
+        (
+            tip.0 + back * dx - across * dy,
+            tip.1 + back * dy + across * dx,
+        )
     };
-    if let Some((a, b)) = data.arena {
-        include(a, 0.0);
-        include(b, 0.0);
-    }
-    for obstacle in &data.obstacles {
-        let Bounds { low, high } = obstacle.bounds();
-        include(low, 0.0);
-        include(high, 0.0);
-    }
-    for way_point in &data.way_points {
-        include(way_point.position, 0.0);
-    }
-    for robot in &data.robots {
-        for &point in &robot.path {
-            include(point, robot.radius);
-        }
-    }
-    for &point in &data.collisions {
-        include(point, 0.0);
-    }
-    if low.0 > high.0 {
-        return ((-1.0, -1.0), (1.0, 1.0));
-    }
-    let room = match (high.0 - low.0).max(high.1 - low.1) {
-        size if size > 0.0 => size * 0.04,
-        _ => 1.0,
-    };
-    ((low.0 - room, low.1 - room), (high.0 + room, high.1 + room))
+    drawing.push(Shape::Line {
+        points: vec![tip, corner(1.0), corner(-1.0)],
+        closed: true,
+        fill: Some(Fill::solid(INK)),
+        stroke: Some(Stroke::solid(WHITE, 1.0)),
+    });
 }
 
 /// A step of 1, 2 or 5 times a power of ten that gives four to eleven ticks over a length.

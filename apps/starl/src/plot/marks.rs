@@ -3,10 +3,17 @@
 use super::RobotPath;
 use super::drawing::{Anchor, Drawing, Fill, Shape, Spot, Stroke};
 use super::frame::Frame;
+use super::labels::Labels;
 use starl_core::event::MarkShape;
 
 /// Draws all marks that a robot's program has left.
-pub fn draw(drawing: &mut Drawing, frame: &Frame, robot: &RobotPath, stroke: Stroke) {
+pub fn draw(
+    drawing: &mut Drawing,
+    frame: &Frame,
+    robot: &RobotPath,
+    stroke: Stroke,
+    labels: &mut Labels,
+) {
     let stroke = Stroke {
         width: stroke.width * 2.5,
         dashed: false,
@@ -35,14 +42,18 @@ pub fn draw(drawing: &mut Drawing, frame: &Frame, robot: &RobotPath, stroke: Str
                     drawing.line(spots, stroke);
                 }
             }
-            MarkShape::Text(at) if Frame::shows(at) => drawing.push(Shape::Text {
-                at: frame.spot(*at),
-                anchor: Anchor::Start,
-                text: label.clone(),
-                size: 13.0,
-                color: stroke.color,
-                rim: true,
-            }),
+            MarkShape::Text(at) if Frame::shows(at) => {
+                let (at, size) = (frame.spot(*at), 13.0);
+                labels.keep_off_text(at, label, size);
+                drawing.push(Shape::Text {
+                    at,
+                    anchor: Anchor::Start,
+                    text: label.clone(),
+                    size,
+                    color: stroke.color,
+                    rim: true,
+                });
+            }
             // Anything that is not in the world cannot be shown.
             _ => {}
         }

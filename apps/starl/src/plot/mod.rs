@@ -1,26 +1,33 @@
 //! Pictures of a run from above, as in figure 2.2 of the thesis: obstacles grey, waypoints as red
-//! circles, each robot's path in its own colour, one scale in metres for both axes.
+//! circles, each robot's path in its own colour with marks of time, one scale in metres for both axes.
+//! Things, crashes, collisions and ranges are shown too. The picture shows the part of the world in which
+//! robots move, and says where there is more.
 //!
 //! A picture is first a list of shapes ([`drawing`]), made by [`scene`]; [`svg`] and [`png`] write the
 //! same list. Text in a PNG is drawn with a font that is part of the program (DejaVu Sans), so it
 //! looks the same on a machine without fonts.
 
 pub mod drawing;
+mod extent;
 mod frame;
+mod labels;
 mod legend;
 mod marks;
 pub mod palette;
+mod ranges;
 #[cfg(feature = "png")]
 mod raster;
 mod scene;
+mod signs;
 #[cfg(test)]
 mod tests;
+mod times;
 mod vector;
 
-pub use legend::text_width;
+pub use labels::text_width;
 
 use starl_core::event::MarkShape;
-use starl_core::{Obstacle, Point, WayPoint};
+use starl_core::{Obstacle, Point, Time, WayPoint};
 use std::collections::BTreeMap;
 
 pub use frame::{label, step_for, ticks};
@@ -38,10 +45,47 @@ pub struct PlotData {
     pub obstacles: Vec<Obstacle>,
     /// The application's waypoints.
     pub way_points: Vec<WayPoint>,
+    /// The places where things have been.
+    pub things: Vec<Thing>,
     /// The robots, in the order in which they get their colours.
     pub robots: Vec<RobotPath>,
-    /// Where bodies met something.
-    pub collisions: Vec<Point>,
+    /// Where and when bodies met something.
+    pub collisions: Vec<Place>,
+    /// Where and when robots crashed.
+    pub crashes: Vec<Crash>,
+    /// Radio range, metres; none where robots hear each other everywhere.
+    pub radio_range: Option<f64>,
+}
+
+/// A place at a moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// When.
+    pub at: Time,
+    /// Where, metres.
+    pub position: Point,
+}
+
+/// A place where a thing has been.
+#[derive(Clone, Debug)]
+pub struct Thing {
+    /// Its name.
+    pub name: String,
+    /// Where, metres.
+    pub position: Point,
+    /// Whether it is there no more.
+    pub is_gone: bool,
+}
+
+/// A crash of a robot.
+#[derive(Clone, Copy, Debug)]
+pub struct Crash {
+    /// Which robot, by its place in the list of robots.
+    pub robot: usize,
+    /// Where and when.
+    pub place: Place,
+    /// When the robot restarted; none if it did not.
+    pub restarted: Option<Time>,
 }
 
 /// Where a robot has been.
@@ -55,8 +99,10 @@ pub struct RobotPath {
     pub radius: f64,
     /// Whether it flies.
     pub flies: bool,
-    /// Its true positions in the order of time, metres.
-    pub path: Vec<Point>,
+    /// Range of its detector, metres; none if it has no detector.
+    pub detector: Option<f64>,
+    /// Its true positions in the order of time.
+    pub path: Vec<Place>,
     /// Its program's current drawings, by label.
     pub marks: BTreeMap<String, MarkShape>,
 }

@@ -15,6 +15,11 @@ pub const OBSTACLE_EDGE: Color = [110, 110, 110];
 /// Waypoints; no robot has it.
 pub const WAY_POINT: Color = [214, 20, 20];
 
+/// Things to find; no robot has it.
+pub const THING: Color = [150, 0, 110];
+/// Crashes; no robot has it.
+pub const CRASH: Color = [150, 20, 20];
+
 /// Okabe and Ito (2008), "Color Universal Design", without black, and without its vermilion, which
 /// would be mistaken for a waypoint; the yellow is darker, to stand out on white.
 const EIGHT: [Color; 8] = [

@@ -159,6 +159,18 @@ impl Canvas<'_> {
     }
 }
 
+/// The width of a text.
+#[cfg(test)]
+pub fn width(text: &str, size: f64) -> f64 {
+    let face = Face::parse(dejavu::sans::regular(), 0).expect("the font is whole");
+    let unit = size / f64::from(face.units_per_em());
+    let advance = |letter| {
+        let glyph = face.glyph_index(letter).unwrap_or_default();
+        f64::from(face.glyph_hor_advance(glyph).unwrap_or(0)) * unit
+    };
+    text.chars().map(advance).sum()
+}
+
 fn paint(color: Color, opacity: f64) -> Paint<'static> {
     let mut paint = Paint {
         anti_alias: true,

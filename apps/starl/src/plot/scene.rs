@@ -1,11 +1,12 @@
-//! The content of a picture, from the back to the front: floor, obstacles, paths, marks, bodies,
-//! collisions, waypoints, heading, legend.
+//! The content of a picture, from the back to the front: floor, obstacles, ranges, paths, marks, bodies, times,
+//! signs, heading, legend.
 
 use super::drawing::{Anchor, Drawing, Fill, Shape as Drawn, Spot, Stroke};
 use super::frame::Frame;
-use super::palette::{self, BLACK, INK, OBSTACLE, OBSTACLE_EDGE, WAY_POINT, WHITE};
+use super::labels::{Labels, short_name, text_width};
+use super::palette::{self, BLACK, INK, OBSTACLE, OBSTACLE_EDGE};
 use super::{PlotData, RobotPath};
-use super::{legend, marks};
+use super::{legend, marks, ranges, signs, times};
 use starl_core::{Obstacle, Point, Shape};
 
 /// Larger fleets are coloured by model: more colours cannot be distinguished.
@@ -72,40 +73,38 @@ pub fn draw(data: &PlotData) -> Drawing {
     for obstacle in &data.obstacles {
         draw_obstacle(&mut drawing, &frame, obstacle);
     }
+    let mut labels = Labels::new((upper_left, lower_right));
+    ranges::draw(&mut drawing, &frame, data, &looks);
     for (index, robot) in data.robots.iter().enumerate() {
         draw_path(&mut drawing, &frame, robot, looks.stroke(index, robot));
     }
     for (index, robot) in data.robots.iter().enumerate() {
-        marks::draw(&mut drawing, &frame, robot, looks.stroke(index, robot));
+        marks::draw(
+            &mut drawing,
+            &frame,
+            robot,
+            looks.stroke(index, robot),
+            &mut labels,
+        );
     }
     for (index, robot) in data.robots.iter().enumerate() {
         draw_bodies(&mut drawing, &frame, robot, looks.stroke(index, robot));
     }
-    for point in data.collisions.iter().filter(|point| Frame::shows(point)) {
-        drawing.cross(frame.spot(*point), 5.0, Stroke::solid(WHITE, 4.0));
-        drawing.cross(frame.spot(*point), 5.0, Stroke::solid(BLACK, 2.0));
-    }
+    // Signs lie over dots, but have the first choice of places for their labels.
+    let mut over = Drawing::default();
+    signs::draw(&mut over, &frame, data, &mut labels);
+    times::draw(&mut drawing, &frame, data, &looks, &mut labels);
+    drawing.shapes.append(&mut over.shapes);
     drawing.push(Drawn::Clip(None));
     frame.draw_edge(&mut drawing);
-    draw_way_points(&mut drawing, &frame, data);
     let (left, top) = (14.0, upper_left.1);
-    drawing.text(
-        (left, top - 40.0),
-        Anchor::Start,
-        data.title.as_str(),
-        16.0,
-        BLACK,
-    );
-    let title_width = legend::text_width(&data.title, 16.0);
-    let after = (left + title_width + 14.0, top - 40.0);
+    let title = short_name(&data.title);
+    let after = (left + text_width(&title, 16.0) + 6.0, top - 40.0);
+    drawing.text((left, top - 40.0), Anchor::Start, title, 16.0, BLACK);
     drawing.text(after, Anchor::Start, data.subtitle.as_str(), 13.0, INK);
-    let right = legend::draw(
-        &mut drawing,
-        data,
-        &looks,
-        (lower_right.0 + 22.0, upper_left.1),
-    );
-    let heading = after.0 + legend::text_width(&data.subtitle, 13.0) + 14.0;
+    let corner = (lower_right.0 + 22.0, upper_left.1);
+    let right = legend::draw(&mut drawing, data, &frame, &looks, corner);
+    let heading = after.0 + text_width(&data.subtitle, 13.0) + 14.0;
     drawing.size = (right.0.max(heading), right.1.max(lower_right.1 + 48.0));
     drawing
 }
@@ -153,8 +152,9 @@ fn draw_path(drawing: &mut Drawing, frame: &Frame, robot: &RobotPath, stroke: St
         robot
             .path
             .iter()
-            .filter(|p| Frame::shows(p))
-            .map(|&p| frame.spot(p)),
+            .map(|place| place.position)
+            .filter(Frame::shows)
+            .map(|position| frame.spot(position)),
     );
     if spots.len() > 1 {
         drawing.line(spots, stroke);
@@ -183,9 +183,10 @@ fn thinned(spots: impl Iterator<Item = Spot>) -> Vec<Spot> {
 
 /// The body at the start, hollow, and at the end, full, both to scale unless too small to see.
 fn draw_bodies(drawing: &mut Drawing, frame: &Frame, robot: &RobotPath, stroke: Stroke) {
-    let mut places = robot.path.iter().filter(|point| Frame::shows(point));
-    let Some(&first) = places.next() else { return };
-    let last = places.next_back().copied().unwrap_or(first);
+    let places = robot.path.iter().map(|place| place.position);
+    let mut places = places.filter(Frame::shows);
+    let Some(first) = places.next() else { return };
+    let last = places.next_back().unwrap_or(first);
     let smallest = if stroke.opacity < 1.0 { 1.0 } else { 4.0 };
     let radius = if robot.radius.abs() < 1e12 {
         robot.radius * frame.scale
@@ -222,41 +223,4 @@ pub fn body_look(stroke: Stroke) -> (Fill, Stroke) {
         },
         outline,
     )
-}
-
-/// With more waypoints than this they are dots without names: a drawing or a map, not places to go to.
-const MOST_NAMES: usize = 24;
-
-fn draw_way_points(drawing: &mut Drawing, frame: &Frame, data: &PlotData) {
-    let are_many = data.way_points.len() > MOST_NAMES;
-    let shown = data.way_points.iter();
-    for way_point in shown.filter(|way_point| Frame::shows(&way_point.position)) {
-        let center = frame.spot(way_point.position);
-        if are_many {
-            drawing.push(Drawn::Circle {
-                center,
-                radius: 1.5,
-                fill: Some(Fill::solid(WAY_POINT)),
-                stroke: None,
-            });
-            continue;
-        }
-        let ring = |color, width| Some(Stroke::solid(color, width));
-        for stroke in [ring(WHITE, 4.5), ring(WAY_POINT, 2.2)] {
-            drawing.push(Drawn::Circle {
-                center,
-                radius: 7.0,
-                fill: None,
-                stroke,
-            });
-        }
-        drawing.push(Drawn::Text {
-            at: (center.0 + 11.0, center.1 - 8.0),
-            anchor: Anchor::Start,
-            text: way_point.name.clone(),
-            size: 15.0,
-            color: WAY_POINT,
-            rim: true,
-        });
-    }
 }

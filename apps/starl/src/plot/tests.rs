@@ -9,8 +9,19 @@ fn robot(name: &str, model: &str, path: Vec<Point>) -> RobotPath {
         model: model.into(),
         radius: 0.17,
         flies: false,
-        path,
+        detector: None,
+        path: (0..)
+            .zip(path)
+            .map(|(second, position)| place(second, position))
+            .collect(),
         marks: BTreeMap::new(),
+    }
+}
+
+fn place(second: u64, position: Point) -> Place {
+    Place {
+        at: Time(second * 1_000_000_000),
+        position,
     }
 }
 
@@ -38,8 +49,16 @@ fn race() -> PlotData {
                 robot(&format!("create{at}"), "create", path)
             })
             .collect(),
-        collisions: vec![Point::planar(1.0, 1.0)],
+        collisions: vec![place(1, Point::planar(1.0, 1.0))],
         ..PlotData::default()
+    }
+}
+
+fn thing(name: &str, position: Point) -> Thing {
+    Thing {
+        name: name.into(),
+        position,
+        is_gone: false,
     }
 }
 
@@ -65,7 +84,8 @@ fn assert_sound(svg: &str) {
 fn every_robot_has_a_path_in_its_own_colour_and_a_line_in_the_legend() {
     for count in [1, 4, 8, 9, 24] {
         let mut data = race();
-        let path = data.robots[0].path.clone();
+        let path = data.robots[0].path.iter();
+        let path: Vec<Point> = path.map(|place| place.position).collect();
         data.robots = (0..count)
             .map(|at| robot(&format!("r{at}"), "m", path.clone()))
             .collect();
@@ -100,11 +120,11 @@ fn a_large_fleet_is_shown_by_model() {
     let mut data = race();
     data.robots = (0..10_000u32)
         .map(|at| {
-            let place = Point::planar(f64::from(at % 100), f64::from(at / 100));
+            let corner = Point::planar(f64::from(at % 100), f64::from(at / 100));
             robot(
                 &format!("r{at}"),
                 if at % 4 == 0 { "car" } else { "create" },
-                vec![place, place],
+                vec![corner, corner],
             )
         })
         .collect();
@@ -129,17 +149,25 @@ fn nothing_to_show_and_numbers_out_of_range_still_make_a_picture() {
     ];
     for x in far {
         for radius in [f64::NAN, f64::INFINITY, 0.0, -1.0, 0.2] {
-            let place = Point::planar(x, 1.0);
+            let far = Point::planar(x, 1.0);
             let mut data = race();
-            data.arena = Some((place, Point::ZERO));
-            data.collisions.push(place);
-            data.way_points[0].position = place;
-            data.robots[0].path = vec![place; 3];
+            data.arena = Some((far, Point::ZERO));
+            data.collisions.push(place(1, far));
+            data.way_points[0].position = far;
+            data.radio_range = Some(radius);
+            data.things = vec![thing("far", far)];
+            data.crashes = vec![Crash {
+                robot: 9,
+                place: place(2, far),
+                restarted: Some(Time::NEVER),
+            }];
+            data.robots[0].path = vec![place(1, far); 3];
             data.robots[1].path = Vec::new();
-            data.robots[2].path.insert(1, place);
+            data.robots[2].path.insert(1, place(1, far));
             data.robots[3].radius = radius;
-            data.obstacles.push(Obstacle::circle(place, radius));
-            data.obstacles.push(Obstacle::cuboid(Point::ZERO, place));
+            data.robots[3].detector = Some(radius);
+            data.obstacles.push(Obstacle::circle(far, radius));
+            data.obstacles.push(Obstacle::cuboid(Point::ZERO, far));
             assert_sound(&svg(&data));
             #[cfg(feature = "png")]
             if radius == 0.2 {
@@ -220,4 +248,177 @@ fn what_programs_draw_is_shown() {
     let lines =
         |picture: &str| picture.matches("<polyline").count() + picture.matches("<path").count();
     assert_eq!(lines(&drawn), lines(&plain) + 1);
+}
+
+#[test]
+fn things_crashes_times_and_ranges_are_shown_and_explained() {
+    let mut data = race();
+    data.things = vec![thing("cup", Point::planar(0.5, 1.5))];
+    data.things.push(Thing {
+        is_gone: true,
+        ..thing("cap", Point::planar(1.5, 1.5))
+    });
+    data.crashes.push(Crash {
+        robot: 2,
+        place: place(1, Point::planar(1.0, 2.0)),
+        restarted: Some(Time(12_340_000_000)),
+    });
+    data.robots[1].detector = Some(0.8);
+    data.radio_range = Some(1.25);
+    let picture = svg(&data);
+    assert_sound(&picture);
+    for text in [
+        "cup",
+        "create2 down 1 s to 12.3 s",
+        "0.5 s",
+        "every 0.5 s",
+        "detector, 0.8 m",
+        "radio, 1.25 m",
+        "thing",
+        "thing was here",
+        "crash \u{d7} 1",
+        "collision \u{d7} 1",
+    ] {
+        assert!(
+            picture.contains(&format!(">{text}<")),
+            "no {text}: {picture}"
+        );
+    }
+    let circles = |data: &PlotData, radius: f64| {
+        let frame = frame::Frame::around(data);
+        let sought = radius * frame.scale;
+        let shapes = scene::draw(data).shapes.into_iter();
+        let is_one = |shape: &drawing::Shape| matches!(shape, drawing::Shape::Circle { radius, .. } if (radius - sought).abs() < 1e-9);
+        shapes.filter(is_one).count()
+    };
+    assert_eq!((circles(&data, 0.8), circles(&data, 1.25)), (1, 4));
+    let crowd: Vec<RobotPath> = data.robots.iter().cycle().take(40).cloned().collect();
+    data.robots = crowd;
+    assert_eq!((circles(&data, 0.8), circles(&data, 1.25)), (0, 0));
+    assert!(svg(&data).contains(">radio, 1.25 m (not drawn)<"));
+}
+
+#[test]
+fn a_dot_lies_where_the_robot_was_at_its_time() {
+    let mut data = race();
+    let at = |x| Point::planar(x, 0.0);
+    // It rests from 2 s to 6 s, and goes on at 1 m/s.
+    let path = [(0, at(0.0)), (2, at(2.0)), (6, at(2.0)), (8, at(4.0))];
+    data.robots.truncate(1);
+    data.robots[0].path = path
+        .map(|(second, position)| place(second, position))
+        .into();
+    let frame = frame::Frame::around(&data);
+    let shapes = scene::draw(&data).shapes.into_iter();
+    let dots: Vec<f64> = shapes
+        .filter_map(|shape| match shape {
+            drawing::Shape::Circle { center, radius, .. } if radius == times::RADIUS => {
+                Some((center.0 - frame.spot(Point::ZERO).0) / frame.scale)
+            }
+            _ => None,
+        })
+        .collect();
+    // The last is the sample of the legend.
+    let (sample, dots) = dots.split_last().unwrap();
+    assert!(*sample > 4.0);
+    let expected = [1.0, 2.0, 3.0, 4.0];
+    assert_eq!(dots.len(), expected.len(), "{dots:?}");
+    for (dot, expected) in dots.iter().zip(expected) {
+        assert!((dot - expected).abs() < 1e-9, "{dots:?}");
+    }
+}
+
+#[test]
+fn a_large_world_is_shown_where_robots_move() {
+    let mut data = race();
+    let near = frame::Frame::around(&data);
+    assert!(near.world.is_none());
+    data.arena = Some((Point::planar(-20.0, 0.0), Point::planar(60.0, 80.0)));
+    data.way_points[0].position = Point::planar(59.0, 79.0);
+    let far = frame::Frame::around(&data);
+    assert!(far.scale > near.scale / 2.0, "{} {}", far.scale, near.scale);
+    for robot in &data.robots {
+        assert!(robot.path.iter().all(|place| far.has(&place.position)));
+    }
+    let picture = svg(&data);
+    assert_sound(&picture);
+    assert!(
+        picture.contains(">more world: 80 m by 80.2 m<"),
+        "{picture}"
+    );
+    assert!(picture.contains(">waypoint, 1 of 2 shown<"));
+    assert!(!picture.contains(">A<") && picture.contains(">C<"));
+    // Where no robot moves there is nothing to look at closely.
+    for robot in &mut data.robots {
+        robot.path.truncate(1);
+    }
+    assert!(frame::Frame::around(&data).world.is_none());
+}
+
+/// What a text covers, with the width that it has in DejaVu Sans if there is a PNG.
+fn covered(shape: &drawing::Shape) -> Option<(f64, f64, f64, f64)> {
+    let drawing::Shape::Text {
+        at,
+        anchor,
+        text,
+        size,
+        ..
+    } = shape
+    else {
+        return None;
+    };
+    #[cfg(feature = "png")]
+    let width = raster::width(text, *size);
+    #[cfg(not(feature = "png"))]
+    let width = text_width(text, *size);
+    assert!(width <= text_width(text, *size), "{text}");
+    let left = match anchor {
+        drawing::Anchor::Start => at.0,
+        drawing::Anchor::Middle => at.0 - width / 2.0,
+        drawing::Anchor::End => at.0 - width,
+    };
+    Some((left, at.1 - size * 0.8, left + width, at.1 + size * 0.2))
+}
+
+#[test]
+fn no_text_lies_over_another_or_leaves_the_picture() {
+    let names = [
+        "WWWWWWWWWWWWWWWWWWWW",
+        "il",
+        "\u{673a}\u{5668}\u{4eba}",
+        "a name that is much too long to be written out in full",
+    ];
+    for (count, size) in [(1, 1.0), (4, 1e-3), (9, 1e6), (24, 30.0), (60, 3.0)] {
+        let mut data = race();
+        data.title = names[count % 4].repeat(9);
+        data.robots = (0..count)
+            .map(|at| {
+                let y = at as f64 * size / 9.0;
+                let path = vec![Point::planar(0.0, y), Point::planar(size, y)];
+                robot(names[at % 4], &format!("model{}", at / 2), path)
+            })
+            .collect();
+        data.way_points.clear();
+        data.obstacles.clear();
+        for at in 0..10 {
+            let spot = place(at, Point::planar(size * 0.5, size * at as f64 / 90.0));
+            data.collisions.push(spot);
+            data.things
+                .push(thing(names[at as usize % 4], spot.position));
+        }
+        let picture = scene::draw(&data);
+        let texts: Vec<_> = picture.shapes.iter().filter_map(covered).collect();
+        for (index, a) in texts.iter().enumerate() {
+            let (width, height) = picture.size;
+            let is_inside = a.0 >= 0.0 && a.1 >= 0.0 && a.2 <= width && a.3 <= height;
+            assert!(
+                is_inside,
+                "{count} robots: {a:?} outside of {width} by {height}"
+            );
+            for b in &texts[..index] {
+                let is_over = a.0 < b.2 && b.0 < a.2 && a.1 < b.3 && b.1 < a.3;
+                assert!(!is_over, "{count} robots: {a:?} over {b:?}");
+            }
+        }
+    }
 }
