@@ -1,20 +1,22 @@
 //! `starl verify`: judges the properties of a run by its trace alone, whichever host wrote it.
 //!
 //! Each record is shown to the checkers of every run, in the steps in which a simulator would show them. Properties
-//! that cannot be judged are reported with the reason.
+//! that cannot be judged are reported with the reason. A run of the simulator is also held to the laws of its world.
 
 mod account;
+mod laws;
 
 use crate::args::VerifyArguments;
 use crate::failure::Failure;
 use crate::replay::{self, open, unreadable};
 use crate::{console, json};
 use account::Account;
+use starl_catalog::Application;
 use starl_catalog::programs::Registry;
 use starl_core::event::{Event, Name};
 use starl_core::motion::{Body, Workspace};
 use starl_core::{Record, Time};
-use starl_properties::{Setting, Violation, Watch, checkers};
+use starl_properties::{Checker, Setting, Violation, Watch, checkers};
 use starl_trace::{Header, TraceError};
 use std::path::Path;
 
@@ -46,7 +48,8 @@ pub fn verify(arguments: &VerifyArguments, registry: &Registry) -> Result<bool, 
 fn judge(path: &Path, registry: &Registry) -> Result<Judged, Failure> {
     let mut reader = open(path)?;
     let header = reader.header().clone();
-    let setting = setting(path, &header, registry)?;
+    let recorded = replay::inputs(path, &header, registry).ok();
+    let setting = setting(path, &header, recorded.as_ref())?;
     if let Some(robot) = setting.only {
         let name = header
             .robots
@@ -59,7 +62,8 @@ fn judge(path: &Path, registry: &Registry) -> Result<Judged, Failure> {
             ),
         ));
     }
-    let mut steps = Steps::new(&setting);
+    let laws = recorded.map_or_else(Vec::new, |recorded| laws::of(recorded.scenario()));
+    let mut steps = Steps::new(&setting, laws);
     let mut recorded = Vec::new();
     let (mut records, mut end, mut cut) = (0, Time::ZERO, None);
     for record in &mut reader {
@@ -108,7 +112,11 @@ fn violation(record: &Record, property: &Name, text: &str) -> Violation {
 
 /// The setting: that of the host, or that of the recorded inputs, or the robots and obstacles with the usual
 /// bounds.
-fn setting(path: &Path, header: &Header, registry: &Registry) -> Result<Setting, Failure> {
+fn setting(
+    path: &Path,
+    header: &Header,
+    recorded: Option<&Application>,
+) -> Result<Setting, Failure> {
     if !header.setting.is_empty() {
         let setting: Setting = serde_json::from_str(&header.setting).map_err(|error| {
             Failure::file(path, format!("the attachment starl/setting.json: {error}"))
@@ -121,7 +129,6 @@ fn setting(path: &Path, header: &Header, registry: &Registry) -> Result<Setting,
             false => Ok(setting),
         };
     }
-    let recorded = replay::inputs(path, header, registry).ok();
     let run = recorded.and_then(|application| application.run().ok());
     Ok(run.map_or_else(|| of_world(header), |run| run.setting()))
 }
@@ -155,9 +162,11 @@ struct Steps {
 }
 
 impl Steps {
-    fn new(setting: &Setting) -> Steps {
+    fn new(setting: &Setting, laws: Vec<Box<dyn Checker>>) -> Steps {
+        let mut judges = checkers(setting);
+        judges.extend(laws);
         Steps {
-            watch: Watch::new(checkers(setting)),
+            watch: Watch::new(judges),
             step: setting.step.0,
             number: 0,
             records: Vec::new(),

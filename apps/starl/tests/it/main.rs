@@ -30,6 +30,7 @@ mod support;
 mod sweep_command;
 mod test_command;
 mod trace_is_never_lost;
+mod verify_laws;
 mod verify_trace;
 #[cfg(feature = "web")]
 mod web_bad_clients;

@@ -121,6 +121,11 @@ fn verdicts_are_those_of_the_run() {
         let mut compared = 0;
         for found in known.filter(|entry| entry["reason"].is_null()) {
             let property = found["property"].as_str().expect("a name");
+            if property.ends_with("_limit") || property.starts_with("datagram_") {
+                // A law, which a run does not report.
+                assert_eq!(found["verdict"], "holds", "{target}: {property}");
+                continue;
+            }
             let live = entry(&run, property);
             assert_eq!(found["verdict"], live["verdict"], "{target}: {property}");
             assert_eq!(found["first"], live["first"], "{target}: {property}");

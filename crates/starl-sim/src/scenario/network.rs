@@ -121,7 +121,7 @@ impl Link {
 
 impl Network {
     /// Turns one knob.
-    pub(crate) fn turn(&mut self, knob: NetworkKnob) {
+    pub fn turn(&mut self, knob: NetworkKnob) {
         let link = &mut self.link;
         match knob {
             NetworkKnob::Delay(delay) => link.delay = delay,
