@@ -106,6 +106,15 @@ impl<'a> Parameters<'a> {
         )
     }
 
+    /// Any number.
+    pub fn number(&mut self, name: &'static str, default: f64) -> f64 {
+        self.read(name, default, "a number", |value| match *value {
+            Parameter::Float(number) if number.is_finite() => Some(number),
+            Parameter::Int(number) => Some(number as f64),
+            _ => None,
+        })
+    }
+
     /// Yes or no.
     pub fn flag(&mut self, name: &'static str, default: bool) -> bool {
         self.read(name, default, "true or false", |value| match *value {

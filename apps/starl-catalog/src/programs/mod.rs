@@ -3,12 +3,14 @@
 //! To add a program to those that we ship, add a line to [`Registry::default`].
 
 mod diffusion;
+mod drive;
 mod keeper;
 mod radio;
 
 use crate::language::SUFFIX;
 use crate::parameters::{Complaint, Parameters};
 use diffusion::Diffusion;
+use drive::Drive;
 use keeper::Keeper;
 use radio::Radio;
 use starl_core::motion::Planner;
@@ -48,6 +50,7 @@ impl Default for Registry {
     fn default() -> Registry {
         let race = "drive through waypoints; the first to arrive sends all on";
         let diffusion = "drive straight, turn away from what the proximity rays see";
+        let drive = "give the drive one command of the model";
         let keeper = "read, write and update registers at random";
         let radio = "drive in circles and broadcast four bytes at every activation";
         Registry(Vec::new())
@@ -55,6 +58,7 @@ impl Default for Registry {
                 Race::new(race_options(parameters))
             })
             .with("diffusion", diffusion, |_| Diffusion)
+            .with("drive", drive, Drive::new)
             .with("keeper", keeper, |parameters| {
                 let pause = Duration::from_millis(500);
                 Keeper::new(
