@@ -19,7 +19,7 @@ const GAP: f64 = 8.0;
 /// A column has at least so many rows.
 const LEAST_ROWS: usize = 10;
 
-/// What a row shows before its text.
+/// The sample of a row, before its text.
 enum Sample {
     Nothing,
     Path(Stroke),

@@ -355,7 +355,7 @@ fn a_large_world_is_shown_where_robots_move() {
     assert!(frame::Frame::around(&data).world.is_none());
 }
 
-/// What a text covers, with the width that it has in DejaVu Sans if there is a PNG.
+/// The rectangle of a text, with its width in DejaVu Sans if the build draws PNG.
 fn covered(shape: &drawing::Shape) -> Option<(f64, f64, f64, f64)> {
     let drawing::Shape::Text {
         at,

@@ -31,7 +31,7 @@ pub struct Motion {
     joining: Vec<(Bounds, Point)>,
 }
 
-/// What a robot's motion keeps to, the force of the wind included.
+/// Bounds of a robot's motion, with the force of the wind.
 #[derive(Clone, Copy, Debug)]
 struct Bounds {
     body: Body,

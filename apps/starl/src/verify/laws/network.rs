@@ -1,6 +1,7 @@
-//! Datagrams arrive as the network of the scenario has it: only where they were sent to, not twice unless it
-//! duplicates, within its range, after a delay that it has, and in the order in which they were sent where it does not
-//! change that order.
+//! Datagrams arrive as the network of the scenario has it.
+//!
+//! They arrive only where they were sent to, not twice unless a link duplicates, within radio range, and after a delay
+//! that their link can have. A link whose delay does not vary keeps their order.
 
 use super::broken;
 use starl_core::event::{Event, Fault};
@@ -38,7 +39,7 @@ pub struct Traffic {
 /// A robot as a sender and a receiver.
 #[derive(Clone, Debug, Default)]
 struct Station {
-    /// What it has sent, for as long as it may arrive.
+    /// Its datagrams that may still arrive.
     sent: VecDeque<Sent>,
     is_down: bool,
     place: Option<Point>,
