@@ -4,6 +4,7 @@
 //! programs, and [`Mend::apply`] does what it suggests.
 
 mod code;
+mod excerpt;
 mod json;
 mod mend;
 mod position;

@@ -5,9 +5,10 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use codespan_reporting::diagnostic::{Diagnostic as Shown, Label, LabelStyle, Severity as Weight};
-use codespan_reporting::files::SimpleFile;
+use codespan_reporting::files::{Files, SimpleFile};
 use codespan_reporting::term::{self, Config, termcolor};
 
+use super::excerpt::{self, Excerpt};
 use super::{Diagnostic, Severity, Span};
 
 /// Whether a terminal is told to colour the text.
@@ -19,32 +20,56 @@ pub enum Colour {
     On,
 }
 
-/// The diagnostics of one file in the order given, each as a few lines with an empty one after it.
-/// `name` is what the file is called there.
+/// No more diagnostics of a file are written: nobody reads them, and mending one often mends others.
+const MOST: usize = 100;
+
+/// The diagnostics of one file in the order given, each as a few lines with an empty one after it. Lines that are too
+/// long for a screen are cut. `name` is what the file is called there.
 #[must_use]
 pub fn render(name: &str, source: &str, diagnostics: &[Diagnostic], colour: Colour) -> String {
     let visible = visible(source);
     let file = SimpleFile::new(name, visible.as_str());
-    let config = Config {
-        tab_width: 4,
-        ..Config::default()
-    };
+    let is_cut = excerpt::is_needed(&visible);
     let mut text = String::new();
-    for diagnostic in diagnostics {
-        let shown = shown(diagnostic, source);
-        // Spans are cut to the source, so that nothing can be outside of it.
-        let part = match colour {
-            Colour::Off => term::emit_into_string(&config, &file, &shown).ok(),
-            Colour::On => {
-                let mut writer = termcolor::Ansi::new(Vec::new());
-                let done = term::emit_to_write_style(&mut writer, &config, &file, &shown);
-                done.ok()
-                    .and_then(|()| String::from_utf8(writer.into_inner()).ok())
+    for diagnostic in diagnostics.iter().take(MOST) {
+        let mut shown = shown(diagnostic, source);
+        let part = match is_cut {
+            false => written(&file, &shown, colour),
+            true => {
+                let place = range(diagnostic.span, source).start;
+                let excerpt = Excerpt::around(name, &visible, place);
+                for label in &mut shown.labels {
+                    label.range = excerpt.range(&label.range);
+                }
+                written(&excerpt, &shown, colour)
             }
         };
         text.push_str(&part.unwrap_or_else(|| format!("{}: {}\n", shown.message, name)));
     }
+    if let more @ 1.. = diagnostics.len().saturating_sub(MOST) {
+        text.push_str(&format!("{more} more of {name} are left out\n\n"));
+    }
     text
+}
+
+/// One diagnostic. Spans are cut to the source, so that nothing can be outside of it.
+fn written<'a>(
+    files: &'a impl Files<'a, FileId = ()>,
+    shown: &Shown<()>,
+    colour: Colour,
+) -> Option<String> {
+    let config = Config {
+        tab_width: 4,
+        ..Config::default()
+    };
+    match colour {
+        Colour::Off => term::emit_into_string(&config, files, shown).ok(),
+        Colour::On => {
+            let mut writer = termcolor::Ansi::new(Vec::new());
+            term::emit_to_write_style(&mut writer, &config, files, shown).ok()?;
+            String::from_utf8(writer.into_inner()).ok()
+        }
+    }
 }
 
 /// The source with a sign in the place of each character that would not be seen, or that would change
@@ -110,4 +135,60 @@ fn range(span: Span, source: &str) -> core::ops::Range<usize> {
     let start = source.floor_char_boundary((span.start as usize).min(source.len()));
     let end = source.ceil_char_boundary((span.end as usize).min(source.len()));
     start..end.max(start)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostic::Code;
+
+    fn error_at(source: &str, start: usize, length: usize) -> String {
+        let span = Span {
+            start: start as u32,
+            end: (start + length) as u32,
+        };
+        let error = Diagnostic::new(Code::TooDeep, span, "too deep");
+        render("deep.starl", source, &[error], Colour::Off)
+    }
+
+    #[test]
+    fn a_long_line_is_cut_around_the_place_and_keeps_its_column() {
+        let before = "-- \u{e4}\n";
+        for filler in ["(", "\u{673a}"] {
+            let line = format!("{}here{}", filler.repeat(5000), filler.repeat(9000));
+            let source = format!("{before}{line}\nlast");
+            let start = before.len() + 5000 * filler.len();
+            let text = error_at(&source, start, 4);
+            assert!(text.contains("deep.starl:2:5001"), "{text}");
+            assert!(text.contains("here") && text.contains('\u{2026}'), "{text}");
+            assert!(text.lines().all(|line| line.len() < 320), "{text}");
+            // The mark is under the word.
+            let lines: Vec<&str> = text.lines().collect();
+            let marked = lines.iter().position(|line| line.contains("^^^^")).unwrap();
+            assert!(lines[marked - 1].contains("here"), "{text}");
+            // What follows a cut line is in its place.
+            let after = error_at(&source, source.len() - 4, 4);
+            assert!(
+                after.contains("deep.starl:3:1") && after.contains("3 \u{2502} last"),
+                "{after}"
+            );
+            assert!(error_at(&source, source.len(), 0).contains("deep.starl:3:5"));
+        }
+    }
+
+    #[test]
+    fn a_flood_of_errors_is_cut_to_what_can_be_read() {
+        let source = "{".repeat(3000);
+        let error = |at: u32| {
+            let span = Span {
+                start: at,
+                end: at + 1,
+            };
+            Diagnostic::new(Code::TooDeep, span, "too deep")
+        };
+        let errors: Vec<Diagnostic> = (0..3000).map(error).collect();
+        let text = render("deep.starl", &source, &errors, Colour::Off);
+        assert!(text.len() < 100_000, "{}", text.len());
+        assert!(text.ends_with("2900 more of deep.starl are left out\n\n"));
+    }
 }
