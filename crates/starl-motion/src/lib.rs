@@ -7,11 +7,13 @@
 extern crate alloc;
 
 pub mod avoidance;
+pub mod contact;
 pub mod model;
 pub mod models;
 pub mod parameters;
 pub mod pilot;
 pub mod planning;
+pub mod proximity;
 pub mod tracking;
 
 pub use model::{Disturbance, Impact, Limits, Model, State};

@@ -100,6 +100,14 @@ pub trait Model: Debug + Send + Sync {
     /// Whether this is one of the model's commands, with finite arguments.
     fn accepts(&self, command: &Command) -> bool;
 
+    /// The names of the numbers that [`Model::command_of`] takes.
+    fn controls(&self) -> &'static [&'static str];
+
+    /// The command that these numbers give, each a part of its limit: -1 the limit backwards or to the right, 1 forwards
+    /// or to the left. Numbers beyond are driven at the limit, and those left out are 0. With a number that is not
+    /// finite, the command is one that the model refuses.
+    fn command_of(&self, controls: &[f64]) -> Command;
+
     /// The state of a robot that stands still at `pose`.
     fn at_rest(&self, pose: Pose) -> State;
 
@@ -142,4 +150,11 @@ pub trait Model: Debug + Send + Sync {
             }
         }
     }
+}
+
+/// Control number `which`, at most 1 either way; 0 if it is left out.
+pub(crate) fn control(controls: &[f64], which: usize) -> f64 {
+    controls
+        .get(which)
+        .map_or(0.0, |number| number.clamp(-1.0, 1.0))
 }

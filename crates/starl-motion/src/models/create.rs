@@ -6,6 +6,7 @@
 //! 500 mm/s, wheels 258 mm apart; body of 330 mm diameter. The thesis leaves the limits out.
 
 use super::{Parameterised, unicycle};
+use crate::model::control;
 use crate::parameters::{Field, ParameterError, ParameterSet, ordered, parameters};
 use crate::tracking::unicycle::{Drive, Gains};
 use crate::tracking::{Goal, Tracking};
@@ -164,6 +165,18 @@ impl Model for Create {
             }
             Command::Wheels { left, right } => left.is_finite() && right.is_finite(),
             _ => false,
+        }
+    }
+
+    fn controls(&self) -> &'static [&'static str] {
+        &["left wheel", "right wheel"]
+    }
+
+    fn command_of(&self, controls: &[f64]) -> Command {
+        let limit = self.parameters.wheel_speed;
+        Command::Wheels {
+            left: limit * control(controls, 0),
+            right: limit * control(controls, 1),
         }
     }
 

@@ -4,6 +4,7 @@
 //! `Velocity`, `Stop`. It is not in the thesis; it isolates an algorithm from the effects of dynamics.
 
 use super::Parameterised;
+use crate::model::control;
 use crate::parameters::{Field, ParameterError, ParameterSet, ordered, parameters};
 use crate::tracking::{Goal, Tracking, holonomic};
 use crate::{Disturbance, Limits, Model, State};
@@ -109,6 +110,18 @@ impl Model for Holonomic {
                 velocity.is_finite() && yaw_rate.is_finite()
             }
             _ => false,
+        }
+    }
+
+    fn controls(&self) -> &'static [&'static str] {
+        &["velocity x", "velocity y", "rate of yaw"]
+    }
+
+    fn command_of(&self, controls: &[f64]) -> Command {
+        let velocity = Point::planar(control(controls, 0), control(controls, 1));
+        Command::Velocity {
+            velocity: velocity * self.parameters.speed,
+            yaw_rate: radians(self.parameters.turn_rate) * control(controls, 2),
         }
     }
 

@@ -2,11 +2,8 @@
 
 mod act;
 mod agenda;
-mod collide;
 mod discover;
 mod fault;
-mod grid;
-mod impact;
 mod inbox;
 mod inspect;
 mod intervene;

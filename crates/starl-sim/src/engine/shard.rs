@@ -3,7 +3,6 @@
 //! Invariant: which robots share a shard depends on the fleet alone, never on the number of threads.
 
 use super::act::{Turn, next_due};
-use super::collide::{Contact, Motions};
 use super::inbox::Delivery;
 use super::mind::{Mind, Outgoing};
 use super::outlet::Desk;
@@ -16,6 +15,7 @@ use starl_core::event::Hit;
 use starl_core::{Command, Event, Point, Random, RobotId, Time, math, sensor};
 use starl_host::Workspace;
 use starl_host::journal::Journal;
+use starl_motion::contact::{Contact, Motions};
 use starl_motion::{Neighbour, State};
 
 /// How many robots a shard holds.

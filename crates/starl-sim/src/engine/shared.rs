@@ -1,6 +1,5 @@
 //! The data that all robots may read during a step; nothing here changes while robots act.
 
-use super::grid::Grid;
 use super::inbox::Inboxes;
 use super::things::Things;
 use crate::scenario::{Network, Scenario, SensorSuite, WorldObstacle};
@@ -8,6 +7,7 @@ use starl_core::geometry::ObstacleIndex;
 use starl_core::motion::Obstacles;
 use starl_core::{Command, Point, Program, RobotId, Time, WayPoint, math};
 use starl_host::Hardware;
+use starl_motion::contact::Grid;
 use starl_motion::{Disturbance, Model, Neighbour};
 use std::sync::Arc;
 

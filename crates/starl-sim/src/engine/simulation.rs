@@ -1,7 +1,6 @@
 //! A run: the world, the robots, and the order in which a step happens.
 
 use super::agenda::Agenda;
-use super::collide::{self, Contact, Motions};
 use super::inbox::Calendar;
 use super::mind::Mind;
 use super::record::Tally;
@@ -19,6 +18,7 @@ use starl_core::{
 };
 use starl_host::Node;
 use starl_host::journal::{Batch, Journal};
+use starl_motion::contact::{self, Contact, Motions};
 use starl_motion::{Neighbour, State};
 use std::sync::Arc;
 
@@ -299,7 +299,10 @@ impl Simulation {
             .fold(0.0, f64::max);
         self.contacts.resize(self.next.len(), None);
         let motions = Motions {
-            shared,
+            bodies: &shared.bodies,
+            grid: &shared.grid,
+            map: &shared.map,
+            standing: &shared.standing,
             next: &self.next,
             reach,
         };
@@ -307,7 +310,7 @@ impl Simulation {
         run(self.parallel, work, |(shard, contacts)| {
             shard.look_ahead(&motions, contacts);
         });
-        collide::settle(&motions, &mut self.contacts);
+        contact::settle(&motions, &mut self.contacts);
     }
 
     fn settle(&mut self, window: Window) {

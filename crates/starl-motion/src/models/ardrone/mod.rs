@@ -16,6 +16,7 @@ mod dynamics;
 pub mod mode;
 
 use super::Parameterised;
+use crate::model::control;
 use crate::parameters::{Field, ParameterError, ParameterSet, ordered, parameters};
 use crate::tracking::drone::Gains;
 use crate::tracking::{Goal, Tracking};
@@ -196,6 +197,19 @@ impl Model for Ardrone {
                 .iter()
                 .all(|number| number.is_finite()),
             _ => false,
+        }
+    }
+
+    fn controls(&self) -> &'static [&'static str] {
+        &["rate of yaw", "pitch", "roll", "climb"]
+    }
+
+    fn command_of(&self, controls: &[f64]) -> Command {
+        Command::Attitude {
+            yaw_rate: self.dynamics.yaw_rate * control(controls, 0),
+            pitch: self.dynamics.tilt * control(controls, 1),
+            roll: self.dynamics.tilt * control(controls, 2),
+            gaz: self.dynamics.climb * control(controls, 3),
         }
     }
 

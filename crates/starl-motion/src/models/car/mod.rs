@@ -17,6 +17,7 @@
 mod bicycle;
 
 use super::{Parameterised, unicycle};
+use crate::model::control;
 use crate::parameters::{Field, ParameterError, ParameterSet, ordered, parameters};
 use crate::tracking::car::Gains;
 use crate::tracking::{Goal, Tracking};
@@ -177,6 +178,17 @@ impl Model for Car {
             Command::Stop => true,
             Command::Steer { speed, angle } => speed.is_finite() && angle.is_finite(),
             _ => false,
+        }
+    }
+
+    fn controls(&self) -> &'static [&'static str] {
+        &["speed", "steering angle"]
+    }
+
+    fn command_of(&self, controls: &[f64]) -> Command {
+        Command::Steer {
+            speed: self.parameters.speed * control(controls, 0),
+            angle: self.steering_angle * control(controls, 1),
         }
     }
 

@@ -6,28 +6,42 @@
 //! discrete-event simulation of hard spheres (Alder and Wainwright 1959), so that no body is stopped by
 //! one that had stopped elsewhere before.
 
-use super::impact::{self, Leg};
-use super::shared::Shared;
+mod grid;
+mod impact;
+
+pub use grid::{Entry, Grid};
+
+use crate::{Impact, Neighbour};
+use alloc::collections::BinaryHeap;
+use alloc::vec;
+use core::cmp::Reverse;
+use impact::Leg;
 use starl_core::event::Hit;
-use starl_core::geometry::Bounds;
+use starl_core::geometry::{Bounds, ObstacleIndex};
 use starl_core::{Point, RobotId};
-use starl_motion::Impact;
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 
 /// The contact that stops a body in the step.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact {
+    /// What it touches.
     pub with: Hit,
     /// Fraction of the step after which the bodies touch.
     pub after: f64,
+    /// Where the body stops.
     pub impact: Impact,
 }
 
 /// The motions of a step.
 #[derive(Clone, Copy)]
 pub struct Motions<'a> {
-    pub shared: &'a Shared,
+    /// The bodies at the start of the step.
+    pub bodies: &'a [Neighbour],
+    /// An index of these bodies.
+    pub grid: &'a Grid,
+    /// The obstacles.
+    pub map: &'a ObstacleIndex,
+    /// The numbers by which contacts name the obstacles of `map`, ascending.
+    pub standing: &'a [u32],
     /// Where bodies would be at the end.
     pub next: &'a [Point],
     /// No body moves farther, metres.
@@ -36,12 +50,12 @@ pub struct Motions<'a> {
 
 impl Motions<'_> {
     fn leg(&self, robot: usize, until: f64) -> Leg {
-        Leg::new(&self.shared.bodies[robot], self.next[robot], until)
+        Leg::new(&self.bodies[robot], self.next[robot], until)
     }
 
     /// Visits the robots that may touch one in this step.
     fn for_each_near(&self, robot: usize, mut visit: impl FnMut(usize)) {
-        let Shared { bodies, grid, .. } = self.shared;
+        let Motions { bodies, grid, .. } = self;
         let body = &bodies[robot];
         let reach = body.radius + grid.greatest_radius() + 2.0 * self.reach;
         grid.for_each_within(body.position, reach, |entry| {
@@ -59,7 +73,7 @@ impl Motions<'_> {
         since: f64,
         until: impl Fn(usize) -> f64,
     ) -> Option<Contact> {
-        let Shared { map, standing, .. } = self.shared;
+        let Motions { map, standing, .. } = self;
         let leg = self.leg(robot.index(), 1.0);
         let mut first = f64::INFINITY;
         let mut with = None;

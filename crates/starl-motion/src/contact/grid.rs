@@ -4,19 +4,25 @@
 //! Invariant: entries are ordered by cell and, within a cell, by robot, whatever the number of
 //! threads, so every query visits robots in one order.
 
-use starl_core::{Point, RobotId};
-use starl_motion::Neighbour;
+use crate::Neighbour;
+use alloc::vec::Vec;
+use starl_core::{Point, RobotId, math};
 
 /// A robot as the index holds it.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
+    /// Where it is, metres.
     pub x: f64,
+    /// Where it is, metres.
     pub y: f64,
+    /// Its place among the bodies.
     pub robot: u32,
+    /// Radius of its body, metres.
     pub radius: f32,
 }
 
 impl Entry {
+    /// The robot, where the bodies are in the order of the fleet.
     pub fn robot(&self) -> RobotId {
         RobotId(self.robot)
     }
@@ -99,8 +105,7 @@ impl Grid {
         let count = bodies.len().max(1) as f64;
         // About one robot a cell, and never more than some two cells a robot, however the robots
         // are strewn: a thin row of them makes a thin row of cells.
-        let side = (width * depth / count)
-            .sqrt()
+        let side = math::sqrt(width * depth / count)
             .max((width + depth) / count)
             .max(2.0 * self.greatest_radius)
             .max(1e-3);
@@ -158,6 +163,8 @@ impl Grid {
 
 #[cfg(test)]
 mod tests {
+    extern crate std;
+
     use super::*;
     use starl_core::Random;
 

@@ -6,9 +6,9 @@
 //! convex obstacle is a convex function of time: whether it falls below zero is found by ternary
 //! search, and where by bisection.
 
+use crate::Neighbour;
 use starl_core::geometry::HeightSpan;
-use starl_core::{Obstacle, Point};
-use starl_motion::Neighbour;
+use starl_core::{Obstacle, Point, math};
 
 /// Bodies are stopped this far before the place where they would touch, metres, so that rounding does not
 /// make them overlap.
@@ -75,9 +75,7 @@ fn while_both_move(a: &Leg, b: &Leg, start: f64, end: f64) -> Option<f64> {
     }
     let (mut enter, mut leave) = (0.0, 1.0);
     if speed_squared > 0.0 {
-        let half_chord = (closing * closing - speed_squared * outside)
-            .max(0.0)
-            .sqrt();
+        let half_chord = math::sqrt((closing * closing - speed_squared * outside).max(0.0));
         enter = ((closing - half_chord) / speed_squared).max(0.0);
         leave = ((closing + half_chord) / speed_squared).min(1.0);
     }

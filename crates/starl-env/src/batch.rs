@@ -1,0 +1,216 @@
+//! Environments side by side.
+
+use crate::scatter::{self, NoRoom, Region};
+use crate::settings::{Settings, SettingsError};
+use crate::world::{Common, Map, NotFinite, Room, Scratch, World};
+use starl_core::{Obstacle, Point, Pose};
+use starl_motion::State;
+use starl_motion::proximity::Rays;
+use std::sync::Arc;
+
+/// Environments that step together.
+#[derive(Debug)]
+pub struct Batch {
+    common: Common,
+    worlds: Vec<World>,
+    parallel: bool,
+}
+
+/// Where results go: arrays whose first dimensions are environments E and robots N, in row-major order.
+pub struct Outputs<'a> {
+    /// E, N, 6: x, y, z in metres, then yaw, pitch and roll in radians.
+    pub poses: &'a mut [f64],
+    /// E, N, 6: the velocity in the world frame, metres per second, then the rates of yaw, pitch and roll.
+    pub velocities: &'a mut [f64],
+    /// E, N: the first thing that the robot touched in the last action: -1 for nothing, below N another robot, from N on
+    /// an obstacle.
+    pub contacts: &'a mut [i32],
+    /// E, N, rays: the distance from the body's edge to what the ray meets, metres; the range if it meets nothing.
+    pub lidar: &'a mut [f64],
+    /// E, N, N, numbers: the newest message by receiver and sender; 0 where none came.
+    pub messages: &'a mut [f64],
+    /// E, N, N: how many actions ago that was sent; -1 where none came.
+    pub ages: &'a mut [i32],
+}
+
+impl Batch {
+    /// Environments with seed 0, the robots of each in a row. Seed and place them before the first step.
+    ///
+    /// # Errors
+    /// Where a setting is out of its range.
+    pub fn new(settings: Settings, environments: usize) -> Result<Batch, SettingsError> {
+        settings.check()?;
+        let common = Common {
+            rays: settings
+                .lidar
+                .map(|lidar| Rays::even(lidar.rays, lidar.range)),
+            map: Arc::new(Map::new(&settings.obstacles)),
+            settings,
+        };
+        Ok(Batch {
+            worlds: (0..environments).map(|_| World::new(&common)).collect(),
+            common,
+            parallel: false,
+        })
+    }
+
+    /// Whether environments step in parallel, on the thread pool in which [`Batch::step`] is called. The results are the
+    /// same either way. Without the feature `parallel` this does nothing.
+    pub fn set_parallel(&mut self, parallel: bool) {
+        self.parallel = parallel;
+    }
+
+    /// What the environments have in common.
+    pub fn settings(&self) -> &Settings {
+        &self.common.settings
+    }
+
+    /// The number of environments.
+    pub fn environments(&self) -> usize {
+        self.worlds.len()
+    }
+
+    /// A robot's true state.
+    pub fn state(&self, environment: usize, robot: usize) -> &State {
+        &self.worlds[environment].states[robot]
+    }
+
+    /// Starts an environment's random streams anew.
+    pub fn seed(&mut self, environment: usize, seed: u64) {
+        self.worlds[environment].seed(seed);
+    }
+
+    /// The next number of the environment's random stream, uniform in [0, 1).
+    pub fn draw(&mut self, environment: usize) -> f64 {
+        self.worlds[environment].random.uniform()
+    }
+
+    /// Draws free places from the environment's random stream. Robots do not count as obstacles.
+    ///
+    /// # Errors
+    /// Where the region is too full.
+    pub fn scatter(
+        &mut self,
+        environment: usize,
+        region: &Region,
+        places: &mut [Point],
+    ) -> Result<(), NoRoom> {
+        let World { random, map, .. } = &mut self.worlds[environment];
+        scatter::scatter(random, &map.index, region, places)
+    }
+
+    /// Gives an environment these obstacles beside those of all environments.
+    pub fn set_obstacles(&mut self, environment: usize, own: &[Obstacle]) {
+        let world = &mut self.worlds[environment];
+        world.map = match own.is_empty() {
+            true => self.common.map.clone(),
+            false => {
+                let all = [self.common.settings.obstacles.as_slice(), own].concat();
+                Arc::new(Map::new(&all))
+            }
+        };
+    }
+
+    /// Begins an episode of an environment, with its robots at rest at these poses, one for each robot.
+    pub fn place(&mut self, environment: usize, poses: &[Pose]) {
+        self.worlds[environment].place(&self.common, poses);
+    }
+
+    /// Carries out one action of every robot and writes the results. `actions` has the shape environments, robots,
+    /// [`Settings::action_numbers`]; `messages` the shape environments, robots, [`Settings::message_numbers`].
+    ///
+    /// # Errors
+    /// Gives the first environment with a number that is not finite. It stays as it was; the others have stepped.
+    pub fn step(
+        &mut self,
+        actions: &[f64],
+        messages: &[f64],
+        outputs: Outputs<'_>,
+    ) -> Result<(), NotFinite> {
+        let Batch {
+            common,
+            worlds,
+            parallel,
+        } = self;
+        let settings = &common.settings;
+        let row = settings.robots() * settings.action_numbers();
+        let mail = settings.robots() * settings.message_numbers();
+        let jobs = rooms(settings, worlds.len(), outputs)
+            .zip(worlds)
+            .enumerate();
+        let turn = |work: &mut Scratch, (index, (room, world)): (usize, (Room<'_>, &mut World))| {
+            let actions = &actions[index * row..][..row];
+            let messages = &messages[index * mail..][..mail];
+            let result = world.act(common, actions, messages, work);
+            world.show(common, room, work);
+            result.err().map(|robot| NotFinite {
+                environment: index,
+                robot,
+            })
+        };
+        run(*parallel, jobs, turn).map_or(Ok(()), Err)
+    }
+
+    /// Writes the results as they are now, without a step.
+    pub fn show(&self, outputs: Outputs<'_>) {
+        let mut work = Scratch::default();
+        let rooms = rooms(&self.common.settings, self.worlds.len(), outputs);
+        for (room, world) in rooms.zip(&self.worlds) {
+            world.show(&self.common, room, &mut work);
+        }
+    }
+}
+
+/// Does all jobs with room for work, and returns the first error by environment.
+fn run<'a>(
+    parallel: bool,
+    jobs: impl Iterator<Item = (usize, (Room<'a>, &'a mut World))>,
+    turn: impl Fn(&mut Scratch, (usize, (Room<'a>, &'a mut World))) -> Option<NotFinite> + Sync + Send,
+) -> Option<NotFinite> {
+    #[cfg(feature = "parallel")]
+    if parallel {
+        use rayon::prelude::*;
+        let jobs: Vec<_> = jobs.collect();
+        // Jobs are short, so that threads take several at once.
+        let jobs = jobs.into_par_iter().with_min_len(8);
+        let errors = jobs.map_init(Scratch::default, turn);
+        return errors.flatten().min_by_key(|error| error.environment);
+    }
+    let _ = parallel;
+    let mut work = Scratch::default();
+    let errors = jobs.map(|job| turn(&mut work, job));
+    errors.fold(None, Option::or)
+}
+
+/// The parts of the arrays by environment.
+fn rooms<'a>(
+    settings: &Settings,
+    environments: usize,
+    outputs: Outputs<'a>,
+) -> impl Iterator<Item = Room<'a>> + use<'a> {
+    let robots = settings.robots();
+    let pairs = robots * robots * usize::from(settings.radio.is_some());
+    let mut poses = parts(outputs.poses, robots * 6);
+    let mut velocities = parts(outputs.velocities, robots * 6);
+    let mut contacts = parts(outputs.contacts, robots);
+    let mut lidar = parts(outputs.lidar, robots * settings.rays());
+    let mut messages = parts(outputs.messages, pairs * settings.message_numbers());
+    let mut ages = parts(outputs.ages, pairs);
+    (0..environments).map(move |_| Room {
+        poses: poses(),
+        velocities: velocities(),
+        contacts: contacts(),
+        lidar: lidar(),
+        messages: messages(),
+        ages: ages(),
+    })
+}
+
+/// Hands out one part of an array after another.
+fn parts<'a, T>(mut rest: &'a mut [T], size: usize) -> impl FnMut() -> &'a mut [T] {
+    move || {
+        let (part, others) = std::mem::take(&mut rest).split_at_mut(size);
+        rest = others;
+        part
+    }
+}

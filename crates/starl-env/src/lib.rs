@@ -1,0 +1,18 @@
+//! Environments for learning: many small worlds of robots that step together.
+//!
+//! Robots move by the models of `starl-motion`, stop where bodies touch, and measure distances as in the simulator, with
+//! the same code. There is no program, no radio protocol and no noise: a policy outside gives each robot its controls.
+//!
+//! Invariant: what happens in an environment depends on its seed and its actions alone, neither on how many environments
+//! there are beside it nor on the number of threads.
+
+mod batch;
+mod post;
+mod scatter;
+mod settings;
+mod world;
+
+pub use batch::{Batch, Outputs};
+pub use scatter::{NoRoom, Region};
+pub use settings::{Actions, Lidar, Radio, Settings, SettingsError};
+pub use world::NotFinite;
