@@ -5,6 +5,7 @@
 
 mod disk;
 mod engine;
+mod env;
 mod numbers;
 mod robot;
 mod sweep;
@@ -24,6 +25,7 @@ mod _native {
     use super::robot::Primitive;
     #[pymodule_export]
     use super::sweep::Sweep;
+    use super::env::Batch;
     #[pymodule_export]
     use super::table::Table;
     #[pymodule_export]

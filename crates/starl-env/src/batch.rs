@@ -151,12 +151,14 @@ impl Batch {
         run(*parallel, jobs, turn).map_or(Ok(()), Err)
     }
 
-    /// Writes the results as they are now, without a step.
-    pub fn show(&self, outputs: Outputs<'_>) {
+    /// Writes the results of some environments as they are now, without a step.
+    pub fn show(&self, is_shown: impl Fn(usize) -> bool, outputs: Outputs<'_>) {
         let mut work = Scratch::default();
         let rooms = rooms(&self.common.settings, self.worlds.len(), outputs);
-        for (room, world) in rooms.zip(&self.worlds) {
-            world.show(&self.common, room, &mut work);
+        for (index, (room, world)) in rooms.zip(&self.worlds).enumerate() {
+            if is_shown(index) {
+                world.show(&self.common, room, &mut work);
+            }
         }
     }
 }

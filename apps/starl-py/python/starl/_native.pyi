@@ -124,3 +124,56 @@ class Primitive:
     def passed(self) -> tuple[bool, bool]: ...
     def write(self, robot: Handle, variable: str, value: bytes) -> None: ...
     def read(self, variable: str) -> bytes | None: ...
+class Batch:
+    def __new__(
+        cls,
+        models: list[tuple[str, list[tuple[str, float]]]],
+        environments: int,
+        *,
+        physics_step: float,
+        steps_per_action: int,
+        collisions: bool,
+        circles: list[tuple[float, float, float]],
+        boxes: list[tuple[float, float, float, float]],
+        walls: tuple[float, float, float, float] | None,
+        lidar: tuple[int, float] | None,
+        reach: float | None,
+        radio: tuple[int, float, float, int, int] | None,
+        threads: int,
+    ) -> Batch: ...
+    @property
+    def action_numbers(self) -> int: ...
+    @property
+    def limits(self) -> list[tuple[float, float, float]]: ...
+    def seed(self, environments: NDArray[np.int64], seeds: NDArray[np.uint64]) -> None: ...
+    def draw(self, environments: NDArray[np.int64], numbers: NDArray[np.float64]) -> None: ...
+    def scatter(
+        self,
+        environments: NDArray[np.int64],
+        corners: tuple[tuple[float, float, float], tuple[float, float, float]],
+        distances: tuple[float, float, float],
+        places: NDArray[np.float64],
+    ) -> None: ...
+    def set_circles(self, environments: NDArray[np.int64], circles: NDArray[np.float64]) -> None: ...
+    def place(self, environments: NDArray[np.int64], poses: NDArray[np.float64]) -> None: ...
+    def step(
+        self,
+        actions: NDArray[np.float64],
+        sent: NDArray[np.float64],
+        poses: NDArray[np.float64],
+        velocities: NDArray[np.float64],
+        contacts: NDArray[np.int32],
+        lidar: NDArray[np.float64],
+        messages: NDArray[np.float64],
+        ages: NDArray[np.int32],
+    ) -> None: ...
+    def show(
+        self,
+        environments: NDArray[np.int64],
+        poses: NDArray[np.float64],
+        velocities: NDArray[np.float64],
+        contacts: NDArray[np.int32],
+        lidar: NDArray[np.float64],
+        messages: NDArray[np.float64],
+        ages: NDArray[np.int32],
+    ) -> None: ...

@@ -11,7 +11,7 @@ fn lidar_sees_obstacles_and_robots() {
     let at = |x: f64, yaw: f64| Pose::level(Point::planar(x, 0.0), yaw);
     batch.place(0, &[at(1.0, 0.0), at(1.9, 0.0)]);
     let mut arrays = Arrays::of(&batch);
-    batch.show(arrays.outputs());
+    batch.show(|_| true, arrays.outputs());
     // Bodies have a radius of 0.15 m, the pillar at 0 has 0.2 m.
     let near = |ray: usize, expected: f64| {
         let found = arrays.lidar[ray];
@@ -53,7 +53,7 @@ fn an_environment_may_have_obstacles_of_its_own() {
         batch.place(environment, &[Pose::level(Point::planar(1.0, 0.0), 0.0)]);
     }
     let mut arrays = Arrays::of(&batch);
-    batch.show(arrays.outputs());
+    batch.show(|_| true, arrays.outputs());
     assert_eq!(arrays.lidar[0], 1.0);
     assert!((arrays.lidar[12] - 0.65).abs() < 1e-9);
     assert!(

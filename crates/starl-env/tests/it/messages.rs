@@ -102,7 +102,7 @@ fn a_new_episode_forgets_messages() {
         &[Pose::default(), Pose::level(Point::planar(1.0, 0.0), 0.0)],
     );
     let mut arrays = Arrays::of(&batch);
-    batch.show(arrays.outputs());
+    batch.show(|_| true, arrays.outputs());
     assert_eq!(arrays.ages, [-1; 4]);
     assert_eq!(arrays.messages, [0.0; 8]);
 }

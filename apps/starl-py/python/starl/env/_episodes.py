@@ -1,0 +1,64 @@
+"""The episodes of a task, as all interfaces need them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from gymnasium import spaces
+from numpy.typing import NDArray
+
+from starl.env._task import Task
+from starl.env._world import Floats, Ints, World
+
+Observations = NDArray[np.float32]
+Flags = NDArray[np.bool_]
+
+
+class Episodes:
+    """A task in a batch of environments."""
+
+    def __init__(self, task: Task, environments: int, threads: int = 1) -> None:
+        self.task = task
+        self.world = World(task.settings, environments, threads)
+        self._is_seeded = np.zeros(environments, np.bool_)
+        task.begin(self.world)
+        width = sum(part.shape[-1] for part in task.observe(self.world))
+        self._observations: Observations = np.zeros((environments, self.world.robots, width), np.float32)
+        #: What one robot sees and does.
+        self.observation_space = spaces.Box(-np.inf, np.inf, (width,), np.float32)
+        self.action_space = spaces.Box(-1.0, 1.0, (self.world.action_numbers,), np.float32)
+
+    def team(self, space: spaces.Box) -> spaces.Box:
+        """The space of all robots: shape (N, ...)."""
+        robots = self.world.robots
+        low, high = (np.broadcast_to(bound, (robots, *space.shape)) for bound in (space.low, space.high))
+        return spaces.Box(low, high, dtype=np.float32)
+
+    def seed(self, envs: Ints, seeds: Sequence[int | None]) -> None:
+        """Seeds environments. Those with None go on in their streams; if they have none yet, they get a random one."""
+        for env, seed in zip(envs, seeds, strict=True):
+            if seed is None and not self._is_seeded[env]:
+                seed = int(np.random.SeedSequence().generate_state(1, np.uint64)[0])
+            if seed is not None:
+                if not 0 <= seed < 2**64:
+                    raise ValueError(f"the seed {seed} is not in 0 to 2**64 - 1")
+                self.world.seed(np.array([env]), np.array([seed], np.uint64))
+                self._is_seeded[env] = True
+
+    def reset(self, envs: Ints) -> None:
+        """Begins an episode in these environments."""
+        if len(envs):
+            self.task.reset(self.world, envs)
+
+    def observe(self) -> Observations:
+        """What robots see, in an array that is overwritten next time."""
+        np.concatenate(self.task.observe(self.world), axis=-1, out=self._observations, casting="unsafe")
+        return self._observations
+
+    def step(self, actions: NDArray[Any]) -> tuple[Floats, Flags, Flags]:
+        """Rewards (E, N), and which environments are terminated and truncated."""
+        self.world.step(actions)
+        rewards = self.task.reward(self.world)
+        return rewards, self.task.terminated(self.world), self.world.steps >= self.task.max_steps

@@ -1,0 +1,95 @@
+"""What the environments of a task have in common."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+
+@dataclass(frozen=True)
+class Circle:
+    """A round pillar; metres."""
+
+    x: float
+    y: float
+    radius: float
+
+
+@dataclass(frozen=True)
+class Box:
+    """A pillar with sides along the axes, between two corners; metres."""
+
+    left: float
+    bottom: float
+    right: float
+    top: float
+
+
+@dataclass(frozen=True)
+class Lidar:
+    """Rays evenly round the body, the first straight ahead."""
+
+    rays: int = 12
+    #: How far they see beyond the body's edge, metres.
+    range: float = 0.5
+
+
+@dataclass(frozen=True)
+class Radio:
+    """With each action, a robot sends a vector of numbers to all others in range."""
+
+    #: How many numbers a message has. They are the last ones of an action.
+    numbers: int
+    #: Robots farther apart than this, in metres, do not hear each other.
+    range: float = float("inf")
+    #: The probability that a receiver does not get a message.
+    loss: float = 0.0
+    #: The shortest and the longest delay in actions, drawn for each receiver; or one delay for all. Without delay a message
+    #: is heard at the end of the action with which it is sent.
+    delay: int | tuple[int, int] = 0
+
+
+@dataclass(frozen=True)
+class Waypoints:
+    """Actions name a waypoint, which the model's tracker drives to: the way to it from the robot in the world frame."""
+
+    #: The length of an action's 1, metres.
+    reach: float = 1.0
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Robots and the world around them."""
+
+    #: How many robots an environment has.
+    robots: int
+    #: The model of all robots, or of each: "holonomic", "create", "differential", "car" or "drone".
+    model: str | Sequence[str] = "holonomic"
+    #: Parameters of the model that are not at their defaults, by name; with several models, a mapping for each.
+    parameters: Mapping[str, float] | Sequence[Mapping[str, float]] = field(default_factory=dict)
+    #: Seconds.
+    physics_step: float = 0.05
+    #: How many physics steps an action lasts.
+    steps_per_action: int = 2
+    #: Whether bodies stop where they touch others and obstacles.
+    collisions: bool = True
+    #: Walls around the world: left, bottom, right, top, metres.
+    walls: tuple[float, float, float, float] | None = None
+    obstacles: Sequence[Circle | Box] = ()
+    lidar: Lidar | None = None
+    radio: Radio | None = None
+    #: "commands": the controls of the model, each from -1 to 1.
+    actions: Waypoints | Literal["commands"] = "commands"
+
+    def models(self) -> list[tuple[str, list[tuple[str, float]]]]:
+        """The model of each robot with its parameters."""
+        names = [self.model] * self.robots if isinstance(self.model, str) else list(self.model)
+        parameters = self.parameters
+        each = [parameters] * self.robots if isinstance(parameters, Mapping) else list(parameters)
+        for field_name, values in (("model", names), ("parameters", each)):
+            if len(values) != self.robots:
+                raise ValueError(f"{field_name}: {len(values)} values for {self.robots} robots; give one, or one each")
+        return [
+            (name, [(key, float(value)) for key, value in own.items()]) for name, own in zip(names, each, strict=True)
+        ]
