@@ -100,7 +100,7 @@ impl Batch {
             .collect()
     }
 
-    /// Starts the random streams of environments anew.
+    /// Restarts the random streams of environments.
     fn seed(
         &mut self,
         environments: PyReadonlyArray1<'_, i64>,

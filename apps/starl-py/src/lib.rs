@@ -20,13 +20,13 @@ mod _native {
     #[pymodule_export]
     use super::engine::Engine;
     #[pymodule_export]
+    use super::env::Batch;
+    #[pymodule_export]
     use super::robot::Handle;
     #[pymodule_export]
     use super::robot::Primitive;
     #[pymodule_export]
     use super::sweep::Sweep;
-    use super::env::Batch;
-    #[pymodule_export]
     use super::table::Table;
     #[pymodule_export]
     use super::trace::Trace;

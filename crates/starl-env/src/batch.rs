@@ -60,7 +60,7 @@ impl Batch {
         self.parallel = parallel;
     }
 
-    /// What the environments have in common.
+    /// The settings of all environments.
     pub fn settings(&self) -> &Settings {
         &self.common.settings
     }
@@ -75,7 +75,7 @@ impl Batch {
         &self.worlds[environment].states[robot]
     }
 
-    /// Starts an environment's random streams anew.
+    /// Restarts an environment's random streams.
     pub fn seed(&mut self, environment: usize, seed: u64) {
         self.worlds[environment].seed(seed);
     }

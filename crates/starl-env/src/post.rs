@@ -18,7 +18,7 @@ struct Flight {
 /// The messages of one environment.
 #[derive(Clone, Debug)]
 pub struct Post {
-    /// What was sent with the last actions, a ring of one more than the longest delay; a row for each robot.
+    /// The messages of the last actions, a ring of one more than the longest delay; a row for each robot.
     sent: Vec<f64>,
     flights: Vec<Flight>,
     /// The newest message that each robot has from each other.

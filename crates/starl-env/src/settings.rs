@@ -1,11 +1,11 @@
-//! What the environments of a batch have in common.
+//! The settings that the environments of a batch have in common.
 
 use starl_core::{Duration, Obstacle};
 use starl_motion::Model;
 use std::fmt;
 use std::sync::Arc;
 
-/// What the environments of a batch have in common.
+/// The settings that the environments of a batch have in common.
 #[derive(Clone, Debug)]
 pub struct Settings {
     /// The model of each robot. All models have the same number of controls.
@@ -67,7 +67,7 @@ pub struct Radio {
 pub struct SettingsError {
     /// The setting.
     pub field: &'static str,
-    /// What it must be, and what it is.
+    /// The problem, and the values that can be used.
     pub message: String,
 }
 

@@ -16,7 +16,7 @@ use std::sync::Arc;
 const PLACES: u64 = 1;
 const MESSAGES: u64 = 2;
 
-/// What environments share, and nobody changes.
+/// The constant data that environments share.
 #[derive(Debug)]
 pub struct Common {
     pub settings: Settings,
@@ -132,7 +132,7 @@ impl World {
         world
     }
 
-    /// Starts the environment's random streams anew.
+    /// Restarts the environment's random streams.
     pub fn seed(&mut self, seed: u64) {
         self.seed = seed;
         self.random = Random::keyed(seed, &[PLACES]);

@@ -23,7 +23,7 @@ use starl_core::{Point, RobotId};
 /// The contact that stops a body in the step.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact {
-    /// What it touches.
+    /// The robot or obstacle that it touches.
     pub with: Hit,
     /// Fraction of the step after which the bodies touch.
     pub after: f64,

@@ -26,7 +26,7 @@ class Episodes:
         task.begin(self.world)
         width = sum(part.shape[-1] for part in task.observe(self.world))
         self._observations: Observations = np.zeros((environments, self.world.robots, width), np.float32)
-        #: What one robot sees and does.
+        #: Observations and actions of one robot.
         self.observation_space = spaces.Box(-np.inf, np.inf, (width,), np.float32)
         self.action_space = spaces.Box(-1.0, 1.0, (self.world.action_numbers,), np.float32)
 
@@ -53,7 +53,7 @@ class Episodes:
             self.task.reset(self.world, envs)
 
     def observe(self) -> Observations:
-        """What robots see, in an array that is overwritten next time."""
+        """Returns what robots see, in an array that is overwritten next time."""
         np.concatenate(self.task.observe(self.world), axis=-1, out=self._observations, casting="unsafe")
         return self._observations
 

@@ -52,9 +52,7 @@ class ParallelEnv(PettingZooParallelEnv):  # type: ignore[misc]
 
     def step(
         self, actions: dict[str, NDArray[Any]]
-    ) -> tuple[
-        dict[str, Observations], dict[str, float], dict[str, bool], dict[str, bool], dict[str, dict[str, Any]]
-    ]:
+    ) -> tuple[dict[str, Observations], dict[str, float], dict[str, bool], dict[str, bool], dict[str, dict[str, Any]]]:
         """Carries out an action of every robot. All actions must be there."""
         if not self.agents:
             raise ValueError("the episode is over; call reset")
@@ -76,7 +74,7 @@ class ParallelEnv(PettingZooParallelEnv):  # type: ignore[misc]
         )
 
     def state(self) -> Observations:
-        """What all robots see, in one array (N, k)."""
+        """Returns what all robots see, in one array (N, k)."""
         rows: Observations = self._episodes.observe()[0].copy()
         return rows
 

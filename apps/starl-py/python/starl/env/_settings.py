@@ -1,4 +1,4 @@
-"""What the environments of a task have in common."""
+"""The settings that the environments of a task have in common."""
 
 from __future__ import annotations
 

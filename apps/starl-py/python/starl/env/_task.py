@@ -1,4 +1,4 @@
-"""What robots are to do."""
+"""The interface of tasks."""
 
 from __future__ import annotations
 
@@ -32,17 +32,17 @@ class Task:
         raise NotImplementedError
 
     def observe(self, world: World) -> Sequence[NDArray[Any]]:
-        """What each robot sees: arrays (E, N, k), which are joined. Must not change anything."""
+        """Returns what each robot sees: arrays (E, N, k), which are joined. Must not change anything."""
         raise NotImplementedError
 
     def reward(self, world: World) -> Floats:
-        """What each robot gets for the last action: (E, N). Called once after each action."""
+        """Returns the reward of each robot for the last action: (E, N). Called once after each action."""
         raise NotImplementedError
 
     def terminated(self, world: World) -> NDArray[np.bool_]:
-        """Whether the task is done or lost in each environment: (E,). Called after `reward`."""
+        """Returns whether the task is done or lost in each environment: (E,). Called after `reward`."""
         return np.zeros(world.environments, np.bool_)
 
     def information(self, world: World) -> dict[str, NDArray[Any]]:
-        """More that is worth knowing, such as a measure of success: arrays (E, ...)."""
+        """Returns measures for `infos`, such as the part of robots at their goals: arrays (E, ...)."""
         return {}

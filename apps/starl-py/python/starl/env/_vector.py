@@ -95,7 +95,13 @@ class VectorEnv(GymnasiumVectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         ends = {**infos, **{name: over.copy() for name in infos if name.startswith("_")}}
         self._episodes.reset(np.flatnonzero(over))
         fresh = self._information(infos["robot_rewards"])
-        return {**fresh, "final_obs": final_obs, "_final_obs": over.copy(), "final_info": ends, "_final_info": over.copy()}
+        return {
+            **fresh,
+            "final_obs": final_obs,
+            "_final_obs": over.copy(),
+            "final_info": ends,
+            "_final_info": over.copy(),
+        }
 
     def _information(self, robot_rewards: Floats | None = None) -> dict[str, Any]:
         infos: dict[str, Any] = {name: values.copy() for name, values in self.task.information(self.world).items()}
@@ -111,4 +117,3 @@ def _checked_mask(mask: Any, environments: int) -> Flags:
     if not mask.any():
         raise ValueError('options["reset_mask"] names no environment')
     return mask
-

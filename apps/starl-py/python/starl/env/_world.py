@@ -85,7 +85,7 @@ class World:
         self.steps += 1
 
     def seed(self, envs: Ints, seeds: NDArray[np.uint64]) -> None:
-        """Starts the random streams of environments anew."""
+        """Restarts the random streams of environments."""
         self._batch.seed(envs, seeds)
 
     def uniform(self, envs: Ints, *shape: int, low: float = 0.0, high: float = 1.0) -> Floats:

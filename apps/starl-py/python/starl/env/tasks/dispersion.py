@@ -25,7 +25,8 @@ class Dispersion(Task):
     def reset(self, world: World, envs: Ints) -> None:
         near = 0.25 * np.sqrt(world.robots)
         world.place(envs, world.scatter(envs, world.robots, (-near, -near), (near, near), gap=0.22))
-        self.targets[envs] = world.scatter(envs, world.robots, (-self.half, -self.half), (self.half, self.half))[..., :2]
+        targets = world.scatter(envs, world.robots, (-self.half, -self.half), (self.half, self.half))
+        self.targets[envs] = targets[..., :2]
         self.visited[envs] = False
 
     def _ways(self, world: World) -> Floats:

@@ -14,9 +14,9 @@ from starl.env._world import Floats, Ints, World
 class Navigation(Task):
     """Reward: metres by which a robot came nearer to its goal, less 1 for touching something. Done when all are there."""
 
-    def __init__(self, robots: int = 10, *, half: float = 1.0, lidar: Lidar | None = Lidar(12, 0.35), **more: Any) -> None:
+    def __init__(self, robots: int = 10, *, half: float = 1.0, **more: Any) -> None:
         self.half = half
-        self.settings = Settings(robots, **{"parameters": {"radius": 0.1}, "lidar": lidar, **more})
+        self.settings = Settings(robots, **{"parameters": {"radius": 0.1}, "lidar": Lidar(12, 0.35), **more})
 
     def begin(self, world: World) -> None:
         self.goals: Floats = np.zeros((world.environments, world.robots, 2))

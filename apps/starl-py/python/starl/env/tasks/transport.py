@@ -16,7 +16,9 @@ class Transport(Task):
     pass under it. Reward: metres by which the thing came nearer to its goal, and a tenth of those by which a robot came
     nearer to the thing. Done when it is there."""
 
-    def __init__(self, robots: int = 4, *, carriers: int = 2, half: float = 1.5, reach: float = 0.3, **more: Any) -> None:
+    def __init__(
+        self, robots: int = 4, *, carriers: int = 2, half: float = 1.5, reach: float = 0.3, **more: Any
+    ) -> None:
         self.half, self.reach, self.carriers = half, reach, carriers
         self.settings = Settings(robots, **{"parameters": {"radius": 0.1}, **more})
 
