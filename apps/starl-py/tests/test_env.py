@@ -34,8 +34,8 @@ def test_the_tests_of_pettingzoo_pass(make: Callable[[], Task]) -> None:
     parallel_seed_test(lambda: ParallelEnv(make()), num_cycles=30)
 
 
-@pytest.mark.filterwarnings("error")
 @pytest.mark.filterwarnings("ignore:.*observation space (minimum|maximum) value is .*infinity")
+@pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("model", ["holonomic", "create", "car"])
 def test_the_checker_of_gymnasium_passes(model: str) -> None:
     check_env(Env(tasks.Navigation(1, model=model, parameters={})), skip_render_check=True)
