@@ -27,6 +27,7 @@ mod _native {
     use super::robot::Primitive;
     #[pymodule_export]
     use super::sweep::Sweep;
+    #[pymodule_export]
     use super::table::Table;
     #[pymodule_export]
     use super::trace::Trace;
