@@ -1,7 +1,7 @@
 """Compares the speed of `starl.env` and VMAS: navigation with lidar, on one core.
 
 Robots, rays, environments, physics steps and actions are the same for both. Needs `starl[env]`, `vmas` and `torch`:
-`python benchmarks/navigation.py --robots 10 --environments 4096`
+`python apps/starl-py/benchmarks/navigation.py --robots 10 --environments 4096`
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def ours(arguments: argparse.Namespace) -> float:
 
 def theirs(arguments: argparse.Namespace) -> float:
     import torch
-    from vmas import make_env
+    from vmas import make_env  # type: ignore[import-untyped]
 
     torch.set_num_threads(1)
     env = make_env(
