@@ -16,6 +16,7 @@ mod avoidance_world;
 mod car_story;
 mod conformance;
 mod conformance_commands;
+mod conformance_controls;
 mod conformance_convergence;
 mod conformance_limits;
 mod conformance_tracking;
