@@ -68,6 +68,10 @@ class RobotHandle:
         """Turns the wheels of a differential drive at these rim speeds, without avoidance of others."""
         self._native.wheels(left, right)
 
+    def drive(self, x: float, y: float, yaw_rate: float = 0.0) -> None:
+        """Moves a holonomic robot with this velocity in the world frame, without avoidance of others, and turns it."""
+        self._native.drive(x, y, yaw_rate)
+
     def halt(self) -> None:
         """Stands still; a drone in the air hovers."""
         self._native.halt()

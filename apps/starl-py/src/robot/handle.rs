@@ -175,6 +175,12 @@ impl Handle {
         self.with(|robot| robot.drive(Command::Wheels { left, right }))
     }
 
+    /// Moves a holonomic robot with this velocity in the world frame, metres per second, and turns it, radians per second.
+    fn drive(&self, x: f64, y: f64, yaw_rate: f64) -> PyResult<()> {
+        let velocity = Point::new(x, y, 0.0);
+        self.with(|robot| robot.drive(Command::Velocity { velocity, yaw_rate }))
+    }
+
     /// Stands still, or hovers.
     fn halt(&self) -> PyResult<()> {
         self.with(|robot| robot.drive(Command::Stop))
