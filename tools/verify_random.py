@@ -145,7 +145,7 @@ def others(draw):
                 if end:
                     lines.append(f"{end} = {quantity(draw.uniform(0.5, 4), 's')}")
     if draw.random() < 0.2:
-        lines += ["[[event]]", f'at = "{draw.randint(1, 5)}s"', 'kind = "push"', 'robots = ["g0"]', "by = [0.3, 0.1]"]
+        lines += ["[[event]]", f'at = "{draw.randint(1, 5)}s"', 'kind = "push"', 'robot = "g00"', "by = [0.3, 0.1]"]
         lines += ["[[event]]", f'at = "{draw.randint(1, 6)}s"', 'kind = "network"', *link(draw)]
     return lines
 
