@@ -25,7 +25,7 @@ pub fn seen(color: [u8; 3]) -> Fill {
 
 /// Whether a range has a length that can be drawn.
 pub fn is_length(range: f64) -> bool {
-    range >= 0.0 && range < 1e12
+    (0.0..1e12).contains(&range)
 }
 
 /// Whether the ranges of this fleet are drawn: those of a large fleet would hide all else.
@@ -39,11 +39,10 @@ pub fn draw(drawing: &mut Drawing, frame: &Frame, data: &PlotData, looks: &Looks
         return;
     }
     for (index, robot) in data.robots.iter().enumerate() {
-        let shown = robot
-            .path
-            .iter()
-            .filter(|place| Frame::shows(&place.position));
-        let Some(last) = shown.last() else { continue };
+        let mut shown = robot.path.iter().rev();
+        let Some(last) = shown.find(|place| Frame::shows(&place.position)) else {
+            continue;
+        };
         let color = looks.stroke(index, robot).color;
         let mut circle = |range: Option<f64>, fill, stroke| {
             let Some(range) = range.filter(|range| is_length(*range)) else {

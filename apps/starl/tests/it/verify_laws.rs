@@ -62,7 +62,7 @@ fn shift(records: &mut [Record], robot: u32, by: impl Fn(f64) -> Point) {
         if let (Some(RobotId(number)), Event::Moved(pose)) = (record.robot, &mut record.event)
             && number == robot
         {
-            pose.position = pose.position + by(record.at.seconds());
+            pose.position += by(record.at.seconds());
         }
     }
 }

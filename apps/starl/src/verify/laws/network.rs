@@ -208,10 +208,8 @@ impl Traffic {
             let text = format!("reaches robot {to} after {:.6} ms", delay * 1e3);
             break_law(DELAY, format!("{text}: its link has no such delay"));
         }
-        let range = networks.iter().map(|network| network.range);
-        let range = range.fold(Some(0.0), |most: Option<f64>, range| {
-            Some(most?.max(range?))
-        });
+        let mut ranges = networks.iter().map(|network| network.range);
+        let range = ranges.try_fold(0.0, |most: f64, range| Some(most.max(range?)));
         let place = |robot: RobotId| self.robots[robot.index()].place;
         if let (Some(range), Some(a), Some(b)) = (range, place(from), place(to)) {
             let moved = 2.0 * fastest * (period.seconds() + step.seconds() + delay);
