@@ -96,6 +96,7 @@ $(MODULE): wasm-module
 # The page in a real browser.
 web: page $(STARL)
 	cd playground && npm run --silent check && npm run --silent unit
+	cd playground && npm run --silent embedded
 	cd playground && STARL=$(abspath $(STARL)) npm run --silent browser
 
 # Traces read with libraries that are not ours.
