@@ -62,7 +62,8 @@ fn judge(path: &Path, registry: &Registry) -> Result<Judged, Failure> {
             ),
         ));
     }
-    let laws = recorded.map_or_else(Vec::new, |recorded| laws::of(recorded.scenario()));
+    let simulated = recorded.filter(|_| setting.simulated);
+    let laws = simulated.map_or_else(Vec::new, |run| laws::of(run.scenario()));
     let mut steps = Steps::new(&setting, laws);
     let mut recorded = Vec::new();
     let (mut records, mut end, mut cut) = (0, Time::ZERO, None);

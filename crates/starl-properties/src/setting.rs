@@ -35,6 +35,8 @@ pub struct Setting {
     pub keeps_storage: bool,
     /// The robot whose records alone there are; none where there are those of all.
     pub only: Option<RobotId>,
+    /// Whether a simulator wrote the records, so that poses are true and all times are those of one clock; default false.
+    pub simulated: bool,
 }
 
 impl Default for Setting {
@@ -53,6 +55,7 @@ impl Default for Setting {
             clock_drift: 0.0,
             keeps_storage: false,
             only: None,
+            simulated: false,
         }
     }
 }

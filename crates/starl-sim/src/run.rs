@@ -187,6 +187,7 @@ impl Run {
     pub fn setting(&self) -> Setting {
         Setting {
             monitored: self.watch.monitored().collect(),
+            simulated: true,
             ..setting(self.simulation.scenario())
         }
     }
@@ -240,6 +241,7 @@ pub fn setting(scenario: &Scenario) -> Setting {
         estimate_period: scenario.positioning.period,
         keeps_storage: scenario.storage.kept,
         only: None,
+        simulated: false,
         position_noise: scenario.positioning.position_noise,
         clock_drift: drifts.fold(0.0, f64::max) * 1e-6,
     }
