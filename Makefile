@@ -82,7 +82,7 @@ python: wheel $(STARL)
 	python3 -m venv $(PYTHON_TESTS)
 	$(PYTHON_TESTS)/bin/pip install --quiet --disable-pip-version-check $(CARGO_TARGET_DIR)/wheels/starl-*.whl \
 		-r apps/starl-py/tests/requirements.txt
-	$(PYTHON_TESTS)/bin/mypy --strict apps/starl-py/python/starl apps/starl-py/tests
+	cd apps/starl-py && $(abspath $(PYTHON_TESTS))/bin/mypy --strict python/starl tests
 	cd apps/starl-py && STARL=$(abspath $(STARL)) $(abspath $(PYTHON_TESTS))/bin/python -m pytest -q tests
 
 viewer: setup $(MODULE)
