@@ -75,8 +75,8 @@ wheel: setup viewer
 
 # The package for Python as its users get it: the wheel in an environment of its own.
 PYTHON_TESTS = $(CARGO_TARGET_DIR)/python-tests
-# It is built in the profile of the tests, whose parts are there already.
-python: WHEEL_PROFILE = test
+# It is built without optimisation, with overflow checks and assertions.
+python: WHEEL_PROFILE = dev
 python: wheel $(STARL)
 	rm -rf $(PYTHON_TESTS)
 	python3 -m venv $(PYTHON_TESTS)
