@@ -50,7 +50,8 @@ def test_what_is_wrong_is_said(make: object, message: str) -> None:
 def test_a_file_finds_those_beside_it(tmp_path: Path) -> None:
     (tmp_path / "hello.starl").write_text(HELLO)
     scenario = tmp_path / "s.toml"
-    scenario.write_text('program = "hello.starl"\n[[robots]]\nmodel = "create"\ncount = 2\n')
+    world = "[world]\nstart_area = { low = [0, 0], high = [5, 5] }\n"
+    scenario.write_text(f'program = "hello.starl"\n{world}[[robots]]\nmodel = "create"\ncount = 2\n')
     opened = starl.Scenario.from_file(scenario)
     assert [robot.model for robot in starl.Simulation(opened).robots] == ["create", "create"]
     (tmp_path / "hello.starl").unlink()
@@ -59,7 +60,7 @@ def test_a_file_finds_those_beside_it(tmp_path: Path) -> None:
 
 
 def test_a_program_imports_libraries_beside_it(tmp_path: Path) -> None:
-    (tmp_path / "helper.starl").write_text("library helper\n\nfn twice(x: Int) -> Int = 2 * x\n")
+    (tmp_path / "helper.starl").write_text("library helper\n\nfunction twice(x: Int) -> Int = 2 * x\n")
     text = HELLO.replace("program Hello\n", "program Hello\n\nimport helper\n").replace("not moved", "not moved and helper.twice(2) == 4")
     path = tmp_path / "hello.starl"
     path.write_text(text)
