@@ -117,9 +117,12 @@ def sweep(
     engine = _native.Engine()
     options = {**scenario._options, "set": [*scenario._options.get("set", []), *first]}
     opened = request(engine, "open", files=scenario._files, options=options, topics=[])
-    spread = f"{seeds.start}..{seeds.stop}" if isinstance(seeds, range) else str(seeds)
-    if isinstance(seeds, range) and seeds.step != 1:
-        raise StarlError(f"{seeds}: seeds follow each other; give a range with a step of 1")
+    spread = str(seeds)
+    if isinstance(seeds, range):
+        if seeds.step != 1 or not seeds:
+            raise StarlError(f"{seeds}: give a range of seeds that follow each other, at least one")
+        # The command's ranges have their end in them.
+        spread = f"{seeds[0]}..{seeds[-1]}"
     native: _native.Sweep = _native_call(_native.Sweep, engine, opened["simulation"], axes, spread, profile)
     if out is not None:
         _native_call(native.keep_beside, fspath(out))
