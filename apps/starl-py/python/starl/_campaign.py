@@ -124,13 +124,12 @@ def _try(plan: dict[str, Any], engine: Engine, number: int) -> tuple[int, dict[s
 
 
 #: The plan of this worker with its engine, which keeps what it compiled last.
-_latest: dict[int, tuple[dict[str, Any], Engine]] = {}
+_latest: dict[bytes, tuple[dict[str, Any], Engine]] = {}
 
 
 def _try_on_worker(text: bytes, numbers: list[int]) -> list[tuple[int, dict[str, Any]]]:
-    key = hash(text)
-    if key not in _latest:
+    if text not in _latest:
         _latest.clear()
-        _latest[key] = (json.loads(text), Engine())
-    plan, engine = _latest[key]
+        _latest[text] = (json.loads(text), Engine())
+    plan, engine = _latest[text]
     return [_try(plan, engine, number) for number in numbers]

@@ -146,15 +146,14 @@ def sweep(
 
 
 #: The sweep that this worker ran last: programs are compiled once.
-_latest: dict[int, _native.Sweep] = {}
+_latest: dict[bytes, _native.Sweep] = {}
 
 
 def _run_on_worker(plan: bytes, numbers: list[int]) -> list[bytes | None]:
-    key = hash(plan)
-    if key not in _latest:
+    if plan not in _latest:
         _latest.clear()
-        _latest[key] = _native.Sweep.from_plan(plan)
-    return [_latest[key].run(number) for number in numbers]
+        _latest[plan] = _native.Sweep.from_plan(plan)
+    return [_latest[plan].run(number) for number in numbers]
 
 
 def _axis(field: str, values: Any) -> str:
