@@ -9,7 +9,7 @@ use pyo3::types::PyBytes;
 use serde_json::json;
 use starl_catalog::programs::Registry;
 use starl_sim::read::{Inputs, Loader};
-use starl_sweep::{Axis, Error, FLEET, Format, Journal, Measured, Plan, Runner, Seeds, Summary};
+use starl_sweep::{Axis, Error, Format, Journal, Measured, Plan, Runner, Seeds, Summary};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -48,8 +48,7 @@ impl Sweep {
         let plan = py.detach(|| {
             let axes: Result<Vec<Axis>, Error> =
                 axes.iter().map(|axis| Axis::parse(axis)).collect();
-            let several = |axis: &Axis| axis.values.len() > 1 || axis.field == FLEET;
-            let axes = axes?.into_iter().filter(several).collect();
+            let axes = axes?.into_iter().filter(Axis::varies).collect();
             let seeds: Seeds = seeds.parse()?;
             let inputs = &application.resolved().inputs;
             let name = inputs.request.source.name.clone();
@@ -68,11 +67,8 @@ impl Sweep {
     #[staticmethod]
     fn first_values(axes: Vec<String>) -> PyResult<Vec<String>> {
         let axes: Result<Vec<Axis>, Error> = axes.iter().map(|axis| Axis::parse(axis)).collect();
-        let fields = axes.map_err(refused)?.into_iter();
-        let fields = fields.filter(|axis| axis.field != FLEET);
-        Ok(fields
-            .map(|axis| format!("{}={}", axis.field, axis.values[0]))
-            .collect())
+        let axes = axes.map_err(refused)?;
+        Ok(axes.iter().filter_map(Axis::first_setting).collect())
     }
 
     /// The sweep of a plan that `plan` gave.
@@ -130,9 +126,8 @@ impl Sweep {
     /// Keeps rows as they come in a journal beside the file `out`, after taking those that are in it already.
     fn keep_beside(&self, out: PathBuf) -> PyResult<()> {
         Format::of(&out).map_err(refused)?;
-        let mut path = out.into_os_string();
-        path.push(".journal");
-        let (journal, rows) = Journal::open(Path::new(&path), &self.plan).map_err(refused)?;
+        let path = Journal::path_of(&out);
+        let (journal, rows) = Journal::open(&path, &self.plan).map_err(refused)?;
         *self.state() = State {
             rows,
             journal: Some(journal),

@@ -86,6 +86,17 @@ impl Axis {
         Ok(())
     }
 
+    /// Whether it is an axis of the plan, and not a field with a fixed value.
+    pub fn varies(&self) -> bool {
+        self.values.len() > 1 || self.field == FLEET
+    }
+
+    /// The field with its first value, as `--set` takes it: the scenario may need a field that is an axis, so it is read
+    /// with this. None for the number of robots, which is no field.
+    pub fn first_setting(&self) -> Option<String> {
+        (self.field != FLEET).then(|| format!("{}={}", self.field, self.values[0]))
+    }
+
     /// The values as numbers in one unit, if they are that.
     pub fn scale(&self) -> Scale {
         let quantities: Option<Vec<Quantity<'_>>> = self

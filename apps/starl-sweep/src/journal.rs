@@ -62,6 +62,13 @@ impl Header {
 }
 
 impl Journal {
+    /// The journal of a table: `results.parquet.journal`.
+    pub fn path_of(out: &Path) -> PathBuf {
+        let mut name = out.as_os_str().to_os_string();
+        name.push(".journal");
+        PathBuf::from(name)
+    }
+
     /// Opens the journal at `path`, or begins one, and returns the rows that it has, by number.
     ///
     /// # Errors

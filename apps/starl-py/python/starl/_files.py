@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -162,11 +163,19 @@ class Scenario:
         """An engine that knows the programs in Python."""
         return Engine(self._programs) if self._programs else _SHARED
 
-    def _check(self) -> None:
+    @contextmanager
+    def _opened(self) -> Iterator[tuple[Engine, dict[str, Any]]]:
+        """A simulation of the scenario for a moment: its engine, and the answer of the request that opened it."""
         engine = self._engine()
         opened = request(engine, "open", files=self._files, options=self._options, topics=[])
-        request(engine, "close", simulation=opened["simulation"])
-        self._title: str = opened["title"]
+        try:
+            yield engine, opened
+        finally:
+            request(engine, "close", simulation=opened["simulation"])
+
+    def _check(self) -> None:
+        with self._opened() as (_, opened):
+            self._title: str = opened["title"]
 
     @property
     def title(self) -> str:
@@ -177,11 +186,8 @@ class Scenario:
         """The scenario with all files that it names, as requests take it on any machine: `files` and `options`."""
         if self._programs:
             raise StarlError("a program in Python runs in simulations, not in sweeps and campaigns")
-        opened = request(_SHARED, "open", files=self._files, options=self._options, topics=[])
-        try:
-            named = _SHARED.inputs(opened["simulation"])
-        finally:
-            request(_SHARED, "close", simulation=opened["simulation"])
+        with self._opened() as (engine, opened):
+            named = engine.inputs(opened["simulation"])
         path = self._options.get("scenario", "")
         folder = str(Path(path).parent) + "/" if path in self._files and Path(path).parent != Path() else ""
         files: dict[str, Any] = {
@@ -191,12 +197,8 @@ class Scenario:
 
     def text(self) -> str:
         """The whole scenario as the text of a file, changes and defaults included."""
-        engine = self._engine()
-        opened = request(engine, "open", files=self._files, options=self._options, topics=[])
-        try:
+        with self._opened() as (engine, opened):
             text: str = request(engine, "scenario", simulation=opened["simulation"])
-        finally:
-            request(engine, "close", simulation=opened["simulation"])
         return text
 
     def __repr__(self) -> str:

@@ -21,7 +21,7 @@ use crate::threads;
 use output::Outputs;
 use report::{Circumstances, Report};
 use starl_catalog::programs::Registry;
-use starl_sweep::{Axis, Error, FLEET, Format, Plan, Runner, Seeds, execute};
+use starl_sweep::{Axis, Error, Format, Journal, Plan, Runner, Seeds, execute};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -41,7 +41,7 @@ pub fn sweep(arguments: &SweepArguments, registry: &Registry) -> Result<bool, Fa
         return Err(Failure(message.to_string()));
     }
     let stop = stop_on_interrupt();
-    let journal = out.map(output::journal_path);
+    let journal = out.map(Journal::path_of);
     let named = [
         ("--out", out),
         ("--plot", arguments.plot.as_deref()),
@@ -106,13 +106,8 @@ fn plan(
         .map(|set| Axis::parse(set))
         .collect();
     let axes = axes?;
-    // The scenario may need a field that is an axis, so it is read with the first value of each.
-    let set = axes
-        .iter()
-        .filter(|axis| axis.field != FLEET)
-        .map(|axis| format!("{}={}", axis.field, axis.values[0]));
     let changes = ChangeArguments {
-        set: set.collect(),
+        set: axes.iter().filter_map(Axis::first_setting).collect(),
         ..arguments.changes.clone()
     };
     let quiet = arguments.quiet || arguments.json;
@@ -122,8 +117,7 @@ fn plan(
         mut files,
         origin,
     } = target::read(&arguments_of_run, registry)?;
-    let axes = axes.into_iter();
-    let axes = axes.filter(|axis| axis.values.len() > 1 || axis.field == FLEET);
+    let axes = axes.into_iter().filter(Axis::varies);
     let plan = Plan::new(
         &arguments.target,
         &application,

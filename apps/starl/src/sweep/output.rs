@@ -12,13 +12,6 @@ pub struct Outputs {
     journal: Option<Journal>,
 }
 
-/// The journal of a table: `results.parquet.journal`.
-pub fn journal_path(out: &Path) -> PathBuf {
-    let mut name = out.as_os_str().to_os_string();
-    name.push(".journal");
-    PathBuf::from(name)
-}
-
 impl Outputs {
     /// Opens the journal of a table, if one is to be written, and returns the rows that it has.
     pub fn open(
@@ -34,7 +27,7 @@ impl Outputs {
         };
         // Found out before hours of runs: the table's own file can be written.
         drop(Output::create(path)?);
-        let (journal, rows) = Journal::open(&journal_path(path), plan)?;
+        let (journal, rows) = Journal::open(&Journal::path_of(path), plan)?;
         let outputs = Outputs {
             table: Some((path.to_path_buf(), format)),
             journal: Some(journal),

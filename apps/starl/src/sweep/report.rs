@@ -1,11 +1,10 @@
 //! The report of a sweep, for people and for programs.
 
 use super::metrics::Shown;
-use super::output::journal_path;
 use crate::console::{command, counted, grouped, rounded};
 use crate::run::quoted;
 use serde::Serialize;
-use starl_sweep::{Axis, Combination, Interval, Measured, Plan, Summary};
+use starl_sweep::{Axis, Combination, Interval, Journal, Measured, Plan, Summary};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -63,7 +62,7 @@ impl Report {
             processor_seconds: processors.sum(),
             threads: around.threads,
             interrupted: around.interrupted,
-            journal: around.out.as_deref().map(journal_path),
+            journal: around.out.as_deref().map(Journal::path_of),
             out: around.out.filter(|_| is_whole),
             plot: around.plot.filter(|_| is_whole),
             summary: Summary::of(plan, rows),
