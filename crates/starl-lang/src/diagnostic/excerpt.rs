@@ -16,7 +16,7 @@ const CUT: &str = "\u{2026}";
 /// A source whose long lines are cut.
 pub(super) struct Excerpt<'a> {
     file: SimpleFile<&'a str, String>,
-    /// What is left of each cut line: its range in the source, the part that is left, and where that part begins here.
+    /// The lines that were cut. For each: its range in the source, the part that was kept, and where that part begins here.
     cuts: Vec<(Range<usize>, Range<usize>, usize)>,
     /// Where the diagnostic's place is here, and its column in the source.
     place: Option<(usize, usize)>,

@@ -166,7 +166,7 @@ mod tests {
             let lines: Vec<&str> = text.lines().collect();
             let marked = lines.iter().position(|line| line.contains("^^^^")).unwrap();
             assert!(lines[marked - 1].contains("here"), "{text}");
-            // What follows a cut line is in its place.
+            // A line behind a cut one keeps its number.
             let after = error_at(&source, source.len() - 4, 4);
             assert!(
                 after.contains("deep.starl:3:1") && after.contains("3 \u{2502} last"),
