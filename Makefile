@@ -32,7 +32,7 @@ unit:
 
 # The crates of programs also build without an operating system.
 portable:
-	cargo check --locked -p starl-core -p starl-primitives -p starl-motion --target thumbv7em-none-eabihf
+	cargo check --locked -p starl-core -p starl-primitives -p starl-motion -p starl-policy --target thumbv7em-none-eabihf
 	cargo check --locked -p starl-host --lib --example bare --target thumbv7em-none-eabihf
 	cargo check --locked -p starl-host --target wasm32-unknown-unknown
 	cargo check --locked -p starl-lang --no-default-features --target thumbv7em-none-eabihf

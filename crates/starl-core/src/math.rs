@@ -5,7 +5,7 @@
 
 pub use core::f64::consts::{FRAC_PI_2, PI, TAU};
 pub use exact::{ceil, fabs, floor, sqrt};
-pub use libm::{acos, asin, atan, atan2, cos, exp, hypot, log, pow, round, sin, sincos, tan};
+pub use libm::{acos, asin, atan, atan2, cos, exp, hypot, log, pow, round, sin, sincos, tan, tanh};
 
 /// `libm` computes these in software on WebAssembly, which has instructions for them.
 #[cfg(target_family = "wasm")]
