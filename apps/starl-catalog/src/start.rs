@@ -11,7 +11,7 @@ use starl_core::{Program, RobotId};
 use starl_lang::diagnostic::Colour;
 use starl_sim::engine::StartError;
 use starl_sim::read::{self, Loader, Problem, Problems, Request, Resolved};
-use starl_sim::scenario::{Fleet, Group};
+use starl_sim::scenario::{Fleet, Goal, Group};
 use starl_sim::{Run, Scenario, Simulation};
 use std::fmt;
 
@@ -68,6 +68,20 @@ pub fn read(
         ) {
             problems.push(blame(&application.resolved, index, complaint));
         }
+    }
+    if let (true, Goal::Condition(condition)) = (is_whole, &application.scenario().goal)
+        && let Err(found) = application
+            .programs
+            .goal(condition, &application.scenario().fleet)
+    {
+        let message = match found.first() {
+            Some(first) => format!("{condition:?}: {}", first.message),
+            None => format!(
+                "{condition:?} is a condition, and no robot runs a program in the StarL language"
+            ),
+        };
+        let help = "a goal is \"finished\", \"duration\" or a condition over the robots, such as \"forall r: r.done\"";
+        problems.push(application.resolved.problem("goal", &message, Some(help)));
     }
     // An error in a value that several groups take from the scenario is reported once.
     problems.sort();
@@ -127,6 +141,13 @@ impl Application {
         monitors
             .into_iter()
             .for_each(|monitor| run.add_monitor(monitor));
+        if let Goal::Condition(condition) = &run.simulation().scenario().goal {
+            // A scenario that was not read here may have another goal, which is never reached if it makes no sense.
+            let goal = self.programs.goal(condition, &fleet).unwrap_or_default();
+            if !goal.is_empty() {
+                run.set_goal(goal);
+            }
+        }
         Ok(run)
     }
 

@@ -87,7 +87,7 @@ impl Row {
         let outcome = run.outcome();
         let goal_reached = matches!(outcome, Outcome::Reached | Outcome::Violated);
         let sim_seconds = simulation.now().seconds();
-        let has_goal = simulation.scenario().goal == Goal::AllFinished;
+        let has_goal = simulation.scenario().goal != Goal::Duration;
         let (tally, progress) = (simulation.tally(), simulation.progress());
         let mut violated: Vec<String> = run
             .violations()

@@ -15,7 +15,7 @@ pub struct Report {
     pub title: String,
     pub seed: u64,
     /// The condition of success: `all_finished`, or `duration` where the run is only to last.
-    pub goal: &'static str,
+    pub goal: String,
     pub outcome: Ending,
     pub digest: String,
     pub sim_seconds: f64,
@@ -61,6 +61,9 @@ pub struct Excused {
 
 /// The verdict on a property of a primitive that the run did not use.
 pub const UNUSED: &str = "unused";
+
+/// The verdict on a property whose demand has not come, and is not too late.
+const OPEN: &str = "open";
 
 /// The goal of a run that is only to last.
 const LASTS: &str = "duration";
@@ -149,9 +152,10 @@ impl Report {
             target,
             title: scenario.title.clone(),
             seed: scenario.seed,
-            goal: match scenario.goal {
-                Goal::AllFinished => "all_finished",
-                Goal::Duration => LASTS,
+            goal: match &scenario.goal {
+                Goal::AllFinished => "all_finished".to_string(),
+                Goal::Duration => LASTS.to_string(),
+                Goal::Condition(condition) => condition.clone(),
             },
             outcome: Ending::of(run, interrupted),
             digest: simulation.digest().to_string(),
@@ -174,6 +178,15 @@ impl Report {
     /// Whether there was nothing to achieve but to last.
     pub fn only_lasts(&self) -> bool {
         self.goal == LASTS
+    }
+
+    /// The properties of which something that they demand has not come.
+    pub fn open(&self) -> impl Iterator<Item = &str> {
+        let open = self
+            .properties
+            .iter()
+            .filter(|property| property.verdict == OPEN);
+        open.map(|property| &*property.property)
     }
 
     /// Whether the goal was reached and no property was violated.
@@ -199,7 +212,7 @@ fn properties(run: &Run, scenario: &Scenario) -> Vec<Property> {
         verdict: match (verdict.violations, verdict.open, verdict.used) {
             (0, _, false) => UNUSED,
             (0, false, _) => "holds",
-            (0, true, _) => "open",
+            (0, true, _) => OPEN,
             _ => "violated",
         },
         violations: verdict.violations,

@@ -97,7 +97,13 @@ fn ending(report: &Report) -> String {
         Ending::Over(Outcome::Violated) if report.only_lasts() => {
             format!("ran for {at}; a property was violated")
         }
-        Ending::Over(Outcome::Reached) => format!("goal reached after {at}"),
+        Ending::Over(Outcome::Reached) => match &report.open().collect::<Vec<_>>()[..] {
+            [] => format!("goal reached after {at}"),
+            open => format!(
+                "goal reached after {at}, but what {} demands has not come",
+                listed(open)
+            ),
+        },
         Ending::Over(Outcome::Violated) => {
             format!("goal reached after {at}, but a property was violated")
         }

@@ -54,6 +54,17 @@ impl Watch {
         self.monitors.push(monitor);
     }
 
+    /// How many monitors there are.
+    pub fn monitors(&self) -> usize {
+        self.monitors.len()
+    }
+
+    /// Whether something that the monitor with this place demands has not come.
+    pub fn is_open(&self, monitor: usize) -> bool {
+        let monitor = &self.monitors[monitor];
+        (0..monitor.properties().len()).any(|property| monitor.is_open(property))
+    }
+
     /// Shows the checkers the next records, in the order of their times. Time has come to `now`.
     pub fn observe(&mut self, records: &[Record], now: Time) {
         self.kinds.clear();

@@ -6,12 +6,15 @@ use crate::scenario::{Bounds, Goal, Group, Scenario};
 use starl_core::event::{Event, Name};
 use starl_core::{Intervention, Record, RobotId, Time};
 use starl_properties::{Excuse, Monitor, Setting, Verdict, Violation, Watch};
+use std::ops::Range;
 
 /// A scenario under way and under watch.
 #[derive(Clone)]
 pub struct Run {
     simulation: Simulation,
     watch: Watch,
+    /// The goal is reached when the properties of the monitors from here on have come; see [`Run::set_goal`].
+    goal: Option<Range<usize>>,
     failures: Vec<Failure>,
     records: Vec<Record>,
 }
@@ -61,6 +64,7 @@ impl Run {
         Ok(Run {
             simulation,
             watch: Watch::new(checkers),
+            goal: None,
             failures: Vec::new(),
             records: Vec::new(),
         })
@@ -69,6 +73,21 @@ impl Run {
     /// Has the run watched by one more; to be called before the first step.
     pub fn add_monitor(&mut self, monitor: Box<dyn Monitor>) {
         self.watch.add_monitor(monitor);
+    }
+
+    /// Sets what watches the scenario's [`Goal::Condition`]: the goal is reached when none of these monitors is open
+    /// any more. To be called before the first step. Without it such a goal is never reached.
+    pub fn set_goal(&mut self, monitors: Vec<Box<dyn Monitor>>) {
+        let first = self.watch.monitors();
+        monitors
+            .into_iter()
+            .for_each(|monitor| self.add_monitor(monitor));
+        self.goal = Some(first..self.watch.monitors());
+    }
+
+    fn condition_has_come(&self) -> bool {
+        let mut goals = self.goal.clone().into_iter().flatten();
+        self.goal.is_some() && goals.all(|monitor| !self.watch.is_open(monitor))
     }
 
     /// The simulation.
@@ -148,9 +167,11 @@ impl Run {
         }
         let progress = self.simulation.progress();
         let settled = progress.up > 0 && progress.finished + progress.failed == progress.up;
+        let all_failed = progress.up > 0 && progress.failed == progress.up;
         match scenario.goal {
             Goal::AllFinished => settled,
-            Goal::Duration => progress.up > 0 && progress.failed == progress.up,
+            Goal::Duration => all_failed,
+            Goal::Condition(_) => all_failed || self.condition_has_come(),
         }
     }
 
@@ -161,6 +182,7 @@ impl Run {
         let reached = match scenario.goal {
             Goal::AllFinished => progress.finished == progress.up,
             Goal::Duration => self.simulation.now() >= Time::ZERO + scenario.duration,
+            Goal::Condition(_) => self.condition_has_come(),
         };
         if progress.up == 0 || progress.failed > 0 {
             Outcome::Failed

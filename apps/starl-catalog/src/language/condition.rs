@@ -10,6 +10,18 @@ use starl_lang::robot::Code;
 use starl_lang::robot::properties::Condition;
 use starl_sim::Simulation;
 
+/// The code of a program whose only property is that a condition comes true.
+pub(super) fn code_with(compiled: &Compiled, condition: &str) -> Result<Code, Vec<Diagnostic>> {
+    let libraries = |name: &str| compiled.libraries.get(name).cloned();
+    let bytecode = with_condition(&compiled.text, condition, &libraries)?;
+    Code::load(bytecode).map_err(|error| refusal(condition, &error.to_string()))
+}
+
+fn refusal(condition: &str, message: &str) -> Vec<Diagnostic> {
+    let whole = Span::new(0, condition.len() as u32);
+    Vec::from([Diagnostic::new(Number::TooMuch, whole, message.to_string())])
+}
+
 /// A condition over the robots that run one program.
 #[derive(Clone)]
 pub struct FleetCondition {
@@ -24,20 +36,11 @@ impl FleetCondition {
         compiled: &Compiled,
         condition: &str,
     ) -> Result<FleetCondition, Vec<Diagnostic>> {
-        let libraries = |name: &str| compiled.libraries.get(name).cloned();
-        let bytecode = with_condition(&compiled.text, condition, &libraries)?;
-        let code = Code::load(bytecode).map_err(|error| error.to_string());
-        let made = code.and_then(|code| {
-            let made = Condition::new(&code);
-            made.ok_or_else(|| "it is no condition".to_string())
-        });
-        made.map(|condition| FleetCondition {
+        let code = code_with(compiled, condition)?;
+        let made = Condition::new(&code).ok_or_else(|| refusal(condition, "it is no condition"))?;
+        Ok(FleetCondition {
             program: path.to_string(),
-            condition,
-        })
-        .map_err(|message| {
-            let whole = Span::new(0, condition.len() as u32);
-            Vec::from([Diagnostic::new(Number::TooMuch, whole, message)])
+            condition: made,
         })
     }
 

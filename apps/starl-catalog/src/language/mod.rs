@@ -108,18 +108,39 @@ impl Programs {
     /// The errors for the first program, if there are errors for all; positions are bytes of the text. Nothing if
     /// there is no program.
     pub fn conditions(&self, condition: &str) -> Result<Vec<FleetCondition>, Vec<Diagnostic>> {
-        let mut conditions = Vec::new();
-        let mut problems = Vec::new();
-        for (path, compiled) in &self.0 {
-            match FleetCondition::new(path, compiled, condition) {
-                Ok(condition) => conditions.push(condition),
-                Err(found) if problems.is_empty() => problems = found,
-                Err(_) => {}
-            }
-        }
-        match conditions.is_empty() {
-            true => Err(problems),
-            false => Ok(conditions),
+        self.each_that_can(|path, compiled| FleetCondition::new(path, compiled, condition))
+    }
+
+    /// The monitors of a run's goal: one for each program for which the condition has no errors.
+    ///
+    /// # Errors
+    /// As for [`Programs::conditions`].
+    pub fn goal(
+        &self,
+        condition: &str,
+        fleet: &Fleet,
+    ) -> Result<Vec<Box<dyn Monitor>>, Vec<Diagnostic>> {
+        self.each_that_can(|path, compiled| {
+            let code = condition::code_with(compiled, condition)?;
+            let qualifier = (self.0.len() > 1).then_some(compiled.name.as_str());
+            let monitor = ProgramMonitor::of_goal(qualifier, &code, members(fleet, path));
+            Ok(Box::new(monitor) as Box<dyn Monitor>)
+        })
+    }
+
+    /// What can be made of the programs; the errors of the first one if of none.
+    fn each_that_can<T>(
+        &self,
+        make: impl Fn(&str, &Compiled) -> Result<T, Vec<Diagnostic>>,
+    ) -> Result<Vec<T>, Vec<Diagnostic>> {
+        let (made, problems): (Vec<_>, Vec<_>) =
+            (self.0.iter().map(|(path, compiled)| make(path, compiled))).partition(Result::is_ok);
+        match made.is_empty() {
+            true => Err(problems
+                .into_iter()
+                .find_map(Result::err)
+                .unwrap_or_default()),
+            false => Ok(made.into_iter().flatten().collect()),
         }
     }
 

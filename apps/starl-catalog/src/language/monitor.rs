@@ -47,6 +47,22 @@ impl ProgramMonitor {
         })
     }
 
+    /// A monitor of the one property of `code`, which says when the goal of a run is reached; its name is `goal`, after
+    /// the qualifier if there is one.
+    pub fn of_goal(qualifier: Option<&str>, code: &Code, robots: Vec<RobotId>) -> ProgramMonitor {
+        let name: Name = match qualifier {
+            Some(qualifier) => format!("{qualifier}.goal").into(),
+            None => "goal".into(),
+        };
+        ProgramMonitor {
+            judge: Judge::new(code),
+            names: [name].into(),
+            robots: robots.into(),
+            unsound: BTreeSet::new(),
+            first: None,
+        }
+    }
+
     /// As long as no fault has overwritten variables, no check is false.
     fn judge_checks(&mut self, members: &Members<'_>, violations: &mut Vec<Violation>) {
         let now = members.witness.now();

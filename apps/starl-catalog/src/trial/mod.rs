@@ -41,7 +41,7 @@ impl Subject {
         let duration = scenario.duration;
         let span = match scenario.goal {
             Goal::Duration => duration,
-            Goal::AllFinished => {
+            Goal::AllFinished | Goal::Condition(_) => {
                 let calm = Trial::of(&mut run, true);
                 match calm.outcome {
                     Outcome::Reached => (calm.end.since(Time::ZERO) * 2).min(duration),

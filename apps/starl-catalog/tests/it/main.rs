@@ -4,6 +4,7 @@ mod corruption_is_recovered_from;
 mod election_finds_leaders;
 mod flocking_lines_up;
 mod formation_forms_polygons;
+mod goals_are_conditions;
 mod intersection_breakdowns;
 mod intersection_is_safe_and_live;
 mod intersection_stream;

@@ -4,7 +4,7 @@ use super::fleet::{self, Draft};
 use super::inputs::{Recorder, Request};
 use super::names::Names;
 use super::section::Section;
-use super::{event, fault, network, place, reach, world};
+use super::{event, fault, network, place, reach, suggest, world};
 use crate::scenario::*;
 use starl_motion::avoidance;
 
@@ -15,10 +15,10 @@ pub(super) fn read(root: Section<'_>, request: &Request, files: &Recorder<'_>) -
         .unwrap_or_else(|| stem(&request.source.name));
     let seed = root.count("seed").unwrap_or_default();
     let duration = root.duration("duration");
-    let goal = match root.choice("goal").as_deref() {
-        Some("duration") => Goal::Duration,
-        _ => Goal::AllFinished,
-    };
+    let goal = root
+        .text("goal")
+        .map(|text| goal(root, text))
+        .unwrap_or_default();
     let physics = root.table("physics", physics);
     let positioning = root.table("positioning", positioning);
     let storage = root.table("storage", storage);
@@ -62,6 +62,21 @@ pub(super) fn read(root: Section<'_>, request: &Request, files: &Recorder<'_>) -
         trace,
     };
     Some(scenario)
+}
+
+fn goal(root: Section<'_>, text: String) -> Goal {
+    let words = ["finished", "duration"];
+    match text.as_str() {
+        "finished" => Goal::AllFinished,
+        "duration" => Goal::Duration,
+        _ => {
+            if let Some(word) = suggest::nearest(&text, words.into_iter()) {
+                let message = format!("{text:?} is neither a goal nor a condition over the robots");
+                root.problem("goal", message, format!("did you mean `{word}`?"));
+            }
+            Goal::Condition(text)
+        }
+    }
 }
 
 /// A file's name without folders and ending.

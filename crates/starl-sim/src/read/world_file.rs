@@ -47,6 +47,7 @@ pub(super) fn read(
     }
     let mut file = File {
         names,
+        first_stroke: drawing::next_group(contents),
         contents,
         report,
     };
@@ -63,7 +64,8 @@ pub(super) fn read(
             offset: begin.offset + skipped as u32,
             ..begin
         };
-        if !line_of_fields.trim().is_empty() {
+        // `Obstacles_square.wpt` of StarL 1.5 ends with a lifetime that belongs to no obstacle.
+        if !matches!(line_of_fields.trim(), "" | "-1") {
             // The error was reported; the next line may be correct.
             let _ = file.line(line_of_fields, begin);
         }
@@ -81,8 +83,20 @@ fn in_order(points: &[Point]) -> Option<ConvexPolygon> {
     ConvexPolygon::new(&sorted).ok()
 }
 
+/// The number of a stroke, where the name of a waypoint says that it is one of the two ends: `12-A`, or `12-A_5`. The
+/// drawings of StarL 1.5 for light painting name their points so.
+fn stroke(name: &str) -> Option<u32> {
+    let (number, end) = name.split_once('-')?;
+    let suffix = end.strip_prefix(['A', 'B'])?;
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let is_end = suffix.is_empty() || suffix.strip_prefix('_').is_some_and(is_number);
+    number.parse().ok().filter(|_| is_end && is_number(number))
+}
+
 struct File<'a> {
     names: &'a Names,
+    /// The group of the first stroke of a drawing.
+    first_stroke: u32,
     contents: &'a mut Contents,
     report: &'a Report,
 }
@@ -195,10 +209,18 @@ impl File<'_> {
                 return self.complain(words[5].origin, message, help);
             }
         };
-        let value = WayPoint {
-            name,
-            position,
-            group,
+        let value = match stroke(&name).filter(|_| words.len() == 5) {
+            // The third value is the colour.
+            Some(number) => WayPoint {
+                name,
+                position: position.at_height(0.0),
+                group: self.first_stroke.saturating_add(number),
+            },
+            None => WayPoint {
+                name,
+                position,
+                group,
+            },
         };
         self.contents.way_points.push(Placed {
             value,

@@ -60,13 +60,16 @@ pub struct Scenario {
 }
 
 /// When a run has reached its goal.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Goal {
     /// Every robot that is up has finished; the run ends then.
     #[default]
     AllFinished,
     /// The run lasts as long as it should; its programs have no end of their own.
     Duration,
+    /// A condition over the robots, in the language of their programs, has come true; the run ends then. A host that knows
+    /// the language watches it: [`crate::Run::set_goal`].
+    Condition(String),
 }
 
 /// How finely motion is computed.

@@ -48,8 +48,10 @@ pub fn scenario(scenario: &Scenario) -> String {
     }
     root.set("seed", seed.to_string());
     root.set("duration", time(*duration));
-    if *goal == Goal::Duration {
-        root.set("goal", text("duration"));
+    match goal {
+        Goal::AllFinished => {}
+        Goal::Duration => root.set("goal", text("duration")),
+        Goal::Condition(condition) => root.set("goal", text(condition)),
     }
     let mut out = root.finish();
     out += &world::write(world);

@@ -84,3 +84,70 @@ fn starts_of_robots_with_headings_in_degrees() {
         "270 degrees are a quarter to the right"
     );
 }
+
+/// Reads a world from files, with one robot far from everything.
+fn world(files: &[(&str, &str)]) -> starl_sim::scenario::World {
+    let names: Vec<String> = files.iter().map(|(name, _)| format!("{name:?}")).collect();
+    let text = format!(
+        "program = \"drive\"\n[world]\nfiles = [{}]\n[[robots]]\nmodel = \"drone\"\nname = \"light\"\n\
+         start = [{{ position = [2.5, 9] }}]\n",
+        names.join(", ")
+    );
+    let mut given = Files::default();
+    for (name, text) in files {
+        given.0.insert(name.to_string(), text.as_bytes().to_vec());
+    }
+    let read = read::scenario(&reading::request(&text, &[]), &given);
+    read.unwrap_or_else(|problems| panic!("{problems}"))
+        .scenario
+        .world
+}
+
+/// `ProjectApp/resources/Obstacles_square.wpt` of StarL 1.5.
+const SQUARES: &str = "Hidden;0,0;5000,0;-1\nHidden;0,5000;5000,5000;-1\nHidden;0,0;0,5000;-1\n\
+    Hidden;5000,0;5000,5000;-1\nHidden;1125,1125;1875,1125;1125,1875;1875,1875;-1\n\
+    Hidden;3875,1125;3125,1125;3875,1875;3125,1875;-1\nHidden;1125,3875;1875,3875;1125,3125;1875,3125;-1\n\
+    Hidden;3875,3875;3125,3875;3875,3125;3125,3125;-1\n-1\n";
+
+#[test]
+fn corners_listed_crosswise_and_a_lifetime_left_over() {
+    let obstacles = world(&[("squares.wpt", SQUARES)]).obstacles;
+    assert_eq!(obstacles.len(), 8);
+    let squares: Vec<_> = obstacles[4..]
+        .iter()
+        .map(|one| one.obstacle.bounds())
+        .collect();
+    for square in &squares {
+        let size = square.high - square.low;
+        assert!(
+            (size.x - 0.75).abs() < 1e-12 && (size.y - 0.75).abs() < 1e-12,
+            "{square:?}"
+        );
+    }
+    assert_eq!(squares[3].high.x, 3.875);
+}
+
+#[test]
+fn ends_of_strokes_are_groups_on_the_floor_and_their_third_value_is_a_colour() {
+    let rainbow = "WAY,450,1032,16711680,0-A_5\nWAY,517,1299,16711680,0-B_5\nWAY,764,1670,16744192,1-A_5\n\
+        WAY,918,1804,16744192,1-B_5\nWAY,100,100,300,3-C\nWAY,200,100,300,-A\nWAY,300,100,300,4-A_\n";
+    let line = "WAY,2514,2421,0,0-A\nWAY,3610,2576,0,0-B\n";
+    let renamed = line.replace("0-A", "7-A").replace("0-B", "7-B");
+    let ways = world(&[("rainbow.wpt", rainbow), ("line.wpt", &renamed)]).way_points;
+    let read: Vec<(&str, u32, f64)> = (ways.iter())
+        .map(|way| (way.name.as_str(), way.group, way.position.z))
+        .collect();
+    let expected = [
+        ("0-A_5", 1, 0.0),
+        ("0-B_5", 1, 0.0),
+        ("1-A_5", 2, 0.0),
+        ("1-B_5", 2, 0.0),
+        ("3-C", 0, 0.3),
+        ("-A", 0, 0.3),
+        ("4-A_", 0, 0.3),
+        ("7-A", 10, 0.0),
+        ("7-B", 10, 0.0),
+    ];
+    assert_eq!(read, expected);
+    assert_eq!(ways[0].position, Point::planar(0.45, 1.032));
+}

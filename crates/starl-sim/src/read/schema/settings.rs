@@ -30,10 +30,11 @@ pub const SCENARIO: &[Field] = &[
     ),
     field(
         "goal",
-        Kind::Choice(&["finished", "duration"]),
+        Kind::Text,
         Default::Value("finished"),
-        "The goal of the run: every robot that is up has finished, and the run ends then; or the run has lasted \
-         its duration.",
+        "The goal of the run. `finished`: every robot that is up has finished, and the run ends then. `duration`: the run \
+         has lasted its duration. Anything else is a condition over the robots in the StarL language, such as \
+         `forall r: r.visited == 3`; the run ends when it has come true.",
     ),
     field(
         "parameters",

@@ -69,9 +69,14 @@ pub(super) fn read(text: &str, start: Origin, contents: &mut Contents, report: &
     }
 }
 
-fn add(points: impl Iterator<Item = Point>, origin: Origin, contents: &mut Contents) {
+/// The group after the greatest so far.
+pub(super) fn next_group(contents: &Contents) -> u32 {
     let groups = contents.way_points.iter().map(|placed| placed.value.group);
-    let group = groups.max().unwrap_or(0) + 1;
+    groups.max().unwrap_or(0).saturating_add(1)
+}
+
+fn add(points: impl Iterator<Item = Point>, origin: Origin, contents: &mut Contents) {
+    let group = next_group(contents);
     for (index, position) in points.enumerate() {
         contents.way_points.push(Placed {
             value: WayPoint {
