@@ -20,6 +20,8 @@ words! {
         Wind = "wind",
         /// The target is not finite.
         NotFinite = "target is not finite",
+        /// The robot is in the unsafe set.
+        Unsafe = "in the unsafe set",
     }
 }
 

@@ -5,6 +5,7 @@
 use crate::machine::{Bytecode, Enum, Import, ObjectType, Type};
 use alloc::string::String;
 use alloc::vec::Vec;
+use starl_core::event::moving::Trouble;
 use starl_core::motion::Planner;
 use starl_primitives::broadcast::Order;
 use starl_primitives::{election, mutex};
@@ -36,6 +37,8 @@ pub enum Shape {
     Side,
     /// The enum `Planner` of the prelude.
     Planner,
+    /// The enum `MotionTrouble` of the prelude.
+    MotionTrouble,
     /// The enum `ElectionAlgorithm` of the prelude.
     ElectionAlgorithm,
     /// The enum `MutexAlgorithm` of the prelude.
@@ -84,6 +87,18 @@ pub const PLANNERS: [(&str, Planner); 4] = [
     ("rrt", Planner::Rrt),
     ("rrt_connect", Planner::RrtConnect),
     ("rrt_star", Planner::RrtStar),
+];
+
+/// Why a motion has come to nothing, as the prelude has it.
+pub const MOTION_TROUBLES: [(&str, Trouble); 8] = [
+    ("in_unsafe_set", Trouble::Unsafe),
+    ("wind", Trouble::Wind),
+    ("stuck", Trouble::Stuck),
+    ("obstacle", Trouble::Obstacle),
+    ("off_path", Trouble::OffPath),
+    ("no_path", Trouble::NoPath),
+    ("no_points", Trouble::NoPoints),
+    ("not_finite", Trouble::NotFinite),
 ];
 
 /// How a leader is elected, as the prelude has it.
@@ -178,6 +193,9 @@ impl Declared {
             (Shape::Side, Type::Enum(index)) => self.variants(*index) == SIDES,
             (Shape::Planner, Type::Enum(index)) => {
                 self.variants(*index) == PLANNERS.map(|(name, _)| name)
+            }
+            (Shape::MotionTrouble, Type::Enum(index)) => {
+                self.variants(*index) == MOTION_TROUBLES.map(|(name, _)| name)
             }
             (Shape::ElectionAlgorithm, Type::Enum(index)) => {
                 self.variants(*index) == ELECTION_ALGORITHMS.map(|(name, _)| name)

@@ -57,6 +57,7 @@ fn after_the_dot_of_a_primitive_its_members() {
             "failed",
             "follow",
             "reach_avoid",
+            "reason",
             "stop",
             "target"
         ]

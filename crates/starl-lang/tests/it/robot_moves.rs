@@ -10,6 +10,7 @@ program Moves
 motion = ReachAvoid(vicinity = 20cm, most_replans = 3)
 reached: Bool = false
 trouble: Bool = false
+because: MotionTrouble? = none
 
 go()
     pre not motion.active and not motion.done and not motion.failed
@@ -21,7 +22,7 @@ arrive()
 
 fail_there()
     pre motion.failed
-    eff trouble = true
+    eff trouble = true; because = motion.reason
 "#;
 
 #[test]
@@ -29,6 +30,7 @@ fn it_goes_there_with_the_settings_of_the_binding() {
     let mut world = World::of(&compile(MOVES), 1);
     world.steps(3);
     assert_eq!(world.get(0, "reached").to_string(), "true");
+    assert_eq!(world.get(0, "because").to_string(), "none");
     assert!(world.robots[0].node.condition().finished);
     let starts = world.events_of(0).filter_map(|event| match event {
         Event::Primitive {
@@ -49,6 +51,7 @@ fn in_the_unsafe_set_it_has_failed() {
     world.obstacles = [Obstacle::circle(Point::ZERO, 1.0)].into();
     world.steps(2);
     assert_eq!(world.get(0, "trouble").to_string(), "true");
+    assert_eq!(world.get(0, "because").to_string(), "in_unsafe_set");
 }
 
 const FOLLOWS: &str = r#"

@@ -45,6 +45,19 @@ impl Types {
             Shape::Named("Area") => self.object(ObjectType::Area),
             Shape::Named("Obstacles") => self.object(ObjectType::Obstacles),
             Shape::Named("Side") => self.variants("Side", &["left", "right", "both"]),
+            Shape::Named("MotionTrouble") => self.variants(
+                "MotionTrouble",
+                &[
+                    "in_unsafe_set",
+                    "wind",
+                    "stuck",
+                    "obstacle",
+                    "off_path",
+                    "no_path",
+                    "no_points",
+                    "not_finite",
+                ],
+            ),
             Shape::Named("Planner") => {
                 self.variants("Planner", &["auto", "rrt", "rrt_connect", "rrt_star"])
             }

@@ -12,6 +12,7 @@ impl ReachAvoid {
     pub fn corrupt(&mut self, random: &mut Random) {
         self.done = random.chance(0.5);
         self.failed = random.chance(0.5);
+        self.reason = None;
         self.ticket = random.bits();
         if random.chance(0.5) {
             self.command = None;

@@ -41,7 +41,7 @@ impl ReachAvoid {
             return false;
         }
         self.clear();
-        self.failed = true;
+        (self.failed, self.reason) = (true, Some(Trouble::Unsafe));
         robot.cancel_timer(self.timer());
         robot.halt();
         robot.report(self.port, ReachAvoidEvent::Failed { position });

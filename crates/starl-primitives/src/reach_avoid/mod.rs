@@ -44,6 +44,8 @@ pub struct ReachAvoid {
     command: Option<Command>,
     done: bool,
     failed: bool,
+    /// Why the last command failed or was given up.
+    reason: Option<Trouble>,
     /// The number of the last request to the planner.
     ticket: u32,
 }
@@ -97,6 +99,7 @@ impl ReachAvoid {
             command: None,
             done: false,
             failed: false,
+            reason: None,
             ticket: port.0,
         }
     }
@@ -196,6 +199,11 @@ impl ReachAvoid {
         self.failed
     }
 
+    /// Why the last command failed or was given up; none while one is under way, and where it did neither.
+    pub fn reason(&self) -> Option<Trouble> {
+        self.reason
+    }
+
     /// Where the path under way starts, then its waypoints, metres.
     pub fn path(&self) -> Option<&[Point]> {
         match &self.command.as_ref()?.phase {
@@ -211,7 +219,7 @@ impl ReachAvoid {
 
     /// Drops the command and all flags; says whether one was under way.
     fn clear(&mut self) -> bool {
-        (self.done, self.failed) = (false, false);
+        (self.done, self.failed, self.reason) = (false, false, None);
         self.command.take().is_some()
     }
 

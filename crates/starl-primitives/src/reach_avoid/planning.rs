@@ -114,6 +114,7 @@ impl ReachAvoid {
     /// Stops with all flags false.
     pub(super) fn give_up(&mut self, robot: &mut Robot<'_>, reason: Trouble) {
         self.clear();
+        self.reason = Some(reason);
         robot.cancel_timer(self.timer());
         robot.halt();
         robot.report(self.port, ReachAvoidEvent::GiveUp { reason });

@@ -84,6 +84,11 @@ pub const PRIMITIVES: &[Primitive] = &[
                 Query,
                 "Whether the robot entered the unsafe set, or the wind is stronger than it can hold against.",
             ),
+            member(
+                "reason: MotionTrouble?",
+                Query,
+                "Why the last command failed or was given up.",
+            ),
         ],
         events: &[],
         documentation: "Goes to targets, around unsafe sets (thesis, section 3.2).",

@@ -1,7 +1,7 @@
 //! ReachAvoid in programs.
 
 use super::{Arguments, Attention, Context, Instance, Kind, Member, method, query};
-use crate::robot::shape::{PLANNERS, Shape};
+use crate::robot::shape::{MOTION_TROUBLES, PLANNERS, Shape};
 use alloc::borrow::Cow;
 use starl_core::{Point, Primitive, Random, Robot};
 use starl_primitives::ReachAvoid;
@@ -74,6 +74,22 @@ impl Kind for ReachAvoid {
             call.set_bool(0, motion.failed());
             Ok(0)
         }),
+        query(
+            "reason",
+            &[],
+            Shape::Optional(&Shape::MotionTrouble),
+            |motion, _, call| {
+                let reason = motion.reason();
+                let place = |reason| {
+                    MOTION_TROUBLES
+                        .iter()
+                        .position(|(_, trouble)| *trouble == reason)
+                };
+                call.set_bool(0, reason.is_some());
+                call.set_scalar(1, reason.and_then(place).unwrap_or_default() as u64);
+                Ok(0)
+            },
+        ),
     ];
 
     const ATTENTION: Attention = Attention {
