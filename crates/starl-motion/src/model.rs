@@ -127,6 +127,11 @@ pub trait Model: Debug + Send + Sync {
     /// remembers from one estimate to the next.
     fn track(&self, tracking: &mut Tracking, estimate: &Estimate, goal: &Goal) -> Command;
 
+    /// What there is to learn from an estimate while the robot is to stand still: by default nothing.
+    fn rest(&self, tracking: &mut Tracking, _: &Estimate) {
+        tracking.interrupt();
+    }
+
     /// Whether the robot has long been pushed, as by wind, harder than it can hold against, by what its tracker
     /// remembers. Ground robots never are.
     fn is_overpowered(&self, _: &Tracking) -> bool {

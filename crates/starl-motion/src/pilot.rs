@@ -97,7 +97,10 @@ impl Pilot {
                 return command;
             }
             Wish::Drive(_) | Wish::Halt => {
-                self.interrupt();
+                model.rest(&mut self.tracking, estimate);
+                if let Some(avoidance) = &mut self.avoidance {
+                    avoidance.interrupt();
+                }
                 return Command::Stop;
             }
         };
@@ -118,9 +121,9 @@ impl Pilot {
         model.track(&mut self.tracking, estimate, &goal)
     }
 
-    /// Whether the robot has long been pushed harder than it can hold against while it tracks a waypoint.
+    /// Whether the robot has long been pushed harder than it can hold against, while it tracks a waypoint or stands still.
     pub fn is_overpowered(&self, model: &dyn Model) -> bool {
-        matches!(self.wish, Wish::Track(_)) && model.is_overpowered(&self.tracking)
+        !matches!(self.wish, Wish::Drive(_)) && model.is_overpowered(&self.tracking)
     }
 
     /// For a while tracking and avoidance do not drive the robot.

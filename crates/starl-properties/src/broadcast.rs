@@ -81,7 +81,10 @@ impl Broadcast {
             is_causal: order == Some(Order::Causal),
             owed: others.filter(|&robot| robot != key.from).collect(),
         };
-        self.outstanding.insert(key, at + bound, message);
+        // A robot alone owes its message to nobody, and rightly says so.
+        if !message.owed.is_empty() {
+            self.outstanding.insert(key, at + bound, message);
+        }
     }
 
     fn delivered(&mut self, key: MessageKey, robot: RobotId) {

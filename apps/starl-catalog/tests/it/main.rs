@@ -1,5 +1,6 @@
 //! The tests of `starl-catalog`, in one binary so that they link once.
 
+mod a_robot_alone;
 mod corruption_is_recovered_from;
 mod election_finds_leaders;
 mod flocking_lines_up;

@@ -128,6 +128,16 @@ impl Gains {
         }
     }
 
+    /// The drone hovers by itself: the push is observed all the same, since wind that drives it off its path has it stopped
+    /// again and again to plan anew.
+    pub fn rest(&self, tracking: &mut Tracking, estimate: &Estimate) {
+        let period = tracking.period(estimate);
+        match estimate.pose.position.z < 0.5 * self.lowest {
+            true => tracking.interrupt(),
+            false => self.observe(tracking, estimate, period),
+        }
+    }
+
     /// Corrects the push, and the velocity expected of the drone, by the velocity that it has come to.
     fn observe(&self, tracking: &mut Tracking, estimate: &Estimate, period: f64) {
         let velocity = estimate.twist.linear.at_height(0.0);

@@ -88,3 +88,23 @@ fn it_knows_when_the_wind_is_too_strong() {
         assert_eq!(overpowered, expected, "{part} of the strongest wind");
     }
 }
+
+/// It was stopped to plan anew before it knew, and forgot each time how long the wind had been too strong.
+#[test]
+fn it_knows_so_too_when_it_is_stopped_again_and_again() {
+    let drone = models::by_name("drone").unwrap();
+    for (part, expected) in [(0.9, false), (1.1, true), (2.0, true)] {
+        let up = Pose::level(Point::new(0.0, 0.0, 1.0), 0.4);
+        let mut run = Run::new(&*drone, up, Positioning::EXACT, 3);
+        run.disturbance.wind = Point::polar(part * strongest(), 0.3);
+        let mut overpowered = false;
+        for turn in 0..400 {
+            match turn % 40 < 2 {
+                true => drop(run.turn(&Goal::stop_at(Point::new(0.0, 0.0, 1.0)))),
+                false => run.rest(),
+            }
+            overpowered |= drone.is_overpowered(&run.tracking);
+        }
+        assert_eq!(overpowered, expected, "{part} of the strongest wind");
+    }
+}

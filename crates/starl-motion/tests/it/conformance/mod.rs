@@ -183,8 +183,22 @@ impl<'a> Run<'a> {
             .positioning
             .estimate(&self.state, self.now, &mut self.random);
         let command = self.model.track(&mut self.tracking, &estimate, goal);
+        self.go_on(&command);
+        command
+    }
+
+    /// One estimate of a robot that is to stand still, and what the model does until the next.
+    pub fn rest(&mut self) {
+        let estimate = self
+            .positioning
+            .estimate(&self.state, self.now, &mut self.random);
+        self.model.rest(&mut self.tracking, &estimate);
+        self.go_on(&Command::Stop);
+    }
+
+    fn go_on(&mut self, command: &Command) {
         assert!(
-            self.model.accepts(&command),
+            self.model.accepts(command),
             "{}: {command:?}",
             self.model.name()
         );
@@ -192,10 +206,9 @@ impl<'a> Run<'a> {
         for _ in 0..self.positioning.period.0 / step.0 {
             self.state = self
                 .model
-                .predict(&self.state, &command, &self.disturbance, step);
+                .predict(&self.state, command, &self.disturbance, step);
         }
         self.now += self.positioning.period;
-        command
     }
 
     /// Metres between the robot and a point.
