@@ -38,8 +38,13 @@ const FLYING: u32 = 1;
 const POSITION_GAIN: f64 = 1.2;
 /// Acceleration per error of velocity, 1/s.
 const VELOCITY_GAIN: f64 = 2.8;
-/// Both poles of the observer, 1/s.
-const OBSERVER_RATE: f64 = 2.5;
+/// Both poles of the observer, 1/s, where estimates are seldom. A quicker one strays less in gusts, but gaps between estimates
+/// make it overshoot.
+const SLOWEST_OBSERVER: f64 = 2.5;
+/// The same where they are frequent; noise moves a drone by a tenth more then.
+const QUICKEST_OBSERVER: f64 = 8.0;
+/// The time between estimates up to which they are frequent, seconds; at twice that they are seldom.
+const FREQUENT: f64 = 0.05;
 /// The push is taken to be at most this many times what the drone can hold against.
 const MOST_PUSH: f64 = 1.5;
 /// Seconds for which the push has to exceed what the drone can hold against until it counts as overpowered:
@@ -142,7 +147,9 @@ impl Gains {
     fn observe(&self, tracking: &mut Tracking, estimate: &Estimate, period: f64) {
         let velocity = estimate.twist.linear.at_height(0.0);
         let expected = tracking.expected_velocity.unwrap_or(velocity);
-        let keep = exp(-OBSERVER_RATE * period);
+        let often = FREQUENT / period;
+        let rate = (QUICKEST_OBSERVER * often * often).clamp(SLOWEST_OBSERVER, QUICKEST_OBSERVER);
+        let keep = exp(-rate * period);
         let surprise = velocity - expected;
         let push = tracking.push + surprise * ((1.0 - keep) * (1.0 - keep) / period);
         tracking.push = shortened(push, MOST_PUSH * self.strength());
