@@ -1,19 +1,20 @@
 //! Environments for learning: batches of worlds, whose results go into arrays of the caller.
 
+use crate::judge::Judge;
 use numpy::{
-    PyReadonlyArray1, PyReadonlyArray3, PyReadwriteArray2, PyReadwriteArray3, PyReadwriteArray4,
+    PyReadonlyArray1, PyReadonlyArray3, PyReadwriteArray1, PyReadwriteArray2, PyReadwriteArray3, PyReadwriteArray4,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use starl_core::{ConvexPolygon, Duration, Obstacle, Point, Pose};
-use starl_env::{Actions, Lidar, Outputs, Radio, Region, Settings};
+use starl_env::{Actions, Lidar, Outputs, Radio, Region, Settings, Verdicts};
 use starl_motion::models;
 
 /// Environments side by side.
 #[pyclass(module = "starl._native")]
 pub struct Batch {
-    batch: starl_env::Batch,
+    pub batch: starl_env::Batch,
     /// None if one thread does all.
     pool: Option<ThreadPool>,
 }
@@ -90,7 +91,7 @@ impl Batch {
 
     /// The radius, the greatest speed and the greatest rate of turn of each robot.
     #[getter]
-    fn limits(&self) -> Vec<(f64, f64, f64)> {
+    pub fn limits(&self) -> Vec<(f64, f64, f64)> {
         let models = self.batch.settings().models.iter();
         models
             .map(|model| {
@@ -247,6 +248,38 @@ impl Batch {
         .map_err(refused)
     }
 
+    /// Evaluates the expressions of a task after an action; with `begins`, for the environments that begin an episode.
+    #[expect(clippy::too_many_arguments, reason = "an argument for each array")]
+    fn judge(
+        &mut self,
+        py: Python<'_>,
+        judge: &mut Judge,
+        begins: Option<PyReadonlyArray1<'_, bool>>,
+        mut rows: PyReadwriteArray3<'_, f64>,
+        lidar: PyReadonlyArray3<'_, f64>,
+        mut rewards: PyReadwriteArray2<'_, f64>,
+        mut terminated: PyReadwriteArray1<'_, bool>,
+        mut information: PyReadwriteArray2<'_, f64>,
+    ) -> PyResult<()> {
+        let verdicts = Verdicts {
+            rows: rows.as_slice_mut()?,
+            memory: &mut judge.memory,
+            lidar: lidar.as_slice()?,
+            rewards: rewards.as_slice_mut()?,
+            terminated: terminated.as_slice_mut()?,
+            information: information.as_slice_mut()?,
+        };
+        let begins = begins.as_ref().map(|begins| begins.as_slice()).transpose()?;
+        let Batch { batch, pool } = self;
+        let judge = &judge.judge;
+        let turn = || batch.judge(judge, begins, verdicts);
+        py.detach(|| match pool {
+            Some(pool) => pool.install(turn),
+            None => turn(),
+        })
+        .map_err(refused)
+    }
+
     /// Writes the results of these environments as they are now.
     #[expect(clippy::too_many_arguments, reason = "an argument for each array")]
     fn show(
@@ -296,7 +329,7 @@ impl Batch {
     }
 }
 
-fn refused(error: impl ToString) -> PyErr {
+pub fn refused(error: impl ToString) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 

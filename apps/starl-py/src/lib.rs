@@ -7,6 +7,7 @@ mod disk;
 mod engine;
 mod env;
 mod numbers;
+mod judge;
 mod robot;
 mod sweep;
 mod table;
@@ -21,6 +22,8 @@ mod _native {
     use super::engine::Engine;
     #[pymodule_export]
     use super::env::Batch;
+    #[pymodule_export]
+    use super::judge::Judge;
     #[pymodule_export]
     use super::robot::Handle;
     #[pymodule_export]

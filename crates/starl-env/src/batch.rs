@@ -1,5 +1,6 @@
 //! Environments side by side.
 
+use crate::judge::{Bench, Judge, JudgeError, Work};
 use crate::scatter::{self, NoRoom, Region};
 use crate::settings::{Settings, SettingsError};
 use crate::world::{Common, Map, NotFinite, Room, Scratch, World};
@@ -31,6 +32,22 @@ pub struct Outputs<'a> {
     pub messages: &'a mut [f64],
     /// E, N, N: how many actions ago that was sent; -1 where none came.
     pub ages: &'a mut [i32],
+}
+
+/// Where the expressions of a task find and put numbers: arrays in row-major order.
+pub struct Verdicts<'a> {
+    /// E, N, [`Judge::row`]: the task's own quantities.
+    pub rows: &'a mut [f64],
+    /// E, N, [`Judge::memory`]: what quantities were before. Nothing else writes it.
+    pub memory: &'a mut [u64],
+    /// E, N, rays, as in [`Outputs`].
+    pub lidar: &'a [f64],
+    /// E, N: the rewards of the last action.
+    pub rewards: &'a mut [f64],
+    /// E: whether the episode is terminated.
+    pub terminated: &'a mut [bool],
+    /// E, [`Judge::means`]: measures of the information, averaged over robots.
+    pub information: &'a mut [f64],
 }
 
 impl Batch {
@@ -136,8 +153,7 @@ impl Batch {
         let row = settings.robots() * settings.action_numbers();
         let mail = settings.robots() * settings.message_numbers();
         let jobs = rooms(settings, worlds.len(), outputs)
-            .zip(worlds)
-            .enumerate();
+            .zip(worlds);
         let turn = |work: &mut Scratch, (index, (room, world)): (usize, (Room<'_>, &mut World))| {
             let actions = &actions[index * row..][..row];
             let messages = &messages[index * mail..][..mail];
@@ -148,7 +164,56 @@ impl Batch {
                 robot,
             })
         };
-        run(*parallel, jobs, turn).map_or(Ok(()), Err)
+        run(*parallel, jobs, Scratch::default, turn).map_or(Ok(()), Err)
+    }
+
+    /// Evaluates the expressions of a task for all environments after an action, or for those that begin an episode.
+    ///
+    /// # Errors
+    /// Gives an expression of the first environment that cannot be evaluated; the others have been.
+    pub fn judge(
+        &mut self,
+        judge: &Judge,
+        begins: Option<&[bool]>,
+        verdicts: Verdicts<'_>,
+    ) -> Result<(), JudgeError> {
+        let Batch {
+            common,
+            worlds,
+            parallel,
+        } = self;
+        let robots = common.settings.robots();
+        let mut rows = parts(verdicts.rows, robots * judge.row());
+        let mut memory = parts(verdicts.memory, robots * judge.memory());
+        let mut rewards = parts(verdicts.rewards, robots);
+        let mut information = parts(verdicts.information, judge.means());
+        let mut terminated = verdicts.terminated.iter_mut();
+        let rays = robots * common.settings.rays();
+        let jobs = worlds.iter_mut().enumerate().filter_map(|(index, world)| {
+            let bench = Bench {
+                rows: rows(),
+                memory: memory(),
+                lidar: &verdicts.lidar[index * rays..][..rays],
+                rewards: rewards(),
+                terminated: terminated.next()?,
+                information: information(),
+            };
+            let is_new = begins.map(|begins| begins[index]);
+            Some((bench, world, is_new))
+        });
+        let turn = |work: &mut Work, (index, job): (usize, (Bench<'_>, &mut World, Option<bool>))| {
+            let (mut bench, world, is_new) = job;
+            match is_new {
+                Some(false) => return None,
+                Some(true) => {
+                    bench.rewards = &mut [];
+                    bench.memory.fill(0);
+                }
+                None => {}
+            }
+            judge.evaluate(index, world, bench, work).err()
+        };
+        run(*parallel, jobs, || judge.work(), turn).map_or(Ok(()), Err)
     }
 
     /// Writes the results of some environments as they are now, without a step.
@@ -163,25 +228,30 @@ impl Batch {
     }
 }
 
-/// Does all jobs with room for work, and returns the first error by environment.
-fn run<'a>(
+/// Does a job for each environment with room for work, and returns the first error by environment.
+fn run<J: Send, W, E: Send>(
     parallel: bool,
-    jobs: impl Iterator<Item = (usize, (Room<'a>, &'a mut World))>,
-    turn: impl Fn(&mut Scratch, (usize, (Room<'a>, &'a mut World))) -> Option<NotFinite> + Sync + Send,
-) -> Option<NotFinite> {
+    jobs: impl Iterator<Item = J>,
+    work: impl Fn() -> W + Sync + Send,
+    turn: impl Fn(&mut W, (usize, J)) -> Option<E> + Sync + Send,
+) -> Option<E> {
+    let numbered = |work: &mut W, (index, job): (usize, J)| {
+        let error = turn(work, (index, job));
+        error.map(|error| (index, error))
+    };
     #[cfg(feature = "parallel")]
     if parallel {
         use rayon::prelude::*;
-        let jobs: Vec<_> = jobs.collect();
+        let jobs: Vec<_> = jobs.enumerate().collect();
         // Jobs are short, so that threads take several at once.
         let jobs = jobs.into_par_iter().with_min_len(8);
-        let errors = jobs.map_init(Scratch::default, turn);
-        return errors.flatten().min_by_key(|error| error.environment);
+        let errors = jobs.map_init(work, numbered).flatten();
+        return errors.min_by_key(|error| error.0).map(|error| error.1);
     }
     let _ = parallel;
-    let mut work = Scratch::default();
-    let errors = jobs.map(|job| turn(&mut work, job));
-    errors.fold(None, Option::or)
+    let mut work = work();
+    let errors = jobs.enumerate().map(|job| numbered(&mut work, job));
+    errors.fold(None, Option::or).map(|error| error.1)
 }
 
 /// The parts of the arrays by environment.

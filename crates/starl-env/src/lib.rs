@@ -7,12 +7,15 @@
 //! there are beside it nor on the number of threads.
 
 mod batch;
+mod judge;
 mod post;
 mod scatter;
 mod settings;
 mod world;
 
-pub use batch::{Batch, Outputs};
+pub use batch::{Batch, Outputs, Verdicts};
+pub use judge::{Column, Constant, Judge, JudgeError, Kind, Wording, WordingError};
+
 pub use scatter::{NoRoom, Region};
 pub use settings::{Actions, Lidar, Radio, Settings, SettingsError};
 pub use world::NotFinite;

@@ -48,14 +48,14 @@ pub struct World {
     seed: u64,
     episode: u64,
     /// Actions since the robots were placed.
-    actions: u64,
+    pub actions: u64,
     now: Time,
     pub map: Arc<Map>,
     pub states: Vec<State>,
     bodies: Vec<Neighbour>,
     grid: Grid,
     /// The first thing that each robot has touched in the action.
-    touched: Vec<Option<Hit>>,
+    pub touched: Vec<Option<Hit>>,
     /// Empty unless actions are waypoints.
     pilots: Vec<Pilot>,
     post: Option<Post>,

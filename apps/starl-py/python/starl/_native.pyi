@@ -168,6 +168,16 @@ class Batch:
         messages: NDArray[np.float64],
         ages: NDArray[np.int32],
     ) -> None: ...
+    def judge(
+        self,
+        judge: Judge,
+        begins: NDArray[np.bool_] | None,
+        rows: NDArray[np.float64],
+        lidar: NDArray[np.float64],
+        rewards: NDArray[np.float64],
+        terminated: NDArray[np.bool_],
+        information: NDArray[np.float64],
+    ) -> None: ...
     def show(
         self,
         environments: NDArray[np.int64],
@@ -178,3 +188,14 @@ class Batch:
         messages: NDArray[np.float64],
         ages: NDArray[np.int32],
     ) -> None: ...
+
+class Judge:
+    def __new__(
+        cls,
+        batch: Batch,
+        constants: list[tuple[str, str, list[float]]],
+        columns: list[tuple[str, str, str | None]],
+        reward: str | None,
+        terminated: str | None,
+        information: list[tuple[str, str]],
+    ) -> Judge: ...

@@ -1,5 +1,6 @@
 //! The tests of `starl-env`, in one binary so that they link once.
 
+mod expressions;
 mod independent_environments;
 mod lidar_and_places;
 mod messages;

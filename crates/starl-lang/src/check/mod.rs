@@ -56,7 +56,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::diagnostic::{Diagnostic, has_errors};
-use crate::ir::Program;
+use crate::ir::{Program, Type};
 use crate::syntax::{Parse, parse};
 
 pub use input::is_input_field;
@@ -141,6 +141,15 @@ pub fn surroundings(
     checker.check();
     let surroundings = checker.surroundings.take();
     (checker.finish(), surroundings)
+}
+
+/// Checks a program in which each property is a value of this type of each robot.
+#[must_use]
+pub(crate) fn check_values(source: &str, ty: Type, libraries: &dyn Libraries) -> Checked {
+    let mut checker = load::load(source, parse(source), libraries);
+    checker.value = Some(ty);
+    checker.check();
+    checker.finish()
 }
 
 impl state::Checker {

@@ -28,8 +28,9 @@ impl Checker {
                 self.report(problem.label(first, "the first one"));
             }
         }
-        let about_robot = !(mentions_robots(node.condition().as_ref())
-            || mentions_robots(node.consequence().as_ref()));
+        let about_robot = self.value.is_some()
+            || !(mentions_robots(node.condition().as_ref())
+                || mentions_robots(node.consequence().as_ref()));
         let ((claim, robots, assumption, recovery), locals) =
             self.in_body(Where::Property, |checker| {
                 let mut robots = Vec::new();
@@ -41,7 +42,10 @@ impl Checker {
                     checker.body.robot = Some(robot);
                     robots.push(robot);
                 }
-                let condition = checker.expect(node.condition(), &Type::Bool, "the property");
+                let condition = match checker.value.clone() {
+                    Some(ty) => checker.expect(node.condition(), &ty, "the expression"),
+                    None => checker.expect(node.condition(), &Type::Bool, "the property"),
+                };
                 let consequence = node
                     .consequence()
                     .map(|then| checker.expect(Some(then), &Type::Bool, "what it leads to"));

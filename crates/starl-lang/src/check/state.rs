@@ -118,6 +118,8 @@ pub(super) struct Checker {
     pub surroundings: Option<Surroundings>,
     /// The parameters that it may be the name of.
     pub probed_parameters: Vec<String>,
+    /// The type of values that stand in the place of properties, each about one robot.
+    pub value: Option<Type>,
 }
 
 impl Checker {
@@ -146,6 +148,7 @@ impl Checker {
             probe: None,
             surroundings: None,
             probed_parameters: Vec::new(),
+            value: None,
         }
     }
 

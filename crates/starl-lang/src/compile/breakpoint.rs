@@ -1,12 +1,13 @@
-//! A condition over the robots that run a program, written apart from the program.
+//! A condition over the robots that run a program, or a value of each, written apart from the program.
 
 use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::compile;
-use crate::check::{Libraries, check};
+use crate::check::{Checked, Libraries, check, check_values};
 use crate::diagnostic::{Code, Diagnostic, Severity, Span};
-use crate::machine::Bytecode;
+use crate::ir::Type;
+use crate::machine::{Bytecode, Claim};
 
 /// Compiles a program, which has no errors, with one property in the place of all of its own: that the condition
 /// comes true. It is about each robot if it has no quantifier, else about all robots that run the program.
@@ -18,19 +19,55 @@ pub fn with_condition(
     condition: &str,
     libraries: &dyn Libraries,
 ) -> Result<Bytecode, Vec<Diagnostic>> {
-    // In brackets it ends where it ends. A line break would end it before.
-    let before = [program, "\n\neventually: ("].concat();
-    let text = [&before, &*condition.replace(['\n', '\r'], " "), ")\n"].concat();
-    let part = Span::new(before.len() as u32, (before.len() + condition.len()) as u32);
-    let checked = check(&text, libraries);
-    match compile(&checked) {
-        Ok(mut bytecode) => {
-            let others = bytecode.properties.len().saturating_sub(1);
-            bytecode.properties.drain(..others);
-            Ok(bytecode)
-        }
-        Err(problems) => Err(within(problems, part, condition)),
+    let mut bytecode = compiled(program, condition, |text| check(text, libraries))?;
+    let others = bytecode.properties.len().saturating_sub(1);
+    bytecode.properties.drain(..others);
+    Ok(bytecode)
+}
+
+/// Compiles a program, which has no errors and no properties, with a value of each robot: an expression that may ask
+/// what a property may, and whose value has the type. The function with this number takes a robot and gives the value;
+/// places of its instructions are bytes of the expression.
+///
+/// # Errors
+/// What is wrong with the expression; places are bytes of it.
+pub fn with_value(
+    program: &str,
+    expression: &str,
+    ty: &Type,
+    libraries: &dyn Libraries,
+) -> Result<(Bytecode, u32), Vec<Diagnostic>> {
+    let mut bytecode = compiled(program, expression, |text| {
+        check_values(text, ty.clone(), libraries)
+    })?;
+    let start = before(program).len() as u32;
+    for (_, span) in &mut bytecode.spans {
+        span.start = span.start.saturating_sub(start);
+        span.end = span.end.saturating_sub(start);
     }
+    // What gives no Bool is no property.
+    match bytecode.properties.pop().map(|value| value.claim) {
+        Some(Claim::Eventually { holds, .. }) => Ok((bytecode, holds)),
+        _ => Err(Vec::from([no_room(expression)])),
+    }
+}
+
+/// All that stands before the part. In brackets it ends where it ends.
+fn before(program: &str) -> String {
+    [program, "\n\neventually: ("].concat()
+}
+
+/// Compiles the program with the part as its last property.
+fn compiled(
+    program: &str,
+    part: &str,
+    check: impl FnOnce(&str) -> Checked,
+) -> Result<Bytecode, Vec<Diagnostic>> {
+    let before = before(program);
+    // A line break would end it before.
+    let text = [&before, &*part.replace(['\n', '\r'], " "), ")\n"].concat();
+    let place = Span::new(before.len() as u32, (before.len() + part.len()) as u32);
+    compile(&check(&text)).map_err(|problems| within(problems, place, part))
 }
 
 /// The errors of a part of a text, at their places in the part.
@@ -42,11 +79,14 @@ fn within(problems: Vec<Diagnostic>, part: Span, condition: &str) -> Vec<Diagnos
         .map(|problem| moved(problem, part))
         .collect();
     if found.is_empty() {
-        let message = String::from("the program has no room for this condition");
-        let whole = Span::new(0, condition.len() as u32);
-        found.push(Diagnostic::new(Code::TooMuch, whole, message));
+        found.push(no_room(condition));
     }
     found
+}
+
+fn no_room(part: &str) -> Diagnostic {
+    let message = String::from("the program has no room for this condition");
+    Diagnostic::new(Code::TooMuch, Span::new(0, part.len() as u32), message)
 }
 
 fn moved(mut problem: Diagnostic, part: Span) -> Diagnostic {

@@ -25,7 +25,7 @@ mod unit;
 
 use alloc::vec::Vec;
 
-pub use breakpoint::with_condition;
+pub use breakpoint::{with_condition, with_value};
 
 use crate::check::Checked;
 use crate::diagnostic::{Diagnostic, Severity};

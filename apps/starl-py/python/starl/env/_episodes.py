@@ -9,6 +9,9 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
+from starl._errors import StarlError
+from starl.env._judge import Judge
+from starl.env._quantities import parts
 from starl.env._task import Task
 from starl.env._world import Floats, Ints, World
 
@@ -23,8 +26,13 @@ class Episodes:
         self.task = task
         self.world = World(task.settings, environments, threads)
         self._is_seeded = np.zeros(environments, np.bool_)
+        for part in ("observe", "reward"):
+            if not hasattr(task, part):
+                raise StarlError(f"{type(task).__name__}.{part} is missing: set it, or write a method")
+        self._judge = Judge(task, self.world)
         task.begin(self.world)
-        width = sum(part.shape[-1] for part in task.observe(self.world))
+        self._parts = [] if callable(task.observe) else parts(self.world, task.observe)
+        width = sum(part.shape[-1] for part in self._seen())
         self._observations: Observations = np.zeros((environments, self.world.robots, width), np.float32)
         #: Observations and actions of one robot.
         self.observation_space = spaces.Box(-np.inf, np.inf, (width,), np.float32)
@@ -51,14 +59,29 @@ class Episodes:
         """Begins an episode in these environments."""
         if len(envs):
             self.task.reset(self.world, envs)
+            self._judge.begin(envs)
 
     def observe(self) -> Observations:
         """Returns what robots see, in an array that is overwritten next time."""
-        np.concatenate(self.task.observe(self.world), axis=-1, out=self._observations, casting="unsafe")
+        np.concatenate(self._seen(), axis=-1, out=self._observations, casting="unsafe")
         return self._observations
+
+    def _seen(self) -> Sequence[NDArray[Any]]:
+        observe = self.task.observe
+        return observe(self.world) if callable(observe) else [part() for part in self._parts]
 
     def step(self, actions: NDArray[Any]) -> tuple[Floats, Flags, Flags]:
         """Rewards (E, N), and which environments are terminated and truncated."""
-        self.world.step(actions)
-        rewards = self.task.reward(self.world)
-        return rewards, self.task.terminated(self.world), self.world.steps >= self.task.max_steps
+        task, world = self.task, self.world
+        world.step(actions)
+        task.advance(world)
+        rewards = self._judge.judge()
+        if callable(task.reward):
+            rewards = task.reward(world)
+        terminated = task.terminated(world) if callable(task.terminated) else self._judge.terminated.copy()
+        return rewards, terminated, world.steps >= task.max_steps
+
+    def information(self) -> dict[str, NDArray[Any]]:
+        """The task's measures for `infos`: arrays (E, ...), which are overwritten next time."""
+        information = self.task.information
+        return information(self.world) if callable(information) else self._judge.information

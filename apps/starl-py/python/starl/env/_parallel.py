@@ -61,7 +61,7 @@ class ParallelEnv(PettingZooParallelEnv):  # type: ignore[misc]
             raise ValueError(f"there is no action for {', '.join(missing)}")
         rows = np.stack([np.asarray(actions[agent]) for agent in self.agents])
         rewards, terminated, truncated = self._episodes.step(rows[None])
-        agents, facts = self.agents, self.task.information(self.world)
+        agents, facts = self.agents, self._episodes.information()
         information = {name: values[0] for name, values in facts.items()}
         if terminated[0] or truncated[0]:
             self.agents = []

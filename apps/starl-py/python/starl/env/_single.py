@@ -45,4 +45,4 @@ class Env(gymnasium.Env[Observations, NDArray[Any]]):
         return row
 
     def _information(self) -> dict[str, Any]:
-        return {name: values[0] for name, values in self.task.information(self.world).items()}
+        return {name: values[0] for name, values in self._episodes.information().items()}

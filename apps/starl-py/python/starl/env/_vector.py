@@ -104,7 +104,7 @@ class VectorEnv(GymnasiumVectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         }
 
     def _information(self, robot_rewards: Floats | None = None) -> dict[str, Any]:
-        infos: dict[str, Any] = {name: values.copy() for name, values in self.task.information(self.world).items()}
+        infos: dict[str, Any] = {name: values.copy() for name, values in self._episodes.information().items()}
         if robot_rewards is not None:
             infos["robot_rewards"] = robot_rewards
         return {**infos, **{f"_{name}": np.ones(self.num_envs, np.bool_) for name in infos}}

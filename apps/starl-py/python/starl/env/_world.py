@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -54,14 +54,39 @@ class World:
         self.steps: Ints = np.zeros(environments, np.int64)
         self._actions: Floats = np.zeros((*shape, self._batch.action_numbers))
         self._sent: Floats = np.zeros((*shape, words))
+        #: The task's own quantities by name: (E, N, k).
+        self.quantities: dict[str, Floats] = {}
+        self._rows: Floats = np.zeros((*shape, 0))
         self._outputs = (self.poses, self.velocities, self.contacts, self.lidar, self.messages, self.ages)
         self._show(np.arange(environments))
+
+    def _declare(self, widths: Mapping[str, int], constants: Mapping[str, Sequence[float]]) -> None:
+        """Makes room for the quantities of a task."""
+        shape = (self.environments, self.robots)
+        self._rows = np.zeros((*shape, sum(widths.values())))
+        places = np.cumsum([0, *widths.values()])
+        for (name, width), place in zip(widths.items(), places, strict=False):
+            self.quantities[name] = self._rows[..., place : place + width]
+        for name, values in constants.items():
+            self.quantities[name] = np.broadcast_to(np.asarray(values, np.float64)[:, None], (*shape, 1))
+
+    def __getitem__(self, name: str) -> Floats:
+        """A quantity of the task: (E, N, 2) for points, else (E, N, 1); of a Bool 0 or 1."""
+        return self.quantities[name]
+
+    def __setitem__(self, name: str, values: ArrayLike) -> None:
+        self.quantities[name][...] = values
 
     @property
     def action_numbers(self) -> int:
         """How many numbers a robot's action has, with its message."""
         numbers: int = self._actions.shape[2] + self._sent.shape[2]
         return numbers
+
+    @property
+    def seconds(self) -> float:
+        """How long an action lasts."""
+        return self.settings.physics_step * self.settings.steps_per_action
 
     @property
     def positions(self) -> Floats:

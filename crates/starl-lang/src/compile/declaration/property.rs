@@ -88,8 +88,10 @@ impl<'p> Unit<'p> {
             body.declare(*robot)?;
             arguments.push(Type::Robot);
         }
+        let result = body.machine_type(&condition.ty)?;
+        body.reserve(&condition.ty)?;
         body.give(Some(condition))?;
-        Ok(body.finish(name, arguments, Vec::from([Type::Bool])))
+        Ok(body.finish(name, arguments, Vec::from([result])))
     }
 
     /// The nanoseconds of a deadline.
