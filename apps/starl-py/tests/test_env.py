@@ -127,26 +127,28 @@ def test_disabled_leaves_resets_to_the_caller() -> None:
 
 
 def toward_goals(env: VectorEnv) -> np.ndarray[Any, Any]:
-    task = env.task
-    assert isinstance(task, tasks.Navigation)
     actions = np.zeros(env.action_space.shape or ())
-    actions[..., :2] = np.clip(3 * (task.goals - env.world.positions), -1, 1)
+    actions[..., :2] = np.clip(3 * (env.world["goal"] - env.world.positions), -1, 1)
     return actions
+
+
+def left(world: World) -> np.ndarray[Any, Any]:
+    """How far robots are from their goals: (E, N)."""
+    distances: np.ndarray[Any, Any] = np.linalg.norm(world["goal"] - world.positions, axis=-1)
+    return distances
 
 
 def test_robots_that_drive_at_their_goals_arrive_and_are_rewarded() -> None:
     env = VectorEnv(tasks.Navigation(1), 32, autoreset_mode=AutoresetMode.DISABLED)
     env.reset(seed=3)
-    task = env.task
-    assert isinstance(task, tasks.Navigation)
-    way, total = task.left.copy(), np.zeros(32)
+    way, total = left(env.world), np.zeros(32)
     for _ in range(100):
         _, rewards, terminated, _, _ = env.step(toward_goals(env))
         total += rewards
         if terminated.any():
             break
-    assert (task.left < way).all()
-    np.testing.assert_allclose(total, (way - task.left)[:, 0])
+    assert (left(env.world) < way).all()
+    np.testing.assert_allclose(total, (way - left(env.world))[:, 0])
     assert terminated.any()
 
 
@@ -230,16 +232,16 @@ def test_bad_arguments_are_refused() -> None:
 
 def test_transport_needs_enough_carriers() -> None:
     for carriers, moves in [(2, True), (3, False)]:
-        task = tasks.Transport(2, carriers=carriers)
-        env = VectorEnv(task, 1)
+        env = VectorEnv(tasks.Transport(2, carriers=carriers), 1)
         env.reset(seed=2)
-        env.world.place(np.arange(1), task.thing[:, None] + np.array([[[-0.15, 0.0], [0.15, 0.0]]]))
+        thing = env.world["thing"]
+        env.world.place(np.arange(1), thing + np.array([[[-0.15, 0.0], [0.15, 0.0]]]))
         env.step(np.zeros((1, 2, 3)))
-        before = task.thing.copy()
+        before = thing.copy()
         actions = np.zeros((1, 2, 3))
         actions[..., 1] = 1.0
         env.step(actions)
-        assert np.allclose(task.thing - before, [[0.0, 0.1 if moves else 0.0]])
+        assert np.allclose(thing - before, [[0.0, 0.1 if moves else 0.0]])
 
 
 def test_a_touch_catches_the_evader() -> None:

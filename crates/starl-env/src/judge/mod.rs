@@ -182,7 +182,7 @@ impl Judge {
             .fill(world, rows, bench.memory, bench.lidar, scratch);
         for (place, measure) in &self.measures {
             values.clear();
-            self.ask(environment, world, measure, scratch, workspace, |value| {
+            self.ask(environment, measure, scratch, workspace, |value| {
                 values.push(value);
                 true
             })?;
@@ -196,7 +196,7 @@ impl Judge {
             && !bench.rewards.is_empty()
         {
             let mut places = bench.rewards.iter_mut();
-            self.ask(environment, world, reward, scratch, workspace, |value| {
+            self.ask(environment, reward, scratch, workspace, |value| {
                 if let Some(place) = places.next() {
                     *place = value[0];
                 }
@@ -205,7 +205,7 @@ impl Judge {
         }
         if let Some(terminated) = &self.terminated {
             let mut all = true;
-            self.ask(environment, world, terminated, scratch, workspace, |value| {
+            self.ask(environment, terminated, scratch, workspace, |value| {
                 all = value[0] != 0.0;
                 all
             })?;
@@ -213,13 +213,13 @@ impl Judge {
         }
         for (expression, mean) in self.information.iter().zip(bench.information) {
             let mut sum = 0.0;
-            self.ask(environment, world, expression, scratch, workspace, |value| {
+            self.ask(environment, expression, scratch, workspace, |value| {
                 sum += value[0];
                 true
             })?;
             *mean = sum / self.robots as f64;
         }
-        self.quantities.keep(world, scratch, bench.memory);
+        self.quantities.keep(scratch, bench.memory);
         Ok(())
     }
 
@@ -227,14 +227,12 @@ impl Judge {
     fn ask(
         &self,
         environment: usize,
-        world: &World,
         expression: &Expression,
         scratch: &Scratch,
         workspace: &mut Workspace,
         mut take: impl FnMut([f64; 2]) -> bool,
     ) -> Result<(), JudgeError> {
         let mut court = Court {
-            robots: &world.states,
             states: scratch.states(),
             all: &self.all,
         };

@@ -1,6 +1,6 @@
 //! Quantities of robots, as variables in the states that expressions read. Only those are filled in that are read.
 
-use super::wording::{Expression, Kind, Wording, places};
+use super::wording::{Expression, Kind, Wording, places, variable_of};
 use crate::world::World;
 use starl_core::Point;
 use starl_core::event::Hit;
@@ -27,6 +27,9 @@ pub struct Quantities {
 /// Where a quantity comes from.
 #[derive(Clone, Copy, Debug)]
 enum Source {
+    Position,
+    Heading,
+    Velocity,
     Touched,
     TouchedRobot,
     Nearest,
@@ -41,17 +44,9 @@ enum Source {
 struct Kept {
     /// The first scalar of the field of `previous`.
     to: usize,
+    /// The first scalar of the variable that it is a copy of.
+    from: usize,
     words: usize,
-    from: Origin,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Origin {
-    Position,
-    Heading,
-    Velocity,
-    /// A variable that begins at this scalar.
-    Scalar(usize),
 }
 
 /// The states of one environment.
@@ -97,7 +92,7 @@ impl Quantities {
         (scalars, objects): &(Vec<u32>, Vec<u32>),
     ) {
         self.constant = vec![any.program.new_state(); limits.len()];
-        let places = places(&any.program);
+        let places = places(any.program.bytecode());
         let place_of = |name: &str| {
             let found = places.iter().find(|place| place.0 == name);
             found.map(|&(_, _, scalar, object)| (scalar as usize, object as usize))
@@ -114,16 +109,11 @@ impl Quantities {
             for (name, ty) in fields {
                 let words = Layout::of([ty]).scalars.len();
                 if is_read(to, words) {
-                    let scalar = place_of(name).map_or(0, |place| place.0);
-                    let from = match &**name {
-                        "position" => Origin::Position,
-                        "heading" => Origin::Heading,
-                        "velocity" => Origin::Velocity,
-                        _ => Origin::Scalar(scalar),
-                    };
-                    self.kept.push(Kept { to, words, from });
+                    let variable = variable_of(name);
+                    let from = place_of(variable).map_or(0, |place| place.0);
+                    self.kept.push(Kept { to, from, words });
                     self.memory += words;
-                    wanted.push(name.as_str());
+                    wanted.push(variable);
                 }
                 to += words;
             }
@@ -132,6 +122,9 @@ impl Quantities {
             column.2 = place_of(&own.name).map_or(0, |place| place.0);
         }
         let given = [
+            ("position_now", Source::Position),
+            ("heading_now", Source::Heading),
+            ("velocity_now", Source::Velocity),
             ("touched", Source::Touched),
             ("touched_robot", Source::TouchedRobot),
             ("nearest", Source::Nearest),
@@ -194,7 +187,7 @@ impl Quantities {
         let Scratch { states, flags } = scratch;
         for &(source, scalar) in &self.filled {
             source.fill(world, rows, self.row, flags, |robot, words: &[u64]| {
-                states[robot].scalars[scalar..][..words.len()].copy_from_slice(words);
+                copy(&mut states[robot].scalars[scalar..][..words.len()], words);
             });
         }
         if self.memory > 0 {
@@ -202,7 +195,7 @@ impl Quantities {
                 let mut rest = before;
                 for kept in &self.kept {
                     let (words, others) = rest.split_at(kept.words);
-                    state.scalars[kept.to..][..kept.words].copy_from_slice(words);
+                    copy(&mut state.scalars[kept.to..][..kept.words], words);
                     rest = others;
                 }
             }
@@ -231,26 +224,29 @@ impl Quantities {
     }
 
     /// Keeps what is `previous` next time.
-    pub fn keep(&self, world: &World, scratch: &Scratch, memory: &mut [u64]) {
+    pub fn keep(&self, scratch: &Scratch, memory: &mut [u64]) {
         if self.memory == 0 {
             return;
         }
         let rows = memory.chunks_exact_mut(self.memory);
-        for ((row, state), robot) in rows.zip(&scratch.states).zip(&world.states) {
+        for (row, state) in rows.zip(&scratch.states) {
             let mut rest = row;
             for kept in &self.kept {
                 let (words, others) = rest.split_at_mut(kept.words);
-                match kept.from {
-                    Origin::Position => words.copy_from_slice(&point(robot.pose.position)),
-                    Origin::Heading => words[0] = robot.pose.yaw.to_bits(),
-                    Origin::Velocity => words.copy_from_slice(&point(robot.twist.linear)),
-                    Origin::Scalar(from) => {
-                        words.copy_from_slice(&state.scalars[from..][..kept.words]);
-                    }
-                }
+                copy(words, &state.scalars[kept.from..][..kept.words]);
                 rest = others;
             }
         }
+    }
+}
+
+/// Copies one or a few words, without a call.
+#[inline]
+fn copy(to: &mut [u64], from: &[u64]) {
+    match (to, from) {
+        ([to], [from]) => *to = *from,
+        ([x, y, z], [from_x, from_y, from_z]) => (*x, *y, *z) = (*from_x, *from_y, *from_z),
+        (to, from) => to.copy_from_slice(from),
     }
 }
 
@@ -258,7 +254,11 @@ impl Source {
     /// The scalars that it takes.
     fn words(self) -> usize {
         match self {
-            Source::MeanPosition | Source::MeanVelocity | Source::Column(_, Kind::Point) => 3,
+            Source::Position
+            | Source::Velocity
+            | Source::MeanPosition
+            | Source::MeanVelocity
+            | Source::Column(_, Kind::Point) => 3,
             _ => 1,
         }
     }
@@ -274,6 +274,9 @@ impl Source {
     ) {
         let robots = &world.states;
         match self {
+            Source::Position => each(robots, |one| point(one.pose.position), set),
+            Source::Heading => each(robots, |one| [one.pose.yaw.to_bits()], set),
+            Source::Velocity => each(robots, |one| point(one.twist.linear), set),
             Source::Touched => {
                 for (robot, touched) in world.touched.iter().enumerate() {
                     set(robot, &[u64::from(touched.is_some())]);
@@ -317,6 +320,17 @@ impl Source {
                 }
             }
         }
+    }
+}
+
+/// Gives each robot its own words.
+fn each<const WORDS: usize>(
+    robots: &[Motion],
+    of: impl Fn(&Motion) -> [u64; WORDS],
+    mut set: impl FnMut(usize, &[u64]),
+) {
+    for (robot, state) in robots.iter().enumerate() {
+        set(robot, &of(state));
     }
 }
 

@@ -181,7 +181,7 @@ fn only_environments_that_begin_are_begun() {
 fn wrong_expressions_are_refused_at_their_places() {
     for (expression, part, found) in [
         ("1.0 + gaol.x", "gaol", "there is no `gaol`"),
-        ("1.0 + touched", "1.0 + touched", "`+` does not work on Float and Bool"),
+        ("1.0 + touched", "1.0 + touched", "`+` does not join Float and Bool"),
         ("if finished then 1.0 else 0.0", "finished", "an environment does not know `finished`"),
         ("ranges[0]", "ranges", "a task cannot ask for `ranges`"),
         ("random(0.0, 1.0)", "random", "a task cannot call `random`"),

@@ -7,7 +7,7 @@ to a learner. Robots move, collide and measure as in the simulator. Needs the pa
 
 from starl.env import tasks
 from starl.env._parallel import ParallelEnv
-from starl.env._places import Opposite, Ring, Scatter
+from starl.env._places import Opposite, Places, Ring, Scatter
 from starl.env._settings import Box, Circle, Lidar, Radio, Settings, Waypoints
 from starl.env._single import Env
 from starl.env._task import Task
@@ -21,6 +21,7 @@ __all__ = [
     "Lidar",
     "Opposite",
     "ParallelEnv",
+    "Places",
     "Radio",
     "Ring",
     "Scatter",

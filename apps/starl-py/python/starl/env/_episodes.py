@@ -31,9 +31,13 @@ class Episodes:
                 raise StarlError(f"{type(task).__name__}.{part} is missing: set it, or write a method")
         self._judge = Judge(task, self.world)
         task.begin(self.world)
-        self._parts = [] if callable(task.observe) else parts(self.world, task.observe)
-        width = sum(part.shape[-1] for part in self._seen())
-        self._observations: Observations = np.zeros((environments, self.world.robots, width), np.float32)
+        if callable(task.observe):
+            self._parts = []
+            width = sum(part.shape[-1] for part in task.observe(self.world))
+        else:
+            self._parts = parts(self.world, task.observe)
+            width = sum(part.width for part in self._parts)
+        self._shape = (environments, self.world.robots, width)
         #: Observations and actions of one robot.
         self.observation_space = spaces.Box(-np.inf, np.inf, (width,), np.float32)
         self.action_space = spaces.Box(-1.0, 1.0, (self.world.action_numbers,), np.float32)
@@ -62,13 +66,17 @@ class Episodes:
             self._judge.begin(envs)
 
     def observe(self) -> Observations:
-        """Returns what robots see, in an array that is overwritten next time."""
-        np.concatenate(self._seen(), axis=-1, out=self._observations, casting="unsafe")
-        return self._observations
-
-    def _seen(self) -> Sequence[NDArray[Any]]:
+        """Returns what robots see, in a new array."""
+        seen: Observations = np.empty(self._shape, np.float32)
         observe = self.task.observe
-        return observe(self.world) if callable(observe) else [part() for part in self._parts]
+        if callable(observe):
+            np.concatenate(observe(self.world), axis=-1, out=seen, casting="unsafe")
+            return seen
+        place = 0
+        for part in self._parts:
+            part.write(seen[..., place : place + part.width])
+            place += part.width
+        return seen
 
     def step(self, actions: NDArray[Any]) -> tuple[Floats, Flags, Flags]:
         """Rewards (E, N), and which environments are terminated and truncated."""

@@ -75,7 +75,7 @@ class ParallelEnv(PettingZooParallelEnv):  # type: ignore[misc]
 
     def state(self) -> Observations:
         """Returns what all robots see, in one array (N, k)."""
-        rows: Observations = self._episodes.observe()[0].copy()
+        rows: Observations = self._episodes.observe()[0]
         return rows
 
     def _observed(self) -> dict[str, Observations]:

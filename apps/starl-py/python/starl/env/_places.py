@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from starl._errors import StarlError
 from starl.env._world import Floats, Ints, World
 
 
@@ -52,9 +53,11 @@ Places = Scatter | Ring | Opposite
 
 
 def draw(
-    world: World, envs: Ints, half: float, starts: Scatter | Ring, points: Mapping[str, Places]
+    world: World, envs: Ints, half: float, starts: Places, points: Mapping[str, Places]
 ) -> tuple[Floats, ArrayLike, dict[str, Floats]]:
     """Starts with their headings, and the points: arrays (len(envs), N, 2)."""
+    if isinstance(starts, Opposite):
+        raise StarlError("starts: `Opposite` is opposite to a start; use `Scatter` or `Ring`")
     drawn: dict[str, Floats] = {}
     headings: ArrayLike = 0.0
     wanted: dict[str, Places] = {"": starts, **points}

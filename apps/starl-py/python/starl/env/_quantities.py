@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,11 +13,19 @@ from numpy.typing import NDArray
 from starl._errors import StarlError
 from starl.env._world import World
 
-Part = Callable[[], NDArray[Any]]
+Numbers = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of observations: `k` numbers of each robot, which `write` puts into an array (E, N, k)."""
+
+    width: int
+    write: Callable[[Numbers], object]
 
 
 def parts(world: World, names: Sequence[str]) -> list[Part]:
-    """Functions that give the current values of quantities, each (E, N, k)."""
+    """The quantities with these names."""
     if isinstance(names, str):
         raise StarlError(f'observe: give a list of names, as ["{names}"]')
     return [_part(world, name) for name in names]
@@ -26,55 +35,81 @@ def _part(world: World, name: str) -> Part:
     environments, robots = world.environments, world.robots
     match name.split():
         case ["to", "every", point]:
-            target = _point(world, name, point)
-            return lambda: (target()[:, None] - world.positions[:, :, None]).reshape(environments, robots, -1)
+            every = _point(world, name, point)
+            shape = (environments, robots, robots, 2)
+            ways = np.empty(shape)
+            return Part(
+                2 * robots,
+                lambda out: _copy(
+                    out, np.subtract(every[:, None], world.positions[:, :, None], out=ways).reshape(*shape[:2], -1)
+                ),
+            )
         case ["to", point]:
-            target = _point(world, name, point)
-            return lambda: target() - world.positions
+            return _way(world.positions, _point(world, name, point))
         case [start, "to", end]:
-            here, there = _point(world, name, start), _point(world, name, end)
-            return lambda: there() - here()
-        case ["every", own]:
+            return _way(_point(world, name, start), _point(world, name, end))
+        case ["every", own] if own not in _COMPUTED:
             each = _quantity(world, own)
-            flat = (environments, 1, -1)
-            return lambda: np.broadcast_to((all := each().reshape(flat)), (environments, robots, all.shape[2]))
+            width = each.shape[2] * robots
+            return Part(width, lambda out: _copy(out, each.reshape(environments, 1, width)))
+        case ["heading"]:
+            return Part(2, lambda out: _direction(world, out))
+        case ["touched"]:
+            return Part(1, lambda out: np.greater_equal(world.contacts[..., None], 0, out=out, casting="unsafe"))
+        case ["heard"]:
+            return Part(world.messages.shape[3], lambda out: _copy(out, _heard(world)))
         case [own]:
-            return _quantity(world, own)
-    raise StarlError(f'observe: `{name}` is no name of a quantity, "to POINT", "POINT to POINT", "every NAME" or "to every POINT"')
+            values = _quantity(world, own)
+            return Part(values.shape[2], lambda out: _copy(out, values))
+    raise StarlError(
+        f'observe: `{name}` is no name of a quantity, "to POINT", "POINT to POINT", "every NAME" or "to every POINT"'
+    )
 
 
-def _point(world: World, name: str, point: str) -> Part:
+#: Quantities that are no array of the world.
+_COMPUTED = ("heading", "touched", "heard")
+
+
+def _copy(out: Numbers, values: Numbers) -> None:
+    np.copyto(out, values, casting="unsafe")
+
+
+def _way(start: Numbers, end: Numbers) -> Part:
+    return Part(2, lambda out: np.subtract(end, start, out=out, casting="unsafe"))
+
+
+def _direction(world: World, out: Numbers) -> None:
+    np.cos(world.headings, out=out[..., 0], casting="unsafe")
+    np.sin(world.headings, out=out[..., 1], casting="unsafe")
+
+
+def _point(world: World, name: str, point: str) -> Numbers:
     quantity = _quantity(world, point)
-    if quantity().shape[2] != 2:
+    if quantity.shape[2] != 2:
         raise StarlError(f"observe: `{name}`: `{point}` is no point in the plane")
     return quantity
 
 
-def _quantity(world: World, name: str) -> Part:
-    given: dict[str, Part] = {
-        "position": lambda: world.positions,
-        "altitude": lambda: world.poses[..., 2:3],
-        "heading": lambda: np.stack([np.cos(world.headings), np.sin(world.headings)], axis=-1),
-        "velocity": lambda: world.velocities[..., :2],
-        "turn_rate": lambda: world.velocities[..., 3:4],
-        "touched": lambda: world.contacts[..., None] >= 0,
-        "lidar": lambda: world.lidar,
-        "heard": lambda: _heard(world),
+def _quantity(world: World, name: str) -> Numbers:
+    """The array (E, N, k) that holds a quantity."""
+    given: dict[str, Numbers] = {
+        "position": world.positions,
+        "altitude": world.poses[..., 2:3],
+        "velocity": world.velocities[..., :2],
+        "turn_rate": world.velocities[..., 3:4],
+        "lidar": world.lidar,
+        **world.quantities,
     }
-    own = world.quantities
-    if name in own:
-        values = own[name]
-        return lambda: values
     if name not in given:
-        names = [*given, *own]
+        names = [*given, *_COMPUTED]
         close = difflib.get_close_matches(name, names, 1)
         hint = f"; did you mean `{close[0]}`?" if close else f"; use one of {', '.join(names)}"
         raise StarlError(f"observe: there is no quantity `{name}`{hint}")
     return given[name]
 
 
-def _heard(world: World) -> NDArray[Any]:
+def _heard(world: World) -> Numbers:
     """The mean of the newest messages of the others."""
     is_heard = (world.ages >= 0)[..., None]
-    mean: NDArray[Any] = (world.messages * is_heard).sum(axis=2) / np.maximum(is_heard.sum(axis=2), 1)
+    mean: Numbers = (world.messages * is_heard).sum(axis=2) / np.maximum(is_heard.sum(axis=2), 1)
     return mean

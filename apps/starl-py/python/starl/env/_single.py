@@ -41,7 +41,7 @@ class Env(gymnasium.Env[Observations, NDArray[Any]]):
         return self._observed(), float(rewards[0, 0]), bool(terminated[0]), bool(truncated[0]), self._information()
 
     def _observed(self) -> Observations:
-        row: Observations = self._episodes.observe()[0, 0].copy()
+        row: Observations = self._episodes.observe()[0, 0]
         return row
 
     def _information(self) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from starl.env._places import Places, Ring, Scatter, draw
+from starl.env._places import Places, Scatter, draw
 from starl.env._settings import Settings
 from starl.env._world import Floats, Ints, World
 
@@ -32,7 +32,7 @@ class Task:
     #: Places are scattered from -half to half, metres.
     half: float = 1.0
     #: Where robots start.
-    starts: Scatter | Ring = Scatter()
+    starts: Places = Scatter()
     #: Points that expressions and observations may name: one for each robot, or shared by all robots of an environment.
     points: Mapping[str, Places] = {}
     #: Numbers that expressions and observations may name, one for all robots or one each.

@@ -61,7 +61,7 @@ class VectorEnv(GymnasiumVectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         self._episodes.seed(envs, [seeds[int(env)] for env in envs])
         self._is_over[envs] = False
         self._episodes.reset(envs)
-        return self._episodes.observe().copy(), self._information()
+        return self._episodes.observe(), self._information()
 
     def step(
         self, actions: NDArray[Any]
@@ -84,7 +84,7 @@ class VectorEnv(GymnasiumVectorEnv[Observations, NDArray[Any], NDArray[Any]]):
             self._is_over = np.zeros(self.num_envs, np.bool_)
         else:
             self._is_over = over
-        return self._episodes.observe().copy(), robot_rewards.mean(axis=1), terminated, truncated, infos
+        return self._episodes.observe(), robot_rewards.mean(axis=1), terminated, truncated, infos
 
     def _restart(self, over: Flags, infos: dict[str, Any]) -> dict[str, Any]:
         """Begins new episodes where they are over, and moves what is known of their ends to "final_..."."""
