@@ -2,7 +2,8 @@
 
 use crate::judge::Judge;
 use numpy::{
-    PyReadonlyArray1, PyReadonlyArray3, PyReadwriteArray1, PyReadwriteArray2, PyReadwriteArray3, PyReadwriteArray4,
+    PyReadonlyArray1, PyReadonlyArray3, PyReadwriteArray1, PyReadwriteArray2, PyReadwriteArray3,
+    PyReadwriteArray4,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -269,7 +270,10 @@ impl Batch {
             terminated: terminated.as_slice_mut()?,
             information: information.as_slice_mut()?,
         };
-        let begins = begins.as_ref().map(|begins| begins.as_slice()).transpose()?;
+        let begins = begins
+            .as_ref()
+            .map(|begins| begins.as_slice())
+            .transpose()?;
         let Batch { batch, pool } = self;
         let judge = &judge.judge;
         let turn = || batch.judge(judge, begins, verdicts);

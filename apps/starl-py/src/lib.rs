@@ -6,8 +6,8 @@
 mod disk;
 mod engine;
 mod env;
-mod numbers;
 mod judge;
+mod numbers;
 mod robot;
 mod sweep;
 mod table;

@@ -152,8 +152,7 @@ impl Batch {
         let settings = &common.settings;
         let row = settings.robots() * settings.action_numbers();
         let mail = settings.robots() * settings.message_numbers();
-        let jobs = rooms(settings, worlds.len(), outputs)
-            .zip(worlds);
+        let jobs = rooms(settings, worlds.len(), outputs).zip(worlds);
         let turn = |work: &mut Scratch, (index, (room, world)): (usize, (Room<'_>, &mut World))| {
             let actions = &actions[index * row..][..row];
             let messages = &messages[index * mail..][..mail];
@@ -201,18 +200,19 @@ impl Batch {
             let is_new = begins.map(|begins| begins[index]);
             Some((bench, world, is_new))
         });
-        let turn = |work: &mut Work, (index, job): (usize, (Bench<'_>, &mut World, Option<bool>))| {
-            let (mut bench, world, is_new) = job;
-            match is_new {
-                Some(false) => return None,
-                Some(true) => {
-                    bench.rewards = &mut [];
-                    bench.memory.fill(0);
+        let turn =
+            |work: &mut Work, (index, job): (usize, (Bench<'_>, &mut World, Option<bool>))| {
+                let (mut bench, world, is_new) = job;
+                match is_new {
+                    Some(false) => return None,
+                    Some(true) => {
+                        bench.rewards = &mut [];
+                        bench.memory.fill(0);
+                    }
+                    None => {}
                 }
-                None => {}
-            }
-            judge.evaluate(index, world, bench, work).err()
-        };
+                judge.evaluate(index, world, bench, work).err()
+            };
         run(*parallel, jobs, || judge.work(), turn).map_or(Ok(()), Err)
     }
 

@@ -1,4 +1,6 @@
-//! Quantities of robots, as variables in the states that expressions read. Only those are filled in that are read.
+//! Quantities of robots, as variables in the states that expressions read.
+//!
+//! Only quantities that some expression reads are filled in.
 
 use super::wording::{Expression, Kind, Wording, places, variable_of};
 use crate::world::World;
@@ -14,7 +16,7 @@ pub struct Quantities {
     row: usize,
     /// A state for each robot, with the quantities that stay as they are.
     constant: Vec<State>,
-    /// What is filled in, and from which scalar on.
+    /// The quantities that are filled in, each with its first scalar.
     filled: Vec<(Source, usize)>,
     /// The object that holds the lidar's ranges, if it is read.
     lidar: Option<usize>,
@@ -298,7 +300,10 @@ impl Source {
             Source::Nearest => {
                 for (robot, state) in robots.iter().enumerate() {
                     let here = state.pose.position;
-                    let others = robots.iter().enumerate().filter(|(other, _)| *other != robot);
+                    let others = robots
+                        .iter()
+                        .enumerate()
+                        .filter(|(other, _)| *other != robot);
                     let nearest = others.fold(f64::INFINITY, |least, (_, other)| {
                         least.min(here.distance(other.pose.position))
                     });

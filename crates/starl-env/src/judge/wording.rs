@@ -84,7 +84,7 @@ pub struct Wording {
     pub information: Vec<(String, String)>,
 }
 
-/// What is wrong with an expression or a name.
+/// An expression or a name that is refused.
 #[derive(Clone, Debug)]
 pub struct WordingError {
     /// The part of the task: `reward`, `terminated`, or `measure` or `information` with a name.
@@ -117,11 +117,11 @@ const GIVEN: [(&str, &str); 9] = [
     ("lidar", "List[Float]"),
 ];
 
-/// What expressions ask of the host, all robots, and its number.
+/// The calls of the host that give all robots.
 const ALL: [&str; 2] = ["robot.all", "peers"];
 
-/// What the language asks of the host about a robot, the variable that holds it here, its type, and the field of
-/// `previous`. Reading a variable is faster.
+/// The calls of the host about one robot; for each the variable that replaces it, its type, and its field of `previous`.
+/// Reading a variable takes less time than a call.
 const MOTION: [(&str, &str, &str, &str); 3] = [
     ("robot.position", "position_now", "Point", "position"),
     ("robot.heading", "heading_now", "Float", "heading"),
@@ -171,7 +171,9 @@ impl Wording {
                 let text = first.span.of(&program);
                 let whole = Span::new(0, text.len() as u32);
                 let problem = Diagnostic::new(first.code, whole, &*first.message);
-                let problem = problem.note("values, points and measures have names of their own: letters, digits and _");
+                let problem = problem.note(
+                    "values, points and measures have names of their own: letters, digits and _",
+                );
                 Err(WordingError {
                     part: NAMES.into(),
                     text: text.into(),
@@ -245,9 +247,7 @@ impl Expression {
                 Instruction::LoadOtherPoint { variable, .. } => {
                     scalars.extend(variable.0..variable.0 + 3);
                 }
-                Instruction::LoadOtherObject { variable, .. } => {
-                    objects.push(variable.0)
-                }
+                Instruction::LoadOtherObject { variable, .. } => objects.push(variable.0),
                 _ => {}
             }
         }
@@ -264,7 +264,7 @@ impl Expression {
     }
 }
 
-/// The problem as those see it who write a task: the language knows such expressions from properties.
+/// The problem in the words of tasks: the checker takes the expression for a property.
 fn of_a_task(mut problem: Diagnostic) -> Diagnostic {
     if let Some(rest) = problem.message.strip_prefix("a property ") {
         problem.message = format!("a task {rest}");
@@ -273,7 +273,7 @@ fn of_a_task(mut problem: Diagnostic) -> Diagnostic {
     problem
 }
 
-/// What an expression may ask.
+/// The quantities that the platform gives, for messages.
 fn known() -> String {
     let known: Vec<&str> = GIVEN.iter().map(|(name, _)| *name).collect();
     format!(

@@ -82,7 +82,10 @@ fn reward(expression: &str) -> Wording {
 fn previous_is_the_value_before_the_action() {
     let mut fleet = Fleet::new(2, &reward("position.x - previous.position.x")).expect("a reward");
     fleet.judge(Some(&[true, true])).expect("no error");
-    assert_eq!(fleet.rewards, [0.0; 6], "the start of an episode has no rewards");
+    assert_eq!(
+        fleet.rewards, [0.0; 6],
+        "the start of an episode has no rewards"
+    );
     fleet.step(1.0).expect("no error");
     let first = fleet.batch.state(0, 0).pose.position.x - 2.0;
     assert!(first > 0.0);
@@ -101,7 +104,11 @@ fn measures_remember_and_columns_are_read() {
         }],
         columns: vec![
             column("goal", Kind::Point, None),
-            column("there", Kind::Bool, Some("previous.there or distance(position, goal) < 0.02")),
+            column(
+                "there",
+                Kind::Bool,
+                Some("previous.there or distance(position, goal) < 0.02"),
+            ),
             column("middle", Kind::Point, Some("(position + goal) / 2.0")),
         ],
         reward: text("if there and counts then middle.x else -1.0"),
@@ -139,7 +146,8 @@ fn expressions_see_the_whole_fleet() {
     fleet.step(0.0).expect("no error");
     let far = Point::planar(2.0, 2.0).distance(Point::planar(-3.0, -3.0));
     assert_eq!(fleet.rewards, [1201.0, 1201.0, 1200.0 + far]);
-    let mut fleet = Fleet::new(1, &reward("mean_position.x + lidar[0] + radius")).expect("a reward");
+    let mut fleet =
+        Fleet::new(1, &reward("mean_position.x + lidar[0] + radius")).expect("a reward");
     fleet.step(0.0).expect("no error");
     assert_eq!(fleet.rewards[2], 2.0 / 3.0 + 1.0 + 0.15);
 }
@@ -150,7 +158,9 @@ fn the_number_of_environments_changes_nothing() {
     let run = |environments: usize, parallel: bool| {
         let mut fleet = Fleet::new(environments, &wording).expect("a reward");
         fleet.batch.set_parallel(parallel);
-        fleet.judge(Some(&vec![true; environments])).expect("no error");
+        fleet
+            .judge(Some(&vec![true; environments]))
+            .expect("no error");
         for step in 0..5 {
             fleet.step(0.2 * f64::from(step)).expect("no error");
         }
@@ -169,9 +179,14 @@ fn only_environments_that_begin_are_begun() {
     fleet.step(1.0).expect("no error");
     fleet.judge(Some(&[false, true])).expect("no error");
     let rewards = fleet.rewards.clone();
-    assert_eq!(rewards, [1.0; 6], "an episode that begins does not touch rewards");
+    assert_eq!(
+        rewards, [1.0; 6],
+        "an episode that begins does not touch rewards"
+    );
     let pose = Pose::level(Point::planar(1.0, 1.0), 0.0);
-    fleet.batch.place(1, &[pose, Pose::level(Point::planar(5.0, 5.0), 0.0), pose]);
+    fleet
+        .batch
+        .place(1, &[pose, Pose::level(Point::planar(5.0, 5.0), 0.0), pose]);
     fleet.judge(Some(&[false, true])).expect("no error");
     fleet.step(1.0).expect("no error");
     assert_eq!(fleet.rewards, [2.0, 2.0, 2.0, 0.0, 0.0, 0.0]);
@@ -181,8 +196,16 @@ fn only_environments_that_begin_are_begun() {
 fn wrong_expressions_are_refused_at_their_places() {
     for (expression, part, found) in [
         ("1.0 + gaol.x", "gaol", "there is no `gaol`"),
-        ("1.0 + touched", "1.0 + touched", "`+` does not join Float and Bool"),
-        ("if finished then 1.0 else 0.0", "finished", "an environment does not know `finished`"),
+        (
+            "1.0 + touched",
+            "1.0 + touched",
+            "`+` does not join Float and Bool",
+        ),
+        (
+            "if finished then 1.0 else 0.0",
+            "finished",
+            "an environment does not know `finished`",
+        ),
         ("ranges[0]", "ranges", "a task cannot ask for `ranges`"),
         ("random(0.0, 1.0)", "random", "a task cannot call `random`"),
     ] {
@@ -202,7 +225,8 @@ fn wrong_expressions_are_refused_at_their_places() {
 
 #[test]
 fn an_expression_that_fails_names_robot_and_environment() {
-    let mut fleet = Fleet::new(3, &reward("1.0 + [1.0][if nearest > 2.0 then 1 else 0]")).expect("a reward");
+    let mut fleet =
+        Fleet::new(3, &reward("1.0 + [1.0][if nearest > 2.0 then 1 else 0]")).expect("a reward");
     let error = fleet.step(1.0).expect_err("no element");
     assert_eq!(
         error,

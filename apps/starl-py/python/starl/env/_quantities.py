@@ -66,7 +66,7 @@ def _part(world: World, name: str) -> Part:
     )
 
 
-#: Quantities that are no array of the world.
+#: Quantities that are computed from the arrays of the world.
 _COMPUTED = ("heading", "touched", "heard")
 
 
