@@ -190,7 +190,7 @@ def test_methods_and_expressions_go_together() -> None:
     ("changes", "place", "message", "help"),
     [
         ({"reward": "1.0 +\n  gaol.x"}, ("reward", 2, 3), "there is no `gaol`", None),
-        ({"reward": "distance(position, hom)"}, ("reward", 1, 20), "there is no `hom`", "did you mean `home`?"),
+        ({"reward": "distance(position, homes)"}, ("reward", 1, 20), "there is no `homes`", "did you mean `home`?"),
         ({"reward": "1"}, ("reward", 1, 1), "the expression is an Int, not a Float", "write `1.0`"),
         ({"terminated": "finished"}, ("terminated", 1, 1), "an environment does not know `finished`", None),
         ({"measures": {"a": "ranges[0]"}}, ('measures["a"]', 1, 1), "a task cannot ask for `ranges`", None),
@@ -212,7 +212,7 @@ def test_wrong_expressions_are_told_with_place_and_fix(
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"observe": ["to hom"]}, "there is no quantity `hom`; did you mean `home`"),
+        ({"observe": ["to homes"]}, "there is no quantity `homes`; did you mean `home`"),
         ({"observe": ["to lidar"]}, "`lidar` is no point"),
         ({"observe": "position"}, "give a list"),
         ({"values": {"a": [1.0]}}, "`a` has 1 numbers for 2 robots"),

@@ -1,10 +1,11 @@
-// Every example with a picture; a click opens its files and its run.
+// Every example with a picture, where a click opens its files and its run; and the tasks for learning.
 
 import { useEffect } from "preact/hooks";
 import { run } from "../app/context.ts";
 import { Projects } from "../project/Projects.tsx";
 import { examples, loadExamples, openExample, titleOf } from "./examples.ts";
 import { grouped } from "./groups.ts";
+import { Tasks } from "./Tasks.tsx";
 import "../styles/gallery.css";
 
 const PICTURES: Record<string, string> = import.meta.glob("./pictures/*.svg", {
@@ -45,6 +46,7 @@ export function Gallery() {
           </ul>
         </section>
       ))}
+      <Tasks />
     </div>
   );
 }

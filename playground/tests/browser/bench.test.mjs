@@ -62,6 +62,20 @@ test("an example opens with its files and runs", async () => {
   await context.close();
 });
 
+test("the gallery shows the tasks for learning with their code", async () => {
+  const { page, context, faults } = await open();
+  const section = page.locator(".gallery section", { hasText: "Learning tasks, in Python" });
+  assert.equal(await section.locator(".card").count(), 6);
+  await section.locator(".card", { hasText: "Navigation" }).click();
+  const dialog = page.getByRole("dialog", { name: "Navigation" });
+  await dialog.getByText("Tasks run in Python").waitFor();
+  assert.match(await dialog.locator("pre").textContent(), /reward = "distance\(previous\.position, goal\)/);
+  await until(page, () => dialog.locator("img").evaluate((image) => image.naturalWidth > 0));
+  await dialog.getByLabel("Close").click();
+  assert.deepEqual(faults(), []);
+  await context.close();
+});
+
 test("an error is marked while it is typed, does not end the run that is shown, and can be undone", async () => {
   const { page, context, faults } = await open("?example=race");
   await editor(page).click();
