@@ -261,7 +261,9 @@ impl Checker {
         let robots = (node.variables())
             .filter_map(|name| self.declare_local(&name, Type::Robot, None))
             .collect();
-        let robot = self.body.robot.take();
+        let robot = self.body.robot;
+        // A value is one robot's also where it asks about all.
+        self.body.robot = robot.filter(|_| self.value.is_some());
         let condition = self.expect(node.condition(), &Type::Bool, "what is said of the robots");
         self.body.robot = robot;
         self.body.leave(mark);

@@ -93,3 +93,4 @@ mod syntax_diagnostics;
 mod syntax_rendering;
 mod syntax_round_trip;
 mod syntax_tree;
+mod values_of_robots;
