@@ -1,4 +1,4 @@
-// What a task's Python file says about it.
+// Reads the Python files of tasks for the gallery.
 
 export interface Task {
   name: string;
