@@ -5,6 +5,7 @@ use crate::output::{identity, reason};
 use crate::target;
 use starl_catalog::examples::Example;
 use starl_lang::check::{Libraries, NoLibraries, StandardLibraries, check};
+use starl_sim::read::Loader;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -129,6 +130,13 @@ impl Libraries for Beside {
                 self.failures.borrow_mut().push(failure);
                 None
             }
+        }
+    }
+
+    fn model(&self, path: &str) -> Result<Vec<u8>, String> {
+        match &self.folder {
+            Folder::Disk(folder) => target::bytes(&folder.join(path)),
+            Folder::Example(example) => example.load(path),
         }
     }
 }

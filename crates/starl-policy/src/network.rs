@@ -35,6 +35,12 @@ impl Network {
         self.outputs.iter().map(Place::len).sum()
     }
 
+    /// How many additions, multiplications and functions an evaluation takes, about.
+    pub fn operations(&self) -> usize {
+        let steps = self.steps.iter();
+        steps.map(|(to, operation)| operation.cost(to.len())).sum()
+    }
+
     /// Writes the outputs for `input` to `output`, whose former content goes. Numbers are rounded to 32-bit floats before.
     /// An output that is not a number is [`f64::NAN`].
     ///

@@ -7,6 +7,9 @@ use starl_core::math;
 /// Where a value lies among the network's numbers.
 pub type Place = Range<usize>;
 
+/// A transcendental function takes as long as so many multiplications.
+const TRANSCENDENTAL: usize = 16;
+
 /// A function of one number.
 #[derive(Clone, Copy, Debug)]
 pub enum Unary {
@@ -125,6 +128,16 @@ pub enum Operation {
 }
 
 impl Operation {
+    /// How many additions, multiplications and functions it takes for so many outputs.
+    pub fn cost(&self, outputs: usize) -> usize {
+        match self {
+            Self::Dense { weights, .. } => weights.len(),
+            Self::Unary { .. } | Self::Softmax { .. } => TRANSCENDENTAL * outputs,
+            Self::ArgMax { from } => from.len(),
+            Self::Binary { .. } | Self::Concat { .. } => outputs,
+        }
+    }
+
     /// Computes the values at `to` from those before.
     pub fn run(&self, numbers: &mut [f32], to: &Place) {
         let (before, after) = numbers.split_at_mut(to.start);

@@ -12,8 +12,7 @@ use starl_sim::Simulation;
 
 /// The code of a program whose only property is that a condition comes true.
 pub(super) fn code_with(compiled: &Compiled, condition: &str) -> Result<Code, Vec<Diagnostic>> {
-    let libraries = |name: &str| compiled.libraries.get(name).cloned();
-    let bytecode = with_condition(&compiled.text, condition, &libraries)?;
+    let bytecode = with_condition(&compiled.text, condition, compiled)?;
     Code::load(bytecode).map_err(|error| refusal(condition, &error.to_string()))
 }
 

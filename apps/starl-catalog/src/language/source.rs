@@ -4,6 +4,7 @@ use super::SUFFIX;
 use starl_lang::check::{Checked, CheckedFile, Libraries, StandardLibraries, check};
 use starl_lang::compile::compile as to_bytecode;
 use starl_lang::diagnostic::{Colour, Diagnostic, Severity, render};
+use starl_lang::ir::Model;
 use starl_lang::robot::Code;
 use starl_sim::read::{Loader, Resolved};
 use std::cell::RefCell;
@@ -34,6 +35,21 @@ pub struct Compiled {
     pub text: String,
     /// The texts of the libraries that it imports, by name.
     pub libraries: BTreeMap<String, String>,
+    /// The models that it names.
+    pub models: Vec<Model>,
+}
+
+/// Those that it was compiled with.
+impl Libraries for Compiled {
+    fn source(&self, name: &str) -> Option<String> {
+        self.libraries.get(name).cloned()
+    }
+
+    fn model(&self, path: &str) -> Result<Vec<u8>, String> {
+        let found = self.models.iter().find(|model| model.path == path);
+        let bytes = found.map(|model| model.bytes.clone());
+        bytes.ok_or_else(|| "there is no such file".to_string())
+    }
 }
 
 impl fmt::Debug for Compiled {
@@ -62,7 +78,7 @@ impl Findings {
     }
 }
 
-/// Loads a program with the libraries that it imports and compiles it. The files are kept among the
+/// Loads a program with the libraries and models that it names and compiles it. The files are kept among the
 /// scenario's inputs.
 ///
 /// # Errors
@@ -76,13 +92,16 @@ pub fn compile(
     let folder = Folder::of(path, loader);
     let text = folder.text(path)?;
     let checked = check(&text, &folder);
-    let files = folder.brought.into_inner();
+    let (files, models) = (folder.brought.into_inner(), folder.models.into_inner());
     let unreadable = files.values().find_map(|file| file.as_ref().err());
     if let Some(reason) = unreadable {
         return Err(reason.clone());
     }
     for (path, file) in &files {
         resolved.keep(path, file.as_deref().unwrap_or_default().as_bytes());
+    }
+    for (path, bytes) in &models {
+        resolved.keep(path, bytes);
     }
     let scenario = &resolved.inputs.request.source.name;
     let mut findings = findings(&checked, path, scenario);
@@ -114,6 +133,7 @@ pub fn compile(
         name,
         code,
         text,
+        models: checked.program.models,
         libraries: libraries.map(|file| (file.name, file.source)).collect(),
     };
     Ok((Some(compiled), findings))
@@ -162,6 +182,7 @@ struct Folder<'a> {
     program: &'a str,
     loader: &'a dyn Loader,
     brought: RefCell<BTreeMap<String, Result<String, String>>>,
+    models: RefCell<BTreeMap<String, Vec<u8>>>,
 }
 
 impl<'a> Folder<'a> {
@@ -170,6 +191,7 @@ impl<'a> Folder<'a> {
             program,
             loader,
             brought: RefCell::default(),
+            models: RefCell::default(),
         }
     }
 
@@ -200,5 +222,12 @@ impl Libraries for Folder<'_> {
             Ok(bytes) => self.keep(&path, bytes).ok(),
             Err(_) => StandardLibraries.source(name),
         }
+    }
+
+    fn model(&self, path: &str) -> Result<Vec<u8>, String> {
+        let path = beside(self.program, path);
+        let bytes = self.loader.load(&path)?;
+        self.models.borrow_mut().insert(path, bytes.clone());
+        Ok(bytes)
     }
 }

@@ -150,6 +150,10 @@ impl Libraries for Beside<'_> {
         }
     }
 
+    fn model(&self, path: &str) -> Result<Vec<u8>, String> {
+        self.load(path)
+    }
+
     fn names(&self) -> Vec<String> {
         let mut names = StandardLibraries.names();
         for path in self.files.ending_with(SUFFIX) {

@@ -1,6 +1,7 @@
 //! The texts that are open, the files beside them, and what is known of each.
 
 use super::location;
+use crate::target;
 use lsp_types::Uri;
 use starl_lang::check::{Libraries, StandardLibraries};
 use starl_lang::editor::{Analysis, is_library};
@@ -249,6 +250,14 @@ impl Libraries for Beside<'_> {
             Some(text)
         });
         beside.or_else(|| StandardLibraries.source(name))
+    }
+
+    fn model(&self, path: &str) -> Result<Vec<u8>, String> {
+        let folder = self.folder.as_ref();
+        let path = folder.map(|folder| folder.join(path));
+        let path = path.ok_or_else(|| "there is no such file".to_string())?;
+        self.asked.borrow_mut().insert(path.clone());
+        target::bytes(&path)
     }
 
     fn names(&self) -> Vec<String> {

@@ -184,7 +184,7 @@ impl Session {
         let params = json!({"registrations": [{
             "id": "starl-files",
             "method": told::DidChangeWatchedFiles::METHOD,
-            "registerOptions": {"watchers": [{"globPattern": "**/*.starl"}]},
+            "registerOptions": {"watchers": [{"globPattern": "**/*.{starl,onnx}"}]},
         }]});
         self.output
             .request("starl-files", "client/registerCapability", &params)

@@ -235,6 +235,7 @@ impl Checker {
         self.resolve_arguments(arguments, member.text, &signature);
         let arranged = self.arrange(&Parameters::of(&signature), arguments, span);
         let values = self.shaped_arguments(&signature, arranged.values, &mut Letters::new(), span);
+        self.note_evaluation(id, &values);
         self.primitive_value(id, member, values, &signature, at, span)
     }
 

@@ -1,12 +1,21 @@
-//! Where the text of an imported library comes from.
+//! Where the files that a program names come from: imported libraries and models.
 
 use alloc::string::String;
 use alloc::vec::Vec;
 
-/// Finds libraries.
+/// Finds libraries and models.
 pub trait Libraries {
     /// The text of the library with this name; none if there is no such library.
     fn source(&self, name: &str) -> Option<String>;
+
+    /// The bytes of the model at this path, relative to the program.
+    ///
+    /// # Errors
+    /// Why it cannot be read, in words.
+    fn model(&self, path: &str) -> Result<Vec<u8>, String> {
+        let _ = path;
+        Err("there is no such file".into())
+    }
 
     /// The names of those that can be told, for editors to suggest.
     fn names(&self) -> Vec<String> {

@@ -31,6 +31,7 @@ mod input;
 mod libraries;
 mod load;
 mod member;
+mod model;
 mod name;
 mod operator;
 mod place;
@@ -125,6 +126,7 @@ pub fn check(source: &str, libraries: &dyn Libraries) -> Checked {
 pub fn check_parsed(source: &str, parse: Parse, libraries: &dyn Libraries) -> Checked {
     let mut checker = load::load(source, parse, libraries);
     checker.check();
+    checker.check_models(libraries);
     checker.finish()
 }
 
@@ -139,6 +141,7 @@ pub fn surroundings(
     let mut checker = load::load(source, parse(source), libraries);
     checker.probe = Some(at);
     checker.check();
+    checker.check_models(libraries);
     let surroundings = checker.surroundings.take();
     (checker.finish(), surroundings)
 }

@@ -19,6 +19,7 @@ impl Checker {
             Shape::Nothing => Type::Nothing,
             Shape::Any | Shape::Message => return None,
             Shape::Letter(letter) => letters.get(letter)?.clone(),
+            Shape::Model => Type::String,
             Shape::Named(name) => Type::built_in(name).or_else(|| self.prelude_type(name))?,
             Shape::List(element) => Type::list(part(element)?),
             Shape::Set(element) => Type::set(part(element)?),

@@ -5,6 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::body::Body;
+use super::model::Evaluation;
 use super::report::forget_consequences;
 use super::resolution::Resolutions;
 use super::scope::{Entity, Scope};
@@ -107,6 +108,8 @@ pub(super) struct Checker {
     pub variants: BTreeMap<String, Vec<(EnumId, u16)>>,
     /// Of how many parts the records are made.
     pub sizes: BTreeMap<RecordId, u32>,
+    /// What models are asked, where it is known how many numbers that are.
+    pub evaluations: Vec<Evaluation>,
     /// The names of the actions.
     pub actions: BTreeSet<String>,
     /// Locals that are declared to be read and are not, in the program itself.
@@ -142,6 +145,7 @@ impl Checker {
             keys: Vec::new(),
             variants: BTreeMap::new(),
             sizes: BTreeMap::new(),
+            evaluations: Vec::new(),
             actions: BTreeSet::new(),
             unused_locals: Vec::new(),
             resolutions: Resolutions::default(),

@@ -11,7 +11,8 @@ use crate::check::CheckedFile;
 use crate::diagnostic::{self, Span};
 use crate::ir::{self, FunctionId, Program, SharedId, Type};
 use crate::machine::{
-    Action, Binding, Bytecode, Function, Handler, Parameter, Range, SourceFile, Value, Variable,
+    self, Action, Binding, Bytecode, Function, Handler, Parameter, Range, SourceFile, Value,
+    Variable,
 };
 use starl_core::Duration;
 
@@ -41,6 +42,12 @@ pub(super) fn link(program: &Program, files: &[CheckedFile]) -> Result<Bytecode,
             kind: binding.primitive.map_or("", |kind| kind.name()).into(),
         });
     }
+    bytecode.models = (program.models.iter())
+        .map(|model| machine::Model {
+            path: model.path.clone(),
+            bytes: model.bytes.clone(),
+        })
+        .collect();
     for shared in &program.shared {
         bytecode.primitives.push(Binding {
             name: shared.name.clone(),

@@ -204,6 +204,8 @@ codes! {
     InvalidRange = "E0256",
     /// A field of an input with a type that orders do not carry.
     InputField = "E0257",
+    /// A model that cannot be used.
+    UnusableModel = "E0258",
     /// More values at a time than the machine has registers.
     TooManyRegisters = "E0302",
     /// More of something than a compiled program can hold.

@@ -142,6 +142,15 @@ pub struct Binding {
     pub documentation: String,
 }
 
+/// A model that a program uses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    /// Its path, as the program has it.
+    pub path: String,
+    /// The content of its file.
+    pub bytes: Vec<u8>,
+}
+
 /// A local variable of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Local {

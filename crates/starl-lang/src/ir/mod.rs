@@ -62,6 +62,8 @@ pub struct Program {
     pub shared: Vec<Shared>,
     /// Primitives bound to names, by their instance numbers.
     pub bindings: Vec<Binding>,
+    /// The models of the bindings, each once.
+    pub models: Vec<Model>,
     /// Functions, used or not.
     pub functions: Vec<Function>,
     /// The `init` outside of roles; it runs after the variables have their initial values.

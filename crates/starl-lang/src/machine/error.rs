@@ -89,6 +89,13 @@ impl core::error::Error for RuntimeError {}
 pub enum LoadError {
     /// The host offers no function that an import names.
     UnknownImport(String),
+    /// A model is no network that robots can evaluate.
+    Model {
+        /// Its path.
+        path: String,
+        /// Why not, and what to do.
+        reason: String,
+    },
     /// The bytecode breaks a rule of the machine.
     Invalid {
         /// The instruction, if it is one that breaks the rule.
@@ -102,6 +109,7 @@ impl fmt::Display for LoadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             LoadError::UnknownImport(name) => write!(f, "the host has no function `{name}`"),
+            LoadError::Model { path, reason } => write!(f, "{path}: {reason}"),
             LoadError::Invalid {
                 position: Some(position),
                 reason,

@@ -52,8 +52,8 @@ pub use instruction::Instruction;
 pub use interpreter::workspace::Workspace;
 pub use interpreter::{Limits, Machine};
 pub use program::{
-    Action, Binding, Bytecode, Claim, Enum, Function, FunctionKind, Handler, Origin, Parameter,
-    Program, Property, Range, SourceFile, Span, Variable,
+    Action, Binding, Bytecode, Claim, Enum, Function, FunctionKind, Handler, Model, Origin,
+    Parameter, Program, Property, Range, SourceFile, Span, Variable,
 };
 pub use text::{AssemblyError, assemble, disassemble};
 pub use types::{Layout, ObjectType, Order, Parts, Type};

@@ -53,6 +53,8 @@ pub struct Bytecode {
     pub primitives: Vec<Binding>,
     /// Properties in the order of the text.
     pub properties: Vec<Property>,
+    /// The models that primitives name.
+    pub models: Vec<Model>,
 }
 
 impl Bytecode {
@@ -82,6 +84,15 @@ impl Bytecode {
         }
         found
     }
+}
+
+/// A model: the content of a file that a primitive names.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Model {
+    /// Its path, as the program has it.
+    pub path: String,
+    /// An ONNX file.
+    pub bytes: Vec<u8>,
 }
 
 /// A piece of a source file.

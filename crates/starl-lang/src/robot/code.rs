@@ -11,11 +11,14 @@ use super::services::Services;
 use super::shape::Declared;
 use super::stable::Stable;
 use super::stage::Stage;
-use crate::machine::{Action, Bytecode, Import, LoadError, Origin, Program, RuntimeError, State};
+use crate::machine::{
+    Action, Bytecode, Import, LoadError, Model, Origin, Program, RuntimeError, State,
+};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
+use starl_policy::Network;
 
 /// A program that robots can run. Copies share it.
 #[derive(Clone)]
@@ -36,6 +39,8 @@ struct Inner {
     inbox: Inbox,
     orders: Orders,
     stable: Vec<Stable>,
+    /// The networks of its models, in their order.
+    networks: Vec<Network>,
     /// Where the program says how far it is.
     stage: Option<Stage>,
     /// The parameters' defaults; or what went wrong when they were worked out.
@@ -73,6 +78,7 @@ impl Code {
             position: None,
             reason: "handlers of one input have different fields",
         })?;
+        let networks = networks(program.bytecode())?;
         let stable = Stable::of(program.bytecode(), joiner.declared());
         let initial = parameter::defaults(&program);
         let joints = joiner.finish();
@@ -89,6 +95,7 @@ impl Code {
             inbox,
             orders,
             stable,
+            networks,
         })))
     }
 
@@ -204,6 +211,12 @@ impl Code {
         &self.0.stable
     }
 
+    /// A model of the program, by its number: its path and its network.
+    pub(super) fn model(&self, number: usize) -> Option<(&str, &Network)> {
+        let model = self.program().bytecode().models.get(number)?;
+        Some((&model.path, self.0.networks.get(number)?))
+    }
+
     /// Where the program says how far it is; none if it has no variable of an enum.
     pub(super) fn stage(&self) -> Option<&Stage> {
         self.0.stage.as_ref()
@@ -223,6 +236,17 @@ fn place(program: &Program, error: &RuntimeError) -> String {
             None => error.fault.to_string(),
         },
     }
+}
+
+/// The networks of a program's models.
+fn networks(bytecode: &Bytecode) -> Result<Vec<Network>, LoadError> {
+    let read = |model: &Model| {
+        Network::read(&model.bytes).map_err(|error| LoadError::Model {
+            path: model.path.clone(),
+            reason: error.to_string(),
+        })
+    };
+    bytecode.models.iter().map(read).collect()
 }
 
 /// The primitives that a program binds, with the handlers of their events.

@@ -11,11 +11,27 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
-use starl_lang::check::{Checked, CheckedFile, check};
+use starl_lang::check::{self, Checked, CheckedFile, check};
 use starl_lang::compile::compile;
 use starl_lang::diagnostic::{Code, Colour, render};
 
-type Libraries = BTreeMap<String, String>;
+/// The libraries of a page by name. Each page has the model `navigation.onnx`, which takes four numbers.
+#[derive(Default)]
+struct Libraries(BTreeMap<String, String>);
+
+impl check::Libraries for Libraries {
+    fn source(&self, name: &str) -> Option<String> {
+        self.0.get(name).cloned()
+    }
+
+    fn model(&self, path: &str) -> Result<Vec<u8>, String> {
+        let model = include_bytes!("../../../starl-policy/tests/models/dense.onnx");
+        match path {
+            "navigation.onnx" => Ok(model.to_vec()),
+            _ => Err("there is no such file".into()),
+        }
+    }
+}
 
 /// A part of a page: a line outside of blocks, or a block with what stands after its fence.
 enum Part {
@@ -69,7 +85,7 @@ struct Found {
 }
 
 fn found(program: &str, libraries: &Libraries) -> Found {
-    let mut checked = check(program, &|name: &str| libraries.get(name).cloned());
+    let mut checked = check(program, libraries);
     if checked.files.iter().all(|file| file.diagnostics.is_empty()) {
         let problems = compile(&checked).err().unwrap_or_default();
         checked.files[0].diagnostics = problems;
@@ -95,7 +111,7 @@ fn hold(code: Code, page: &str) -> Result<String, String> {
     if !matches!(parts.first(), Some(Part::Line(line)) if *line == title) {
         return Err(format!("the title is not {title:?}"));
     }
-    let mut libraries = Libraries::new();
+    let mut libraries = Libraries::default();
     let mut wrong = None;
     let mut mended = false;
     for part in &mut parts {
@@ -103,7 +119,7 @@ fn hold(code: Code, page: &str) -> Result<String, String> {
             continue;
         };
         if let Some(name) = kind.strip_prefix("starl ") {
-            libraries.insert(name.into(), block.clone());
+            libraries.0.insert(name.into(), block.clone());
         } else if kind == "text" {
             *block = wrong.take().ok_or("a message stands before its example")?;
         } else if kind != "starl" {
@@ -155,7 +171,7 @@ fn every_page_is_true() {
 fn what_a_page_suggests_puts_one_thing_right() {
     for code in Code::ALL.iter().filter(|code| **code != Code::TooLong) {
         let path = folder().join(format!("{code}.md"));
-        let mut libraries = Libraries::new();
+        let mut libraries = Libraries::default();
         let parts = parts(&fs::read_to_string(path).expect("a page"));
         let blocks = parts.iter().filter_map(|part| match part {
             Part::Block(kind, block) => Some((kind, block)),
@@ -163,17 +179,17 @@ fn what_a_page_suggests_puts_one_thing_right() {
         });
         for (kind, block) in blocks.take_while(|(kind, _)| *kind != "text") {
             if let Some(name) = kind.strip_prefix("starl ") {
-                libraries.insert(name.into(), block.clone());
+                libraries.0.insert(name.into(), block.clone());
                 continue;
             }
-            let before = check(block, &|name: &str| libraries.get(name).cloned());
+            let before = check(block, &libraries);
             for mend in before
                 .diagnostics()
                 .iter()
                 .filter_map(|one| one.mend.as_ref())
             {
                 let text = mend.apply(block);
-                let after = check(&text, &|name: &str| libraries.get(name).cloned());
+                let after = check(&text, &libraries);
                 let count = |checked: &Checked| {
                     let all = checked.diagnostics().iter();
                     all.filter(|one| one.code == *code).count()

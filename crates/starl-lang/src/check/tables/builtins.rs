@@ -120,6 +120,18 @@ builtins! {
     Take = "take(thing: Int)" Effect "Takes hold of the thing with this number, if it is within reach and the robot holds nothing; `holding` tells whether it worked."
     PutDown = "put_down()" Effect "Puts down the thing that the robot holds, where the robot is."
     Stop = "stop()" Effect "Stops the robot where it is."
+
+    // Commands of robot models. Each holds until another follows, and ends trips of ReachAvoid.
+    DriveStraight = "drive_straight(speed: Float)" Effect "Drives straight ahead at `speed` m/s, backwards if it is negative."
+    DriveTurn = "drive_turn(rate: Float)" Effect "Turns on the spot at `rate` rad/s, to the left if it is positive."
+    DriveCurve = "drive_curve(speed: Float, radius: Float)" Effect "Drives along a circle of `radius` metres at `speed` m/s; its centre is on the left if the radius is positive."
+    DriveWheels = "drive_wheels(left: Float, right: Float)" Effect "Turns the wheels of a robot with two driven wheels at these rim speeds, m/s."
+    DriveCar = "drive_car(speed: Float, angle: Float)" Effect "Drives a car at `speed` m/s with its front wheels at `angle` radians, to the left if it is positive."
+    DriveVelocity = "drive_velocity(velocity: Point, yaw_rate?: Float)" Effect "Moves a robot that can move in any direction: `velocity` in m/s along the axes of the world, `yaw_rate` in rad/s, 0 if it is left out."
+    DriveAttitude = "drive_attitude(yaw_rate: Float, pitch: Float, roll: Float, gaz: Float)" Effect "Flies a drone in this attitude: `yaw_rate` in rad/s, nose down by `pitch` and right side down by `roll` radians, rising at `gaz` m/s."
+    TakeOff = "take_off()" Effect "A drone rises from the ground to the safe height."
+    Hover = "hover()" Effect "A drone holds its position in the air."
+    Land = "land()" Effect "A drone sinks to the ground and stops its rotors."
 }
 
 impl Builtin {

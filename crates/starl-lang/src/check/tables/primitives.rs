@@ -337,6 +337,16 @@ pub const PRIMITIVES: &[Primitive] = &[
         events: &[],
         documentation: "Waits until all robots have come to the same point.",
     },
+    Primitive {
+        constructor: "Policy(model: Model)",
+        members: &[member(
+            "evaluate(input: List[Float]) -> List[Float]",
+            Query,
+            "What the network gives for these numbers, in 32-bit arithmetic; another number of them than the network takes is a run-time error.",
+        )],
+        events: &[],
+        documentation: "A trained network, from an ONNX file beside the program.",
+    },
 ];
 
 impl Primitive {

@@ -4,7 +4,7 @@
 //! `name?: type` may be left out. `...` as the last parameter stands for any number of values, `name =
 //! ...` for any number of named ones. A capital letter is any type, the same throughout: `T` any at
 //! all, `N` Int or Float, `M` also Duration and Time, `O` whatever `<` compares. `Message` is any
-//! message, `Any` any value. `List[T].add(x: T)` is a method of lists.
+//! message, `Model` a text that is written there and names a model's file, `Any` any value. `List[T].add(x: T)` is a method of lists.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -48,6 +48,8 @@ pub enum Shape {
     Any,
     /// Any message.
     Message,
+    /// The path of a model's file, a String.
+    Model,
     /// Any type that the letter allows, the same wherever the letter stands.
     Letter(u8),
     /// A type by its name.
@@ -182,6 +184,7 @@ impl Reader {
             ("Map", Some(key), Some(value)) => Shape::Map(key, value),
             ("Any", ..) => Shape::Any,
             ("Message", ..) => Shape::Message,
+            ("Model", ..) => Shape::Model,
             _ if word.len() == 1 => Shape::Letter(word.as_bytes()[0]),
             _ => Shape::Named(word),
         };

@@ -1,6 +1,7 @@
 //! The built-in functions and names of the language that need the robot. What depends on arguments
 //! alone is compiled to instructions.
 
+mod driving;
 mod sensing;
 mod telling;
 
@@ -12,6 +13,7 @@ use super::primitives::give;
 use super::shape::{Shape, Signature};
 use super::stable;
 use crate::machine::HostCall;
+use starl_core::Command;
 
 /// A built-in function or name.
 #[derive(Debug)]
@@ -285,6 +287,47 @@ pub static BUILTINS: &[Builtin] = &[
         }
         host.context.robot.halt();
         Ok(1)
+    }),
+    effect("drive_straight", &[Shape::Float], None, driving::straight),
+    effect("drive_turn", &[Shape::Float], None, driving::turn),
+    effect(
+        "drive_curve",
+        &[Shape::Float, Shape::Float],
+        None,
+        driving::curve,
+    ),
+    effect(
+        "drive_wheels",
+        &[Shape::Float, Shape::Float],
+        None,
+        driving::wheels,
+    ),
+    effect(
+        "drive_car",
+        &[Shape::Float, Shape::Float],
+        None,
+        driving::car,
+    ),
+    effect(
+        "drive_velocity",
+        &[Shape::Point, Shape::Optional(&Shape::Float)],
+        None,
+        driving::velocity,
+    ),
+    effect(
+        "drive_attitude",
+        &[Shape::Float, Shape::Float, Shape::Float, Shape::Float],
+        None,
+        driving::attitude,
+    ),
+    effect("take_off", &[], None, |host, _| {
+        driving::drive(host, Command::TakeOff)
+    }),
+    effect("hover", &[], None, |host, _| {
+        driving::drive(host, Command::Hover)
+    }),
+    effect("land", &[], None, |host, _| {
+        driving::drive(host, Command::Land)
     }),
     // Not in the language's table: a program that starts again does this first.
     effect("reset", &[], None, |host, _| {

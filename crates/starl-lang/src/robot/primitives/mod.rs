@@ -12,6 +12,7 @@ mod linearizable;
 mod local;
 mod messaging;
 mod mutex;
+mod policy;
 mod reach_avoid;
 mod registration;
 mod shared;
@@ -297,6 +298,7 @@ pub static KINDS: &[Entry] = &[
     Entry::of::<shared::SingleWriter>(),
     Entry::of::<shared::MultiWriter>(),
     Entry::of::<linearizable::Linearizable>(),
+    Entry::of::<policy::Policy>(),
 ];
 
 /// A method: it may change something.
