@@ -135,6 +135,13 @@ pub const EXAMPLES: &[Example] = &[
         ["flocking.starl"]
     ),
     example!(
+        "crossing",
+        "a trained network takes robots past each other",
+        "crossing",
+        "crossing.toml",
+        ["crossing.starl", "crossing.onnx"]
+    ),
+    example!(
         "maze",
         "robots look for goals and tell of the walls they meet",
         "maze",

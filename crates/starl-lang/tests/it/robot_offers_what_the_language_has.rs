@@ -41,7 +41,7 @@ impl Types {
             Shape::Named("Duration") => Type::Duration,
             Shape::Named("RobotId") => Type::Robot,
             Shape::Named("Point") => Type::Point,
-            Shape::Named("String") => self.object(ObjectType::Text),
+            Shape::Model | Shape::Named("String") => self.object(ObjectType::Text),
             Shape::Named("Area") => self.object(ObjectType::Area),
             Shape::Named("Obstacles") => self.object(ObjectType::Obstacles),
             Shape::Named("Side") => self.variants("Side", &["left", "right", "both"]),

@@ -1,5 +1,7 @@
 //! Runs of the examples, as a test wants them.
 
+pub mod memory;
+
 use starl_catalog::examples;
 use starl_catalog::programs::Registry;
 use starl_sim::Run;

@@ -52,7 +52,7 @@ builtins! {
     Peers = "peers: Set[RobotId]" Query "All robots of the fleet that are known, this one too."
     RobotName = "robot_name(robot: RobotId) -> String" Query "What a robot is called."
     Bumped = "bumped: Side?" Query "Where something touches the robot; none if nothing does."
-    Ranges = "ranges: List[Float]" Query "What the proximity sensors measure, metres, from right to left."
+    Ranges = "ranges: List[Float]" Query "What the proximity sensors measure, metres: the first straight ahead, the others from there to the left, evenly all around."
     Detected = "detected: List[Detection]" Query "The things and robots in sight, nearest first."
     Things = "things: List[Thing]" Query "The things in sight, nearest first."
     Holding = "holding: Int?" Query "The number of the thing that the robot holds; none if it holds nothing."
