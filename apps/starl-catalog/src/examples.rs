@@ -142,6 +142,13 @@ pub const EXAMPLES: &[Example] = &[
         ["crossing.starl", "crossing.onnx"]
     ),
     example!(
+        "diffusion",
+        "robots spread out by their proximity sensors alone",
+        "diffusion",
+        "diffusion.toml",
+        ["diffusion.starl"]
+    ),
+    example!(
         "maze",
         "robots look for goals and tell of the walls they meet",
         "maze",

@@ -3,7 +3,7 @@
 import type { Example } from "../engine/types.ts";
 
 const GROUPS: [string, string[]][] = [
-  ["Driving together", ["race", "line", "formation", "formation-space", "flocking", "crossing"]],
+  ["Driving together", ["race", "line", "formation", "formation-space", "flocking", "crossing", "diffusion"]],
   ["Searching and sharing work", ["search", "search-building", "maze", "auction", "light-painting"]],
   ["Traffic", ["intersection", "intersection-stream", "traffic-signs"]],
 ];

@@ -92,7 +92,7 @@ fn each_command_moves_a_robot_as_it_does_from_rust() {
 fn a_robot_turns_and_drives_in_circles() {
     let turned = pose(&in_the_language("create", "drive_turn(0.5)"));
     assert!(turned.position.x.abs() < 1e-9, "{turned:?}");
-    assert!((turned.heading - 1.5).abs() < 0.2, "{turned:?}");
+    assert!((turned.yaw - 1.5).abs() < 0.2, "{turned:?}");
     let left = pose(&in_the_language("create", "drive_curve(0.2, 0.5)"));
     let right = pose(&in_the_language("create", "drive_curve(0.2, -0.5)"));
     assert!(

@@ -14,6 +14,7 @@ mod fleet;
 mod format_programs;
 mod interrupted_run;
 mod json_report;
+mod learned_policy;
 mod list_what_there_is;
 mod lsp;
 mod lsp_agrees_with_pages;

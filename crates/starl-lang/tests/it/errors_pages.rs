@@ -7,31 +7,13 @@
 //! messages and the tables of the index anew.
 #![allow(clippy::disallowed_methods, reason = "a test reads its pages")]
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
-use starl_lang::check::{self, Checked, CheckedFile, check};
+use crate::page_files::PageFiles;
+use starl_lang::check::{Checked, CheckedFile, check};
 use starl_lang::compile::compile;
 use starl_lang::diagnostic::{Code, Colour, render};
-
-/// The libraries of a page by name. Each page has the model `navigation.onnx`, which takes four numbers.
-#[derive(Default)]
-struct Libraries(BTreeMap<String, String>);
-
-impl check::Libraries for Libraries {
-    fn source(&self, name: &str) -> Option<String> {
-        self.0.get(name).cloned()
-    }
-
-    fn model(&self, path: &str) -> Result<Vec<u8>, String> {
-        let model = include_bytes!("../../../starl-policy/tests/models/dense.onnx");
-        match path {
-            "navigation.onnx" => Ok(model.to_vec()),
-            _ => Err("there is no such file".into()),
-        }
-    }
-}
 
 /// A part of a page: a line outside of blocks, or a block with what stands after its fence.
 enum Part {
@@ -84,7 +66,7 @@ struct Found {
     said: String,
 }
 
-fn found(program: &str, libraries: &Libraries) -> Found {
+fn found(program: &str, libraries: &PageFiles) -> Found {
     let mut checked = check(program, libraries);
     if checked.files.iter().all(|file| file.diagnostics.is_empty()) {
         let problems = compile(&checked).err().unwrap_or_default();
@@ -111,7 +93,7 @@ fn hold(code: Code, page: &str) -> Result<String, String> {
     if !matches!(parts.first(), Some(Part::Line(line)) if *line == title) {
         return Err(format!("the title is not {title:?}"));
     }
-    let mut libraries = Libraries::default();
+    let mut libraries = PageFiles::default();
     let mut wrong = None;
     let mut mended = false;
     for part in &mut parts {
@@ -171,7 +153,7 @@ fn every_page_is_true() {
 fn what_a_page_suggests_puts_one_thing_right() {
     for code in Code::ALL.iter().filter(|code| **code != Code::TooLong) {
         let path = folder().join(format!("{code}.md"));
-        let mut libraries = Libraries::default();
+        let mut libraries = PageFiles::default();
         let parts = parts(&fs::read_to_string(path).expect("a page"));
         let blocks = parts.iter().filter_map(|part| match part {
             Part::Block(kind, block) => Some((kind, block)),

@@ -3,10 +3,10 @@
 //! language_reference` writes the tables anew.
 #![allow(clippy::disallowed_methods, reason = "a test reads its page")]
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
+use crate::page_files::PageFiles;
 use starl_lang::check::{BUILTINS, METHODS, PRELUDE, PRIMITIVES, Purity, check};
 use starl_lang::diagnostic::{Colour, render};
 
@@ -127,17 +127,17 @@ fn the_tables_are_those_of_the_checker() {
 #[test]
 fn the_programs_have_nothing_wrong_with_them() {
     let page = page();
-    let mut libraries: BTreeMap<String, String> = BTreeMap::new();
+    let mut files = PageFiles::default();
     let mut count = 0;
     for part in page.split("\n```starl").skip(1) {
         let (name, rest) = part.split_once('\n').expect("a block");
         let (source, _) = rest.split_once("\n```").expect("the end of a block");
         let source = format!("{source}\n");
         if let Some(name) = name.strip_prefix(' ') {
-            libraries.insert(name.into(), source);
+            files.0.insert(name.into(), source);
             continue;
         }
-        let checked = check(&source, &|name: &str| libraries.get(name).cloned());
+        let checked = check(&source, &files);
         for file in &checked.files {
             let said = render(&file.name, &file.source, &file.diagnostics, Colour::Off);
             assert!(said.is_empty(), "{said}");

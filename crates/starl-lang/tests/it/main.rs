@@ -57,6 +57,7 @@ mod machine_support;
 mod machine_text_form;
 mod machine_texts;
 mod machine_verifier;
+mod page_files;
 mod robot_broadcasts_in_order;
 mod robot_changes_roles;
 mod robot_elects_a_leader;
