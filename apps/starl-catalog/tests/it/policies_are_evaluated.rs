@@ -4,12 +4,13 @@
 use crate::support::memory::{Memory, application};
 use starl_catalog::programs::Registry;
 use starl_catalog::recording;
+use starl_catalog::session::{Budget, Files, Options, Session};
 use starl_core::{Event, Time, Value};
 use starl_sim::Run;
 
 /// Takes four numbers and gives two.
 const DENSE: &[u8] = include_bytes!("../../../../crates/starl-policy/tests/models/dense.onnx");
-/// What it was measured to give (`crates/starl-policy/tests/models/expected.txt`).
+/// An input and the output of ONNX Runtime (`crates/starl-policy/tests/models/expected.txt`).
 const INPUT: &str =
     "0.09168480336666107, 0.06688984483480453, 0.011014859192073345, 0.021548893302679062";
 const OUTPUT: [f64; 2] = [-1.5009338855743408, -0.16628362238407135];
@@ -83,18 +84,36 @@ fn a_trace_holds_the_model() {
     let again = starl_catalog::read(&inputs.request, &inputs, &Registry::default()).unwrap();
     let again = finished(again.run().unwrap());
     assert_eq!(again.simulation().digest(), run.simulation().digest());
-    // Another model is another run.
-    let mut other = DENSE.to_vec();
-    let weight = other
-        .windows(4)
-        .rposition(|bytes| f32::from_le_bytes(bytes.try_into().unwrap()).abs() > 0.01);
-    other[weight.unwrap() + 2] ^= 1;
-    let other =
-        application(SCENARIO, &files(&program, &other)).unwrap_or_else(|why| panic!("{why}"));
-    assert_ne!(
-        finished(other.run().unwrap()).simulation().digest(),
-        run.simulation().digest()
-    );
+    // Another weight is another run.
+    let flipped = (0..DENSE.len()).map(|at| {
+        let mut other = DENSE.to_vec();
+        other[at] ^= 8;
+        other
+    });
+    let readable = flipped.filter_map(|other| application(SCENARIO, &files(&program, &other)).ok());
+    let numbers = first(read.run().unwrap());
+    let other = readable.map(|read| read.run().unwrap());
+    let mut other = other.filter(|other| first(other.clone()) != numbers);
+    let other = finished(other.next().expect("a byte of a weight"));
+    assert_ne!(other.simulation().digest(), run.simulation().digest());
+}
+
+#[test]
+fn front_ends_that_hold_files_in_memory_run_it_too() {
+    let program = asks(&format!("[{INPUT}]"));
+    let files = [
+        ("run.toml", SCENARIO.as_bytes()),
+        ("lab/asks.starl", program.as_bytes()),
+        ("lab/models/dense.onnx", DENSE),
+    ];
+    let held = Files::from_iter(files.map(|(path, bytes)| (path.to_string(), bytes.to_vec())));
+    let session = Session::open(&held, &Options::default(), &Registry::default());
+    let mut session = session.unwrap_or_else(|refused| panic!("{}", refused.message));
+    session.advance(Budget::default(), None);
+    let read = application(SCENARIO, &Memory::of(&files)).unwrap();
+    let run = finished(read.run().unwrap());
+    let (digest, same) = (session.report().digest, run.simulation().digest());
+    assert_eq!(digest, same.to_string());
 }
 
 #[test]

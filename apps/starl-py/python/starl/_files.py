@@ -27,7 +27,7 @@ class Program:
     """
 
     text: str = field(repr=False)
-    #: What messages call the program; libraries that it imports are looked for in the folder of this path.
+    #: What messages call the program; libraries and models that it names are looked for in the folder of this path.
     path: str = "program.starl"
     #: Libraries by name, which come before those in the folder.
     libraries: Mapping[str, str] = field(default_factory=dict, repr=False)
