@@ -1,13 +1,15 @@
-//! Sweeps: one target run with every combination of some fields' values and with many seeds.
+//! Sweeps: one target run with every combination of some fields' values and with many seeds. And [`Campaign`]s, which look
+//! for what goes wrong under faults.
 //!
 //! A [`Plan`] numbers all runs. Each is a [`Task`], plain data, which [`run_task`] turns into a [`Row`] on any machine:
 //! the same task gives the same row, digest included, in any process and on any number of threads. [`execute`] runs
 //! tasks on the cores of one machine, a [`Journal`] keeps rows as they come, a [`Table`] writes them to a file, and
 //! [`Summary`] and [`Comparison`] condense them.
 //!
-//! Invariant: nothing here prints, and nothing but [`Journal`] and [`Measured::cpu_seconds`] depends on the machine.
+//! Invariant: nothing here prints, and nothing but [`Journal`] and the fields `cpu_seconds` depends on the machine.
 
 mod axis;
+mod campaign;
 mod compare;
 mod error;
 mod execute;
@@ -23,6 +25,7 @@ mod table;
 mod task;
 
 pub use axis::{Axis, FLEET, Scale};
+pub use campaign::{Attempt, Campaign, CampaignPlan, Settings};
 pub use compare::{Comparison, Difference, GoalDifference, Pair};
 pub use error::Error;
 pub use execute::{Measured, execute};

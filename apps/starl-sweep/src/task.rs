@@ -159,7 +159,7 @@ fn scenario(task: &Task, span: Duration) -> Result<Scenario, Error> {
 }
 
 /// Names the place of a program that cannot be started.
-fn start_error(application: &Application, error: &StartError) -> Error {
+pub(crate) fn start_error(application: &Application, error: &StartError) -> Error {
     let field = format!("robots.{}.program", error.group);
     let resolved = application.resolved();
     Error::Problem(resolved.problem(&field, &error.message, None))

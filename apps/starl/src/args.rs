@@ -348,6 +348,41 @@ impl ChangeArguments {
     }
 }
 
+/// Where many runs are made.
+#[derive(Args, Clone, Debug, Default)]
+pub struct ClusterArguments {
+    /// Run on a cluster of Ray: its address, e.g. ray://HOST:10001; `ray` for the one that RAY_ADDRESS names or that runs
+    /// on this machine; or `local` to start one here
+    #[arg(long, value_name = "ADDRESS", conflicts_with = "threads")]
+    pub cluster: Option<String>,
+    /// The Python with the package `starl` that speaks to the cluster [default: $STARL_PYTHON, or else python3]
+    #[arg(long, value_name = "PATH", requires = "cluster")]
+    pub python: Option<PathBuf>,
+}
+
+/// How the runs of a sweep or a comparison are made and shown.
+#[derive(Args, Debug)]
+pub struct RunsArguments {
+    /// The number of seeds, or the first and the last one: FIRST..LAST
+    #[arg(long, value_name = "N", default_value = "100")]
+    pub seeds: String,
+    /// Add the faults of this profile to each run: calm, lossy, partitions, crashes, clocks, chaos, swarm or corruption
+    #[arg(long, value_name = "NAME")]
+    pub profile: Option<String>,
+    /// Metrics to show: `goal` or columns of the table; several with commas
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    pub metric: Vec<String>,
+    /// Threads to run on; the results are the same for any number [default: all cores]
+    #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
+    pub threads: Option<u32>,
+    /// Print the summary as one JSON object
+    #[arg(long)]
+    pub json: bool,
+    /// Print only errors
+    #[arg(long)]
+    pub quiet: bool,
+}
+
 /// Arguments of `starl test`.
 #[derive(Args, Debug)]
 pub struct TestArguments {
@@ -385,6 +420,9 @@ pub struct TestArguments {
     /// Print only failures
     #[arg(long)]
     pub quiet: bool,
+    /// The cluster.
+    #[command(flatten)]
+    pub cluster: ClusterArguments,
     /// Changes of the targets.
     #[command(flatten)]
     pub changes: ChangeArguments,
@@ -392,39 +430,33 @@ pub struct TestArguments {
 
 /// Arguments of `starl sweep`.
 #[derive(Args, Debug)]
-#[command(mut_arg("set", |set| set
-    .value_name("FIELD=VALUES")
-    .help("A field of the scenario and its values: A,B,C, or LOW..HIGH:N for N values from LOW to HIGH; the field \
-        `fleet` is the number of robots; may be repeated")))]
+#[command(
+    mut_arg("set", |set| set
+        .value_name("FIELD=VALUES")
+        .help("A field of the scenario and its values: A,B,C, or LOW..HIGH:N for N values from LOW to HIGH; the field \
+            `fleet` is the number of robots; may be repeated")),
+    mut_arg("seeds", |seeds| seeds
+        .help("The number of seeds for each combination, or the first and the last one: FIRST..LAST")),
+    mut_arg("metric", |metric| metric
+        .help("Metrics of the summary and, the first, of the plot: `goal` or columns of the table; several with commas \
+            [default: goal,time_to_goal_seconds,messages_sent]")),
+)]
 pub struct SweepArguments {
     /// An example's name (see `starl list`), a scenario file, or a program: a file ending in .starl
     pub target: String,
-    /// The number of seeds for each combination, or the first and the last one: FIRST..LAST
-    #[arg(long, value_name = "N", default_value = "100")]
-    pub seeds: String,
-    /// Add the faults of this profile to each run: calm, lossy, partitions, crashes, clocks, chaos, swarm or corruption
-    #[arg(long, value_name = "NAME")]
-    pub profile: Option<String>,
     /// Write a row for each run to this file (.parquet, .csv or .jsonl), with a journal beside it from which an
     /// interrupted sweep goes on
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Metrics of the summary and, the first, of the plot: `goal` or columns of the table; several with commas
-    /// [default: goal,time_to_goal_seconds,messages_sent]
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
-    pub metric: Vec<String>,
     /// Draw the first metric against the first axis to this .svg or .png file, with a line for each value of the others
     #[arg(long, value_name = "PATH")]
     pub plot: Option<PathBuf>,
-    /// Threads to run on; the results are the same for any number [default: all cores]
-    #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
-    pub threads: Option<u32>,
-    /// Print the summary as one JSON object
-    #[arg(long)]
-    pub json: bool,
-    /// Print only errors
-    #[arg(long)]
-    pub quiet: bool,
+    /// The runs.
+    #[command(flatten)]
+    pub runs: RunsArguments,
+    /// The cluster.
+    #[command(flatten)]
+    pub cluster: ClusterArguments,
     /// Changes of the target.
     #[command(flatten)]
     pub changes: ChangeArguments,
@@ -432,36 +464,27 @@ pub struct SweepArguments {
 
 /// Arguments of `starl compare`.
 #[derive(Args, Debug)]
+#[command(
+    mut_arg("metric", |metric| metric
+        .help("Metrics to compare, as for `starl sweep`; several with commas [default: all that differ for some seed]")),
+    mut_arg("quiet", |quiet| quiet.help("Print only seeds that became worse")),
+    mut_arg("json", |json| json.help("Print the comparison as one JSON object")),
+)]
 pub struct CompareArguments {
     /// The version to compare with: an example's name, a scenario file, or a program
     pub a: String,
     /// The version to judge [default: A, with the fields of --set-b]
     #[arg(required_unless_present_any = ["set_a", "set_b"])]
     pub b: Option<String>,
-    /// The number of seeds, or the first and the last one: FIRST..LAST
-    #[arg(long, value_name = "N", default_value = "100")]
-    pub seeds: String,
-    /// Add the faults of this profile to each run, as for `starl sweep`
-    #[arg(long, value_name = "NAME")]
-    pub profile: Option<String>,
     /// Set a field of A alone; may be repeated
     #[arg(long, value_name = "FIELD=VALUE")]
     pub set_a: Vec<String>,
     /// Set a field of B alone; may be repeated
     #[arg(long, value_name = "FIELD=VALUE")]
     pub set_b: Vec<String>,
-    /// Metrics to compare, as for `starl sweep`; several with commas [default: all that differ for some seed]
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
-    pub metric: Vec<String>,
-    /// Threads to run on; the results are the same for any number [default: all cores]
-    #[arg(long, value_name = "N", value_parser = whole(1, MOST_THREADS))]
-    pub threads: Option<u32>,
-    /// Print the comparison as one JSON object
-    #[arg(long)]
-    pub json: bool,
-    /// Print only seeds that became worse
-    #[arg(long)]
-    pub quiet: bool,
+    /// The runs.
+    #[command(flatten)]
+    pub runs: RunsArguments,
     /// Changes of both.
     #[command(flatten)]
     pub changes: ChangeArguments,

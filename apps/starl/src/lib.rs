@@ -26,6 +26,7 @@ mod args;
 mod bench;
 mod changed_program;
 mod check;
+mod cluster;
 mod compare;
 mod console;
 mod diagram;

@@ -4,12 +4,14 @@
 //! of a fault on record, checkers count that here, so that "holds" without a remark means that nothing was excused.
 
 use crate::Violation;
+use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
 
 /// The reason of an excuse.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Excuse {
     /// A robot that is concerned was down, or had started again since.
     Down,

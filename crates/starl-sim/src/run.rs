@@ -3,6 +3,7 @@
 
 use crate::engine::{Programs, Simulation, StartError};
 use crate::scenario::{Bounds, Goal, Group, Scenario};
+use serde::{Deserialize, Serialize};
 use starl_core::event::{Event, Name};
 use starl_core::{Intervention, Record, RobotId, Time};
 use starl_properties::{Excuse, Monitor, Setting, Verdict, Violation, Watch};
@@ -20,7 +21,8 @@ pub struct Run {
 }
 
 /// The outcome of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Outcome {
     /// The application's goal was reached and no property was violated.
     Reached,

@@ -1,13 +1,15 @@
 //! A run whose only question is what goes wrong: it ends as soon as anything does.
 
 use crate::run::{Outcome, Run};
+use serde::{Deserialize, Serialize};
 use starl_core::Time;
 use starl_core::event::Name;
 use starl_properties::Excuse;
 use std::fmt;
 
 /// The failure of a run.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Finding {
     /// This property was violated.
     Violated(Name),

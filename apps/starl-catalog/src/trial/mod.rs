@@ -8,7 +8,7 @@ mod shrinking;
 mod tried;
 
 pub use service::{ProfileReport, Shrunk, Trials, profiles};
-pub use shrinking::{Extent, Shrinking, Size, Smaller};
+pub use shrinking::{Answers, Extent, Shrinking, Size, Smaller};
 pub use tried::Tried;
 
 use crate::Application;
@@ -49,6 +49,23 @@ impl Subject {
                 }
             }
         };
+        Ok(Subject {
+            application: application.clone(),
+            demands_goal,
+            span,
+        })
+    }
+
+    /// The subject of a campaign that was begun elsewhere, where `span` was measured.
+    ///
+    /// # Errors
+    /// As for [`Subject::new`].
+    pub fn with_span(
+        application: &Application,
+        demands_goal: bool,
+        span: Duration,
+    ) -> Result<Subject, StartError> {
+        application.run()?;
         Ok(Subject {
             application: application.clone(),
             demands_goal,

@@ -20,9 +20,12 @@ pub struct Shrinking {
     registry: Registry,
     /// Comments that the file begins with.
     head: String,
-    /// When each scenario failed that was tried so far, in order. The search depends on nothing else.
-    answers: Vec<Option<Time>>,
+    answers: Answers,
 }
+
+/// When each scenario failed that a search tried so far, in order. The search depends on nothing else, so it can be made in
+/// one process and its result taken in another.
+pub type Answers = Vec<Option<Time>>;
 
 /// A scenario that fails, as small as it was found.
 pub struct Smaller {
@@ -107,6 +110,17 @@ impl Shrinking {
             head,
             answers: Vec::new(),
         }
+    }
+
+    /// The same search, after another process tried scenarios for it.
+    #[must_use]
+    pub fn after(self, answers: Answers) -> Shrinking {
+        Shrinking { answers, ..self }
+    }
+
+    /// What was tried so far.
+    pub fn into_answers(self) -> Answers {
+        self.answers
     }
 
     /// The size before anything is left out.

@@ -18,18 +18,18 @@ use std::time::Instant;
 
 /// Compares what the arguments name; whether no seed became worse.
 pub fn compare(arguments: &CompareArguments, registry: &Registry) -> Result<bool, Failure> {
-    let metrics: Option<Vec<Shown>> = match arguments.metric.is_empty() {
+    let metrics: Option<Vec<Shown>> = match arguments.runs.metric.is_empty() {
         true => None,
-        false => Some(shown(&arguments.metric)?),
+        false => Some(shown(&arguments.runs.metric)?),
     };
-    let seeds: Seeds = arguments.seeds.parse()?;
+    let seeds: Seeds = arguments.runs.seeds.parse()?;
     let b = arguments.b.as_ref().unwrap_or(&arguments.a);
     let sides = [(&arguments.a, &arguments.set_a), (b, &arguments.set_b)];
     let [a, b] = sides.map(|(target, set)| plan(target, set, arguments, seeds, registry));
     let plans = [a?, b?];
     let stop = stop_on_interrupt();
-    let progress = Count::new(!arguments.quiet && !arguments.json, 2 * seeds.count());
-    let threads = threads::for_runs(arguments.threads);
+    let progress = Count::new(!arguments.runs.quiet && !arguments.runs.json, 2 * seeds.count());
+    let threads = threads::for_runs(arguments.runs.threads);
     let begun = Instant::now();
     // In turn, so that an interrupted comparison has pairs.
     let tasks = (0..2 * seeds.count()).map(|number| {
@@ -55,14 +55,14 @@ pub fn compare(arguments: &CompareArguments, registry: &Registry) -> Result<bool
         Circumstances {
             sides: [a, b],
             seeds,
-            profile: arguments.profile.clone(),
+            profile: arguments.runs.profile.clone(),
             wall_seconds: begun.elapsed().as_secs_f64(),
             threads,
         },
     );
-    match arguments.json {
+    match arguments.runs.json {
         true => json::print(&report)?,
-        false => console::print(&report.text(metrics.as_deref(), arguments.quiet))?,
+        false => console::print(&report.text(metrics.as_deref(), arguments.runs.quiet))?,
     }
     Ok(report.is_success())
 }
@@ -79,13 +79,13 @@ fn plan(
         set: [&common.set[..], set].concat(),
         ..common.clone()
     };
-    let quiet = arguments.quiet || arguments.json;
+    let quiet = arguments.runs.quiet || arguments.runs.json;
     let Selection {
         application,
         origin,
         ..
     } = target::read(&changes.of(target, None, quiet), registry)?;
-    let profile = arguments.profile.as_deref();
+    let profile = arguments.runs.profile.as_deref();
     let plan = Plan::new(target, &application, Vec::new(), seeds, profile, &origin);
     plan.map_err(|error| refused(error, &origin))
 }

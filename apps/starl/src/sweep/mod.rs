@@ -9,6 +9,7 @@ mod report;
 pub use metrics::{Shown, shown};
 
 use crate::args::{ChangeArguments, SweepArguments};
+use crate::cluster::Workers;
 use crate::console;
 use crate::failure::Failure;
 use crate::json;
@@ -17,19 +18,18 @@ use crate::outputs::{Picture, refuse_to_overwrite};
 use crate::progress::Count;
 use crate::run::stop_on_interrupt;
 use crate::target::{self, Selection};
-use crate::threads;
 use output::Outputs;
 use report::{Circumstances, Report};
 use starl_catalog::programs::Registry;
-use starl_sweep::{Axis, Error, Format, Journal, Plan, Runner, Seeds, execute};
+use starl_sweep::{Axis, Error, Format, Journal, Measured, Plan, Runner, Seeds, execute};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 /// Runs the sweep that the arguments describe; whether all of it was run.
 pub fn sweep(arguments: &SweepArguments, registry: &Registry) -> Result<bool, Failure> {
-    let metrics = shown(&arguments.metric)?;
-    let seeds: Seeds = arguments.seeds.parse()?;
+    let metrics = shown(&arguments.runs.metric)?;
+    let seeds: Seeds = arguments.runs.seeds.parse()?;
     let out = arguments.out.as_deref();
     let format = out.map(Format::of).transpose();
     let format = format.map_err(|error| Failure(format!("--out {error}")))?;
@@ -48,21 +48,30 @@ pub fn sweep(arguments: &SweepArguments, registry: &Registry) -> Result<bool, Fa
         ("the journal of --out", journal.as_deref()),
     ];
     refuse_to_overwrite(&named, &read)?;
+    let mut workers = Workers::of(&arguments.cluster, arguments.runs.threads, &stop)?;
     let (mut outputs, mut rows) = Outputs::open(out.zip(format), &plan)?;
     let done_before = rows.len() as u64;
-    let progress = Count::new(!arguments.quiet && !arguments.json, plan.len());
+    let progress = Count::new(!arguments.runs.quiet && !arguments.runs.json, plan.len());
     progress.begin_at(done_before);
-    let threads = threads::for_runs(arguments.threads);
     let begun = Instant::now();
     let open = plan.open(&rows);
-    let tasks = open.into_iter().map(|number| ((), plan.task(number)));
-    let runner = Runner::new(registry.clone());
-    let done = execute(tasks, &runner, threads, &stop, |(), row| {
+    let mut take = |row: Measured| {
         outputs.keep(&row)?;
         rows.insert(row.row.number, row);
         progress.add(1);
-        Ok::<(), Error>(())
-    });
+        Ok(())
+    };
+    let done = match &mut workers {
+        Workers::Threads(threads) => {
+            let tasks = open.into_iter().map(|number| ((), plan.task(number)));
+            let runner = Runner::new(registry.clone());
+            let taken = execute(tasks, &runner, *threads, &stop, |(), row| take(row));
+            taken.map_err(Failure::from)
+        }
+        Workers::Cluster(cluster) => {
+            cluster.run("sweep", &plan, &open, &stop, |row| Ok(take(row)?))
+        }
+    };
     progress.clear();
     done?;
     let is_whole = rows.len() as u64 == plan.len();
@@ -73,7 +82,7 @@ pub fn sweep(arguments: &SweepArguments, registry: &Registry) -> Result<bool, Fa
             title,
             done_before,
             wall_seconds: begun.elapsed().as_secs_f64(),
-            threads,
+            workers: &workers,
             interrupted: !is_whole && stop.load(Ordering::Relaxed),
             out: arguments.out.clone(),
             plot: arguments.plot.clone(),
@@ -85,7 +94,7 @@ pub fn sweep(arguments: &SweepArguments, registry: &Registry) -> Result<bool, Fa
             output::save(path, &plot::file(&plan, &report, metrics[0], picture))?;
         }
     }
-    match (arguments.json, arguments.quiet) {
+    match (arguments.runs.json, arguments.runs.quiet) {
         (true, _) => json::print(&report)?,
         (false, true) if is_whole => {}
         (false, _) => console::print(&report.text(&metrics))?,
@@ -110,7 +119,7 @@ fn plan(
         set: axes.iter().filter_map(Axis::first_setting).collect(),
         ..arguments.changes.clone()
     };
-    let quiet = arguments.quiet || arguments.json;
+    let quiet = arguments.runs.quiet || arguments.runs.json;
     let arguments_of_run = changes.of(&arguments.target, None, quiet);
     let Selection {
         application,
@@ -123,7 +132,7 @@ fn plan(
         &application,
         axes.collect(),
         seeds,
-        arguments.profile.as_deref(),
+        arguments.runs.profile.as_deref(),
         &origin,
     );
     let plan = plan.map_err(|error| refused(error, &origin))?;

@@ -1,6 +1,7 @@
 //! The report of a sweep, for people and for programs.
 
 use super::metrics::Shown;
+use crate::cluster::Workers;
 use crate::console::{command, counted, grouped, rounded};
 use crate::run::quoted;
 use serde::Serialize;
@@ -24,6 +25,9 @@ pub struct Report {
     pub wall_seconds: f64,
     pub processor_seconds: f64,
     pub threads: usize,
+    /// For people.
+    #[serde(skip)]
+    workers: String,
     pub interrupted: bool,
     pub out: Option<PathBuf>,
     pub journal: Option<PathBuf>,
@@ -33,11 +37,11 @@ pub struct Report {
 }
 
 /// The part of a report that the rows do not tell.
-pub struct Circumstances {
+pub struct Circumstances<'a> {
     pub title: String,
     pub done_before: u64,
     pub wall_seconds: f64,
-    pub threads: usize,
+    pub workers: &'a Workers,
     pub interrupted: bool,
     pub out: Option<PathBuf>,
     pub plot: Option<PathBuf>,
@@ -45,7 +49,7 @@ pub struct Circumstances {
 
 impl Report {
     /// The report of the rows that there are.
-    pub fn of(plan: &Plan, rows: &BTreeMap<u64, Measured>, around: Circumstances) -> Report {
+    pub fn of(plan: &Plan, rows: &BTreeMap<u64, Measured>, around: Circumstances<'_>) -> Report {
         let is_whole = rows.len() as u64 == plan.len();
         let processors = rows.values().map(|measured| measured.cpu_seconds);
         Report {
@@ -60,7 +64,8 @@ impl Report {
             runs_done_before: around.done_before,
             wall_seconds: around.wall_seconds,
             processor_seconds: processors.sum(),
-            threads: around.threads,
+            threads: around.workers.count(),
+            workers: around.workers.words(),
             interrupted: around.interrupted,
             journal: around.out.as_deref().map(Journal::path_of),
             out: around.out.filter(|_| is_whole),
@@ -113,7 +118,7 @@ impl Report {
             text,
             "{runs} in {} s on {}, {} runs per second{before}",
             rounded(self.wall_seconds),
-            counted(self.threads, "thread"),
+            self.workers,
             rounded(per_second)
         )?;
         for (label, path) in [("table", &self.out), ("plot", &self.plot)] {

@@ -1,7 +1,7 @@
 //! A run that went wrong, shrunk, saved and drawn.
 
-use super::search::Case;
-use super::subject::Subject;
+use super::search::{Case, Search};
+use super::subject::Target;
 use crate::args::TestArguments;
 use crate::console;
 use crate::diagram;
@@ -10,7 +10,7 @@ use crate::origin::Origin;
 use crate::output::Output;
 use crate::progress::Count;
 use crate::run::quoted;
-use starl_catalog::trial::{Shrinking, Size};
+use starl_catalog::trial::{Answers, Shrinking, Size};
 use starl_sim::Scenario;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -35,21 +35,26 @@ pub struct Counterexample {
 }
 
 impl Counterexample {
-    /// Shrinks a run and saves it; as far as it has come when someone stops it.
+    /// Shrinks a run and saves it; as far as it has come when someone stops it. `known` is what a cluster found about the
+    /// scenarios to try; the others are tried here.
     pub fn of(
-        subject: &Subject,
+        search: &Search,
         case: &Case,
+        known: Answers,
         arguments: &TestArguments,
         stop: &AtomicBool,
         progress: &Count,
     ) -> Result<Counterexample, Failure> {
+        let target = &search.targets[case.subject];
+        let subject = &search.campaign.subjects()[case.subject];
         let is_stopped = || stop.load(Ordering::Relaxed);
-        let path = free_path(&arguments.out, &name(subject, case));
-        let rename = |program: &str| subject.origin.key_from(program, &path);
+        let path = free_path(&arguments.out, &name(target, case));
+        let rename = |program: &str| target.origin.key_from(program, &path);
+        let again = again(target, case, arguments);
+        let head = head(target, case, &again);
         let key = (case.profile, case.seed);
-        let head = head(subject, case, arguments);
-        let finding = case.finding.clone();
-        let mut shrinking = Shrinking::new(&subject.tested, key, finding, head, &rename);
+        let shrinking = Shrinking::new(subject, key, case.finding.clone(), head, &rename);
+        let mut shrinking = shrinking.after(known);
         let most = u64::from(arguments.shrink);
         let smaller = shrinking.search(most, &Origin::file(&path), &mut |scenario| {
             let go_on = !is_stopped();
@@ -66,7 +71,7 @@ impl Counterexample {
             text: case.text.clone(),
             trials: u64::from(!is_stopped()),
             is_minimal: false,
-            again: again(subject, case, arguments),
+            again,
         };
         let Some(smaller) = smaller else {
             return Ok(counterexample);
@@ -95,12 +100,12 @@ fn describe(scenario: &Scenario) -> String {
 }
 
 /// The head of the file.
-fn head(subject: &Subject, case: &Case, arguments: &TestArguments) -> String {
+fn head(target: &Target, case: &Case, again: &str) -> String {
     format!(
         "# {} fails here: {}.\n# Found by: {}\n\n",
-        one_line(&subject.target),
+        one_line(&target.name),
         one_line(&case.finding.to_string()),
-        one_line(&again(subject, case, arguments))
+        one_line(again)
     )
 }
 
@@ -109,10 +114,10 @@ fn one_line(text: &str) -> String {
 }
 
 /// The command line that finds a run again.
-fn again(subject: &Subject, case: &Case, arguments: &TestArguments) -> String {
+fn again(target: &Target, case: &Case, arguments: &TestArguments) -> String {
     let mut words = vec![
         format!("{} test", console::command()),
-        quoted(&subject.target),
+        quoted(&target.name),
     ];
     let changes = &arguments.changes;
     let options = [
@@ -136,15 +141,15 @@ fn again(subject: &Subject, case: &Case, arguments: &TestArguments) -> String {
             words.push(format!("{option} {}", quoted(&value)));
         }
     }
-    if subject.tested.demands_goal {
+    if arguments.demand_goal {
         words.push("--demand-goal".to_string());
     }
     words.join(" ")
 }
 
 /// The name of a run's files, without their suffixes.
-fn name(subject: &Subject, case: &Case) -> String {
-    let stem = Path::new(&subject.target).file_stem().unwrap_or_default();
+fn name(target: &Target, case: &Case) -> String {
+    let stem = Path::new(&target.name).file_stem().unwrap_or_default();
     let name = format!(
         "{}-{}-{}-{}",
         stem.display(),

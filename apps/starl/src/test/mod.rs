@@ -7,20 +7,21 @@ mod search;
 mod subject;
 
 use crate::args::TestArguments;
+use crate::cluster::Workers;
 use crate::console;
 use crate::failure::Failure;
 use crate::json;
 use crate::progress::Count;
 use crate::run::stop_on_interrupt;
-use crate::threads;
 use counterexample::Counterexample;
 use report::Report;
 use search::Search;
 use starl_catalog::examples::EXAMPLES;
 use starl_catalog::programs::Registry;
 use starl_sim::profile::Profile;
+use starl_sweep::{Campaign, Settings};
 use std::sync::atomic::Ordering;
-use subject::Subject;
+use subject::Target;
 
 /// Tests what the arguments say; whether nothing went wrong.
 pub fn test(arguments: &TestArguments, registry: &Registry) -> Result<bool, Failure> {
@@ -33,34 +34,45 @@ pub fn test(arguments: &TestArguments, registry: &Registry) -> Result<bool, Fail
             .collect(),
         false => arguments.targets.clone(),
     };
-    let subjects: Result<Vec<Subject>, Failure> = targets
+    let read = targets
         .iter()
-        .map(|target| Subject::read(target, arguments, registry))
-        .collect();
-    let search = Search {
-        subjects: subjects?,
+        .map(|target| Target::read(target, arguments, registry));
+    let (targets, subjects) = read.collect::<Result<Vec<_>, Failure>>()?.into_iter().unzip();
+    let settings = Settings {
         profiles,
         first_seed: arguments.first_seed.into(),
         seeds: arguments.seeds.into(),
+        most_trials: arguments.shrink.into(),
     };
-    let threads = threads::for_runs(arguments.threads);
+    let search = Search {
+        targets,
+        campaign: Campaign::new(subjects, settings),
+    };
     std::fs::create_dir_all(&arguments.out)
         .map_err(|error| Failure::file(&arguments.out, error))?;
+    let mut workers = Workers::of(&arguments.cluster, arguments.threads, &stop)?;
     let shown = !arguments.quiet && !arguments.json;
-    let progress = Count::new(shown, search.runs());
-    let found = search.run(threads, &stop, &progress);
+    let progress = Count::new(shown, search.campaign.runs());
+    let found = search.run(&mut workers, &stop, &progress);
     progress.clear();
+    let found = found?;
+    let cases = found.findings();
+    let progress = Count::new(shown, cases.len() as u64);
+    progress.say("failures shrunk,");
+    let known = search.shrink(&cases, &mut workers, &stop, &progress);
+    progress.clear();
+    let mut known = known?;
     let mut counterexamples = Vec::new();
-    for (case, times) in found.findings() {
-        let limit = u64::from(arguments.shrink);
-        let progress = Count::new(shown, limit);
-        let subject = &search.subjects[case.subject];
-        let counterexample = Counterexample::of(subject, &case, arguments, &stop, &progress)?;
+    for (case, times) in cases {
+        let progress = Count::new(shown, u64::from(arguments.shrink));
+        let known = known.remove(&case.number).unwrap_or_default();
+        let counterexample =
+            Counterexample::of(&search, &case, known, arguments, &stop, &progress)?;
         progress.clear();
         counterexamples.push((case, times, counterexample));
     }
     let interrupted = stop.load(Ordering::Relaxed);
-    let report = Report::of(&search, &found, counterexamples, threads, interrupted);
+    let report = Report::of(&search, &found, counterexamples, &workers, interrupted);
     match arguments.json {
         true => json::print(&report)?,
         false => console::print(&report.text(arguments.quiet))?,

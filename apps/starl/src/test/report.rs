@@ -2,9 +2,10 @@
 
 use super::counterexample::Counterexample;
 use super::search::{Case, Found, Search};
+use crate::cluster::Workers;
 use crate::console::{counted, grouped, rounded};
 use serde::Serialize;
-use starl_catalog::trial::Extent;
+use starl_catalog::trial::{Extent, Subject};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -17,6 +18,9 @@ pub struct Report {
     pub wall_seconds: f64,
     pub processor_seconds: f64,
     pub threads: usize,
+    /// For people.
+    #[serde(skip)]
+    workers: String,
     pub runs_per_second: f64,
     pub runs_per_processor_second: f64,
     pub interrupted: bool,
@@ -83,7 +87,7 @@ impl Finding {
         };
         let [before, after] = example.sizes.map(Extent::from);
         Finding {
-            target: search.subjects[case.subject].target.clone(),
+            target: search.targets[case.subject].name.clone(),
             property: case.property().to_string(),
             times,
             profile: case.profile.name(),
@@ -106,12 +110,12 @@ impl Report {
         search: &Search,
         found: &Found,
         counterexamples: Vec<(Case, u64, Counterexample)>,
-        threads: usize,
+        workers: &Workers,
         interrupted: bool,
     ) -> Report {
         let runs = found.runs();
         let per = |seconds: f64| runs as f64 / seconds.max(1e-9);
-        let (wall, processors) = (found.wall.as_secs_f64(), found.processors.as_secs_f64());
+        let (wall, processors) = (found.wall.as_secs_f64(), found.cpu_seconds);
         let findings = counterexamples.iter();
         Report {
             targets: targets(search, found),
@@ -121,7 +125,8 @@ impl Report {
             runs,
             wall_seconds: wall,
             processor_seconds: processors,
-            threads,
+            threads: workers.count(),
+            workers: workers.words(),
             runs_per_second: per(wall),
             runs_per_processor_second: per(processors),
             interrupted,
@@ -184,7 +189,7 @@ impl Report {
             "{interrupted}{} in {} s on {}: {} runs per second, {} per second of a core",
             counted(self.runs as usize, "run"),
             rounded(self.wall_seconds),
-            counted(self.threads, "thread"),
+            self.workers,
             rounded(self.runs_per_second),
             rounded(self.runs_per_processor_second)
         )
@@ -258,10 +263,10 @@ impl Finding {
 }
 
 fn targets(search: &Search, found: &Found) -> Vec<Target> {
-    let subjects = search.subjects.iter().enumerate();
-    let target = |(index, subject): (usize, &super::subject::Subject)| {
-        let scenario = subject.tested.application.scenario();
-        let rows = search.profiles.iter().map(|&profile| {
+    let subjects = search.targets.iter().zip(search.campaign.subjects());
+    let target = |(index, (target, subject)): (usize, (&super::subject::Target, &Subject))| {
+        let scenario = subject.application.scenario();
+        let rows = search.campaign.settings().profiles.iter().map(|&profile| {
             let tally = found.tallies.get(&(index, profile));
             let tally = tally.cloned().unwrap_or_default();
             let excused = tally.excused.into_iter();
@@ -283,11 +288,11 @@ fn targets(search: &Search, found: &Found) -> Vec<Target> {
             }
         });
         Target {
-            target: subject.target.clone(),
+            target: target.name.clone(),
             title: scenario.title.clone(),
             robots: scenario.fleet.len(),
             profiles: rows.collect(),
         }
     };
-    subjects.map(target).collect()
+    subjects.enumerate().map(target).collect()
 }

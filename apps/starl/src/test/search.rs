@@ -1,30 +1,33 @@
-//! All runs, on several threads. The results do not depend on their number: runs are identified by
-//! their places in the whole list, and of equal failures the first counts.
+//! All runs, on several threads or on a cluster. The results do not depend on that: runs are identified by their numbers in
+//! the campaign, and of equal failures the first counts.
 
-use super::subject::Subject;
+use super::subject::Target;
+use crate::cluster::Workers;
+use crate::failure::Failure;
 use crate::progress::Count;
+use starl_catalog::trial::Answers;
 use starl_core::event::Name;
 use starl_properties::Excuse;
 use starl_sim::profile::Profile;
-use starl_sim::{Finding, Outcome, Trial};
-use starl_sweep::spread;
+use starl_sim::{Finding, Outcome};
+use starl_sweep::{Attempt, Campaign, spread};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
-use std::convert::Infallible;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-/// The runs to do: every subject with every profile and every seed.
+/// The runs to do: every target with every profile and every seed.
 pub struct Search {
-    pub subjects: Vec<Subject>,
-    pub profiles: Vec<Profile>,
-    pub first_seed: u64,
-    pub seeds: u64,
+    /// As they were given, in the order of the campaign.
+    pub targets: Vec<Target>,
+    pub campaign: Campaign,
 }
 
 /// A run that went wrong.
 #[derive(Clone, Debug)]
 pub struct Case {
+    /// The number of the run.
+    pub number: u64,
     pub subject: usize,
     pub profile: Profile,
     pub seed: u64,
@@ -51,61 +54,72 @@ pub struct Tally {
 pub struct Found {
     /// By subject and profile.
     pub tallies: BTreeMap<(usize, Profile), Tally>,
-    /// By subject and what went wrong: the place of the first such run, and how many there are.
-    first: BTreeMap<(usize, Finding), (u64, Case, u64)>,
+    /// By subject and what went wrong: the first such run, and how many there are.
+    first: BTreeMap<(usize, Finding), (Case, u64)>,
     /// Time on the wall.
     pub wall: Duration,
-    /// Time that the process had of the processors.
-    pub processors: Duration,
+    /// Time that the runs had of processors.
+    pub cpu_seconds: f64,
 }
 
 impl Search {
-    /// How many runs there are.
-    pub fn runs(&self) -> u64 {
-        (self.subjects.len() * self.profiles.len()) as u64 * self.seeds
-    }
-
     /// Does all runs, or as many as there is time for until someone stops it.
-    pub fn run(&self, threads: usize, stop: &AtomicBool, progress: &Count) -> Found {
+    pub fn run(
+        &self,
+        workers: &mut Workers,
+        stop: &AtomicBool,
+        progress: &Count,
+    ) -> Result<Found, Failure> {
         let begun = Instant::now();
-        let before = cpu_time::ProcessTime::try_now();
         let mut found = Found::default();
-        let work = |place| {
-            let (subject, profile, seed) = self.at(place);
-            let (_, trial) = self.subjects[subject].tested.try_out(profile, seed);
-            (place, (subject, profile, seed), trial)
+        let numbers = 0..self.campaign.runs();
+        let mut take = |attempt: Attempt| {
+            found.note(self.campaign.at(attempt.number), attempt);
+            progress.add(1);
+            Ok(())
         };
-        let Ok(()) = spread(
-            threads,
-            0..self.runs(),
-            stop,
-            work,
-            |(place, key, trial)| {
-                found.note(place, key, trial);
-                progress.add(1);
-                Ok::<(), Infallible>(())
-            },
-        );
+        match workers {
+            Workers::Threads(threads) => {
+                let work = |number| self.campaign.attempt(number);
+                spread(*threads, numbers, stop, work, take)?;
+            }
+            Workers::Cluster(cluster) => {
+                let numbers: Vec<u64> = numbers.collect();
+                cluster.run("test", &self.campaign.plan(), &numbers, stop, &mut take)?;
+            }
+        }
         found.wall = begun.elapsed();
-        found.processors = match (before, cpu_time::ProcessTime::try_now()) {
-            (Ok(before), Ok(after)) => after.duration_since(before),
-            _ => found.wall,
-        };
-        found
+        Ok(found)
     }
 
-    /// The run at a place in the list.
-    fn at(&self, place: u64) -> (usize, Profile, u64) {
-        let (kind, seed) = (place / self.seeds, place % self.seeds);
-        let profiles = self.profiles.len() as u64;
-        let profile = self.profiles[(kind % profiles) as usize];
-        let subject = (kind / profiles) as usize;
-        (subject, profile, self.first_seed + seed)
+    /// Has smaller scenarios looked for on a cluster, for all cases at once. The result for each case is what there is to
+    /// know about scenarios that were tried; empty if someone stopped it before, or where there is no cluster.
+    pub fn shrink(
+        &self,
+        cases: &[(Case, u64)],
+        workers: &mut Workers,
+        stop: &AtomicBool,
+        progress: &Count,
+    ) -> Result<BTreeMap<u64, Answers>, Failure> {
+        let mut known = BTreeMap::new();
+        if let Workers::Cluster(cluster) = workers
+            && !cases.is_empty()
+        {
+            let numbers: Vec<u64> = cases.iter().map(|(case, _)| case.number).collect();
+            let take = |(number, answers)| {
+                known.insert(number, answers);
+                progress.add(1);
+                Ok(())
+            };
+            cluster.run("shrink", &self.campaign.plan(), &numbers, stop, take)?;
+        }
+        Ok(known)
     }
 }
 
 impl Found {
-    fn note(&mut self, place: u64, (subject, profile, seed): (usize, Profile, u64), trial: Trial) {
+    fn note(&mut self, (subject, profile, seed): (usize, Profile, u64), trial: Attempt) {
+        self.cpu_seconds += trial.cpu_seconds;
         let tally = self.tallies.entry((subject, profile)).or_default();
         tally.runs += 1;
         match trial.outcome {
@@ -119,7 +133,9 @@ impl Found {
         }
         let Some(finding) = trial.finding else { return };
         tally.wrong += 1;
+        let number = trial.number;
         let case = Case {
+            number,
             subject,
             profile,
             seed,
@@ -128,14 +144,14 @@ impl Found {
         };
         match self.first.entry((subject, finding)) {
             Entry::Occupied(mut known) => {
-                let (first, its_case, times) = known.get_mut();
+                let (first, times) = known.get_mut();
                 *times += 1;
-                if place < *first {
-                    (*first, *its_case) = (place, case);
+                if number < first.number {
+                    *first = case;
                 }
             }
             Entry::Vacant(vacant) => {
-                vacant.insert((place, case, 1));
+                vacant.insert((case, 1));
             }
         }
     }
@@ -143,9 +159,8 @@ impl Found {
     /// The failures, each kind once, with its count.
     pub fn findings(&self) -> Vec<(Case, u64)> {
         let mut cases: Vec<_> = self.first.values().collect();
-        cases.sort_by_key(|(place, ..)| *place);
-        let told = |(_, case, times): &(u64, Case, u64)| (case.clone(), *times);
-        cases.into_iter().map(told).collect()
+        cases.sort_by_key(|(case, _)| case.number);
+        cases.into_iter().cloned().collect()
     }
 
     /// The runs that were done.

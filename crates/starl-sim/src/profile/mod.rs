@@ -17,13 +17,15 @@ mod restarts;
 use crate::Scenario;
 use crate::engine;
 use crate::scenario::{Fault, FaultKind, FaultRates};
+use serde::{Deserialize, Serialize};
 use starl_core::{Duration, Random, RobotId, Time};
 
 /// Names the draws of profiles among all draws from the seed.
 const PURPOSE: u64 = 0x7072_6f66_696c_6500; // "profile"
 
 /// The kinds of faults. The reference is `docs/reference/testing.md`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Profile {
     /// None but what the scenario has itself.
     Calm,
