@@ -1,10 +1,11 @@
 //! The catalog of the front ends: the examples, the programs that scenarios can name, and how a
 //! scenario that names them is read and started.
 //!
-//! The command and the WebAssembly module link this, so that a name means the same to both. Nothing
-//! here touches a clock or a file: an example brings the files that its scenario names, and a program
-//! in the StarL language is brought by the loader that brings the others.
+//! All front ends link this, so that a name means the same to all. Nothing here touches a clock, and nothing but [`disk`],
+//! which front ends hand in, a file: an example brings the files that its scenario names, and a program in the StarL language
+//! is brought by the loader that brings the others.
 
+pub mod disk;
 pub mod examples;
 mod explore;
 pub mod language;

@@ -1,17 +1,16 @@
 //! Simulations: requests and answers in JSON, as for the page in a browser, and arrays of numbers.
 
+use crate::numbers;
 use crate::robot::PyProgram;
 use crate::table::{self, Table};
-use crate::{disk, numbers};
 use numpy::PyReadwriteArray2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use starl_catalog::Application;
 use starl_catalog::programs::Registry;
 use starl_catalog::service::Service;
 use starl_catalog::session::{Disk, Session};
-use starl_sim::read::Loader;
+use starl_catalog::{Application, disk};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -25,11 +24,7 @@ impl Engine {
     #[new]
     #[pyo3(signature = (programs=None))]
     fn new(py: Python<'_>, programs: Option<BTreeMap<String, Py<PyAny>>>) -> PyResult<Engine> {
-        let mut registry = Registry::default();
-        for (name, object) in programs.unwrap_or_default() {
-            let prototype = PyProgram::new(py, object)?;
-            registry = registry.with(&name, "a program in Python", move |_| prototype.clone());
-        }
+        let registry = registry(py, programs)?;
         let service = Service::new(registry).with_disk(Disk(disk::read));
         Ok(Engine(Mutex::new(service)))
     }
@@ -74,19 +69,6 @@ impl Engine {
         })
     }
 
-    /// The files that the scenario of a simulation names, by their paths from its folder.
-    fn inputs(&self, py: Python<'_>, simulation: u32) -> PyResult<BTreeMap<String, Vec<u8>>> {
-        let application = self.application(py, simulation)?;
-        let inputs = &application.resolved().inputs;
-        let files = inputs
-            .files
-            .keys()
-            .map(|path| Ok((path.clone(), inputs.load(path)?)));
-        files
-            .collect::<Result<_, String>>()
-            .map_err(PyValueError::new_err)
-    }
-
     /// The records of one topic, or of all topics, as a table.
     #[pyo3(signature = (simulation, topic=None))]
     fn records(&self, py: Python<'_>, simulation: u32, topic: Option<&str>) -> PyResult<Table> {
@@ -102,6 +84,15 @@ impl Engine {
     /// The scenario of a simulation with its programs.
     pub fn application(&self, py: Python<'_>, simulation: u32) -> PyResult<Application> {
         self.with(py, simulation, |session| session.application().clone())
+    }
+
+    /// The names that programs of a simulation have everywhere, by those that they have in its scenario.
+    pub fn global_names(
+        &self,
+        py: Python<'_>,
+        simulation: u32,
+    ) -> PyResult<BTreeMap<String, String>> {
+        self.with(py, simulation, |session| session.global_names().clone())
     }
 
     /// Does something with a simulation. Python's lock is not held meanwhile: a program in Python takes it in the middle
@@ -120,4 +111,17 @@ impl Engine {
         // Nothing is left half done where a request panics: it is answered by the next one.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// The programs that StarL ships with, and these in Python by their names.
+pub fn registry(
+    py: Python<'_>,
+    programs: Option<BTreeMap<String, Py<PyAny>>>,
+) -> PyResult<Registry> {
+    let mut registry = Registry::default();
+    for (name, object) in programs.unwrap_or_default() {
+        let prototype = PyProgram::new(py, object)?;
+        registry = registry.with(&name, "a program in Python", move |_| prototype.clone());
+    }
+    Ok(registry)
 }

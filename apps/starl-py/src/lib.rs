@@ -3,7 +3,7 @@
 //!
 //! The classes that people use are written in Python, in `python/starl/`.
 
-mod disk;
+mod campaign;
 mod engine;
 mod env;
 mod judge;
@@ -18,6 +18,13 @@ use pyo3::prelude::*;
 /// The native part of StarL. Use the package `starl` instead.
 #[pymodule]
 mod _native {
+    /// The version of the package, which is that of the command.
+    #[pymodule_export]
+    #[allow(non_upper_case_globals, reason = "it is a name of Python")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+
+    #[pymodule_export]
+    use super::campaign::Campaign;
     #[pymodule_export]
     use super::engine::Engine;
     #[pymodule_export]

@@ -1,12 +1,12 @@
 //! Sweeps: plans, single runs, and the rows that came back, from wherever they were run.
 
-use crate::disk;
-use crate::engine::Engine;
+use crate::engine::{Engine, registry};
 use crate::table::Table;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use serde_json::json;
+use starl_catalog::disk;
 use starl_catalog::programs::Registry;
 use starl_sim::read::{Inputs, Loader};
 use starl_sweep::{Axis, Error, Format, Journal, Measured, Plan, Runner, Seeds, Summary};
@@ -60,7 +60,8 @@ impl Sweep {
             let target = application.scenario().title.clone();
             Plan::new(&target, &application, axes, seeds, profile, &loader)
         });
-        plan.map(Sweep::of).map_err(refused)
+        let registry = application.registry().clone();
+        plan.map(|plan| Sweep::of(plan, registry)).map_err(refused)
     }
 
     /// The first value of each axis, as fields to set, by which a sweep begins.
@@ -71,12 +72,17 @@ impl Sweep {
         Ok(axes.iter().filter_map(Axis::first_setting).collect())
     }
 
-    /// The sweep of a plan that `plan` gave.
+    /// The sweep of a plan that `plan` gave, with these programs in Python.
     #[staticmethod]
-    fn from_plan(plan: &[u8]) -> PyResult<Sweep> {
-        let plan = serde_json::from_slice(plan);
-        plan.map(Sweep::of)
-            .map_err(|error| PyValueError::new_err(format!("the plan: {error}")))
+    #[pyo3(signature = (plan, programs=None))]
+    fn from_plan(
+        py: Python<'_>,
+        plan: &[u8],
+        programs: Option<BTreeMap<String, Py<PyAny>>>,
+    ) -> PyResult<Sweep> {
+        let plan = serde_json::from_slice(plan)
+            .map_err(|error| PyValueError::new_err(format!("the plan: {error}")))?;
+        Ok(Sweep::of(plan, registry(py, programs)?))
     }
 
     /// The plan with all its texts, for another process.
@@ -189,10 +195,10 @@ impl Sweep {
 }
 
 impl Sweep {
-    fn of(plan: Plan) -> Sweep {
+    fn of(plan: Plan, registry: Registry) -> Sweep {
         Sweep {
             plan,
-            runner: Runner::new(Registry::default()),
+            runner: Runner::new(registry),
             stop: AtomicBool::new(false),
             state: Mutex::default(),
         }
@@ -213,10 +219,10 @@ impl Loader for Beside<'_> {
     fn load(&self, path: &str) -> Result<Vec<u8>, String> {
         self.inputs
             .load(path)
-            .or_else(|_| disk::read(&self.folder.join(path).display().to_string()))
+            .or_else(|_| disk::read(&self.folder.join(path)))
     }
 }
 
-fn refused(error: Error) -> PyErr {
+pub fn refused(error: Error) -> PyErr {
     PyValueError::new_err(error.to_string())
 }

@@ -62,8 +62,8 @@ def test_a_campaign_on_a_cluster_shrinks_its_failures_there(cluster: Any) -> Non
 def test_an_error_of_a_worker_is_one_message(cluster: Any) -> None:
     from starl import _work
 
-    def fail(plan: bytes, numbers: list[int]) -> list[int]:
+    def fail(plan: _work.Plan, numbers: list[int]) -> list[int]:
         raise ValueError("the work cannot be done")
 
     with pytest.raises(starl.StarlError, match="the work cannot be done"):
-        list(_work.on_ray("ray", b"", fail, [1, 2]))
+        list(_work.on_ray("ray", b"", {}, fail, [1, 2]))

@@ -164,8 +164,7 @@ impl Campaign {
         };
         let subject = &self.subjects[subject];
         let same = |program: &str| program.to_string();
-        let mut shrinking =
-            Shrinking::new(subject, (profile, seed), finding, String::new(), &same);
+        let mut shrinking = Shrinking::new(subject, (profile, seed), finding, String::new(), &same);
         let inputs = &subject.application.resolved().inputs;
         shrinking.search(self.settings.most_trials, inputs, &mut |_: &Scenario| true);
         shrinking.into_answers()

@@ -1,6 +1,7 @@
 //! Why a sweep cannot be planned, run or written.
 
 use starl_catalog::Refusal;
+use starl_catalog::disk::reason;
 use starl_sim::read::{Place, Problem};
 use std::fmt;
 use std::io;
@@ -43,12 +44,7 @@ impl Error {
 
     /// A failure of the system with a file.
     pub(crate) fn io(path: &Path, what: &str, error: &io::Error) -> Error {
-        let reason = match error.kind() {
-            io::ErrorKind::NotFound => "there is no such file or folder".to_string(),
-            io::ErrorKind::PermissionDenied => "permission denied".to_string(),
-            io::ErrorKind::StorageFull => "the disk is full".to_string(),
-            _ => error.to_string(),
-        };
+        let reason = reason(error);
         Error::file(path, format!("cannot be {what}: {reason}"))
     }
 }

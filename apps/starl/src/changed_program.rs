@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::target;
 use starl_catalog::Application;
+use starl_catalog::disk;
 use starl_catalog::language::SUFFIX;
 use starl_catalog::programs::Registry;
 use starl_catalog::recording;
@@ -77,7 +78,7 @@ impl Loader for Changed<'_> {
         let library = self.beside(path).filter(|name| name.ends_with(SUFFIX));
         let on_disk = library.map(|name| self.path.with_file_name(name));
         match on_disk.filter(|path| path.is_file()) {
-            Some(path) => target::bytes(&path),
+            Some(path) => disk::read(&path),
             None => self.inputs.load(path),
         }
     }

@@ -75,7 +75,7 @@ impl Cluster {
             .spawn()
             .map_err(|error| {
                 let name = python.display();
-                let reason = crate::output::reason(&error);
+                let reason = starl_catalog::disk::reason(&error);
                 Failure(format!(
                     "--cluster: {name} cannot be started: {reason}; name a Python that has the package `starl` with \
                      --python or {VARIABLE}"
@@ -180,10 +180,7 @@ impl Cluster {
 
     fn read(&self, line: &str) -> Result<Answer, Failure> {
         match serde_json::from_str(line) {
-            Ok(Answer::Error(message)) => Err(Failure(format!(
-                "--cluster {}: {message}",
-                self.address
-            ))),
+            Ok(Answer::Error(message)) => Err(Failure(format!("--cluster: {message}"))),
             Ok(answer) => Ok(answer),
             Err(_) => Err(self.strange(line)),
         }
@@ -217,7 +214,7 @@ impl Drop for Cluster {
     fn drop(&mut self) {
         // It ends when its input does. One that hangs is not waited for.
         self.jobs = None;
-        for _ in 0..20 {
+        for _ in 0..40 {
             if !matches!(self.child.try_wait(), Ok(None)) {
                 return;
             }

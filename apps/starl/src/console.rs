@@ -2,7 +2,7 @@
 //! no error; a disk that is full is.
 
 use crate::failure::Failure;
-use crate::output::reason;
+use starl_catalog::disk::reason;
 use starl_lang::diagnostic::Colour;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};

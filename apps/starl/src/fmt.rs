@@ -6,8 +6,9 @@
 use crate::args::FormatArguments;
 use crate::console;
 use crate::failure::Failure;
-use crate::output::{Output, reason};
+use crate::output::Output;
 use crate::sources::{self, Source};
+use starl_catalog::disk::reason;
 use starl_lang::diagnostic::{has_errors, render};
 use starl_lang::{format, syntax};
 use std::fs::{self, File};

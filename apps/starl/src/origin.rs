@@ -5,7 +5,7 @@
 //! path too, and with it the libraries beside it, so that a trace can hold all of them under their names.
 
 use crate::output::identity;
-use crate::target;
+use starl_catalog::disk;
 use starl_catalog::examples::Example;
 use starl_catalog::language::Findings;
 use starl_sim::read::Loader;
@@ -129,7 +129,7 @@ impl Origin {
 impl Loader for Origin {
     fn load(&self, path: &str) -> Result<Vec<u8>, String> {
         match (self.path(path), &self.scenario) {
-            (Some(path), _) => target::bytes(&path),
+            (Some(path), _) => disk::read(&path),
             (None, Scenario::Example(example)) => example.load(path),
             (None, _) => Err("there is no such file".to_string()),
         }

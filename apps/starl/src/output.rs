@@ -5,6 +5,7 @@
 //! That the place can be written to is found out before the run starts.
 
 use crate::failure::Failure;
+use starl_catalog::disk::reason;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -134,17 +135,5 @@ pub fn identity(path: &Path) -> PathBuf {
     match (fs::canonicalize(folder), path.file_name()) {
         (Ok(folder), Some(name)) => folder.join(name),
         _ => path.to_path_buf(),
-    }
-}
-
-/// The reason of a failure with a file, in words.
-pub fn reason(error: &io::Error) -> String {
-    match error.kind() {
-        io::ErrorKind::NotFound => "there is no such file or folder".to_string(),
-        io::ErrorKind::PermissionDenied => "permission denied".to_string(),
-        io::ErrorKind::StorageFull => "the disk is full".to_string(),
-        io::ErrorKind::IsADirectory => "it is a folder".to_string(),
-        io::ErrorKind::NotADirectory => "a part of the path is not a folder".to_string(),
-        _ => error.to_string(),
     }
 }

@@ -6,9 +6,9 @@
 use crate::args::ReplayArguments;
 use crate::console::{self, grouped};
 use crate::failure::Failure;
-use crate::output::reason;
 use crate::report::Ending;
 use crate::{run, threads};
+use starl_catalog::disk::reason;
 use starl_catalog::programs::Registry;
 use starl_catalog::{Application, recording};
 use starl_core::{Event, Intervention, Record, Time};

@@ -1,8 +1,9 @@
 //! The texts of programs that a command is given: files, folders of them, examples, or standard input.
 
 use crate::failure::Failure;
-use crate::output::{identity, reason};
+use crate::output::identity;
 use crate::target;
+use starl_catalog::disk::reason;
 use starl_catalog::examples::Example;
 use starl_lang::check::{Libraries, NoLibraries, StandardLibraries, check};
 use starl_sim::read::Loader;

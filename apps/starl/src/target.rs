@@ -4,14 +4,12 @@ use crate::args::RunArguments;
 use crate::console;
 use crate::failure::Failure;
 use crate::origin::Origin;
-use crate::output::reason;
+use starl_catalog::disk;
 use starl_catalog::examples::{self, DEFAULT_SCENARIO, EXAMPLES};
 use starl_catalog::language::{Findings, SUFFIX};
 use starl_catalog::programs::Registry;
 use starl_catalog::{Application, Refusal};
 use starl_sim::read::{Inputs, Override, Request, Source, suggest};
-use std::fs::File;
-use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// The target: a scenario, perhaps with another program.
@@ -241,8 +239,8 @@ pub fn no_example(name: &str, other: &str) -> Failure {
 
 /// The text of a file.
 pub fn text(path: &Path) -> Result<String, Failure> {
-    let bytes =
-        bytes(path).map_err(|error| Failure::file(path, format!("cannot be read: {error}")))?;
+    let bytes = disk::read(path)
+        .map_err(|error| Failure::file(path, format!("cannot be read: {error}")))?;
     String::from_utf8(bytes).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
@@ -251,27 +249,4 @@ pub fn text(path: &Path) -> Result<String, Failure> {
             "{name}:{line}: is not text in UTF-8; save it as that"
         ))
     })
-}
-
-/// Larger files are no scenarios, world files or images.
-const LARGEST_FILE: u64 = 256 << 20;
-
-/// The content of a file, or why it cannot be read.
-pub fn bytes(path: &Path) -> Result<Vec<u8>, String> {
-    let read = || {
-        let mut bytes = Vec::new();
-        // Opening a pipe would wait for its writer.
-        let kind = std::fs::metadata(path)?;
-        if !kind.is_file() && !kind.is_dir() {
-            return Err(io::Error::other("it is not an ordinary file"));
-        }
-        let file = File::open(path)?;
-        file.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
-        Ok(bytes)
-    };
-    let bytes = read().map_err(|error: io::Error| reason(&error))?;
-    match bytes.len() as u64 > LARGEST_FILE {
-        true => Err("it is larger than 256 MiB".to_string()),
-        false => Ok(bytes),
-    }
 }

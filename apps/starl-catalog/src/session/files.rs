@@ -9,6 +9,7 @@ use starl_lang::editor::is_library;
 use starl_sim::read::Loader;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::path::Path;
 
 /// Files by path.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -19,7 +20,7 @@ pub struct Files {
 
 /// Reads a file of the disk; the error says why it cannot be read.
 #[derive(Clone, Copy, Debug)]
-pub struct Disk(pub fn(&str) -> Result<Vec<u8>, String>);
+pub struct Disk(pub fn(&Path) -> Result<Vec<u8>, String>);
 
 /// A file on disk may have changed since.
 impl PartialEq for Disk {
@@ -51,7 +52,7 @@ impl Files {
     fn content(&self, path: &str) -> Result<Cow<'_, [u8]>, String> {
         match (self.held.get(path), self.disk) {
             (Some(held), _) => Ok(Cow::Borrowed(held)),
-            (None, Some(Disk(read))) => read(path).map(Cow::Owned),
+            (None, Some(Disk(read))) => read(Path::new(path)).map(Cow::Owned),
             (None, None) => Err("there is no such file".to_string()),
         }
     }

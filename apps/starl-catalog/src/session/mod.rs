@@ -319,6 +319,11 @@ impl Session {
         write::scenario(&scenario)
     }
 
+    /// The names that programs have everywhere, by those that they have in the scenario.
+    pub fn global_names(&self) -> &BTreeMap<String, String> {
+        &self.global_names
+    }
+
     /// The report of the run so far.
     pub fn report(&self) -> Report {
         Report::of(&self.live.run)

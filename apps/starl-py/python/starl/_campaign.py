@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import json
-import threading
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from starl import _native
 from starl._errors import StarlError
 from starl._files import Scenario
-from starl._native import Engine
 from starl._requests import request
-from starl._work import Progress, on_ray, on_threads
+from starl._work import Plan, Progress, run_all
 
 
 @dataclass(frozen=True)
@@ -54,82 +53,76 @@ def test(
     shrink: int = 3,
     most_trials: int = 1000,
     threads: int | None = None,
+    processes: int | None = None,
     cluster: str | None = None,
     progress: bool | None = None,
 ) -> CampaignResults:
     """Runs a scenario under profiles of faults with many seeds, as `starl test` does, and makes the first `shrink` runs
-    that go wrong smaller, trying up to `most_trials` scenarios for each. Threads and cluster are as for `sweep`; the
-    results do not depend on them."""
+    that go wrong smaller, trying up to `most_trials` scenarios for each. Threads, processes and cluster are as for
+    `sweep`; the results do not depend on them."""
     scenario = Scenario(scenario) if isinstance(scenario, str) else scenario
-    known = {one["name"]: one for one in request(Engine(), "profiles")}
-    names = list(profiles) if profiles is not None else [name for name, one in known.items() if one["usual"]]
-    for name in names:
-        if name not in known:
-            raise StarlError(f"there is no profile {name!r}; there are {', '.join(known)}")
     chosen = range(1, seeds + 1) if isinstance(seeds, int) else seeds
-    trials = [(profile, str(seed)) for profile in names for seed in chosen]
-    portable = scenario._portable()
-    tried = _all({**portable, "trials": trials}, len(trials), "test", threads, cluster, progress)
-    failed = [number for number, one in enumerate(tried) if one["wrong"] is not None]
-    smaller = [trials[number] for number in failed[:shrink]]
-    plan = {**portable, "trials": smaller, "shrink": most_trials}
-    shrunk = _all(plan, len(smaller), "shrink", threads, cluster, progress)
+    if chosen.step != 1 or not chosen or chosen[0] < 0:
+        raise StarlError(f"{seeds}: give a range of seeds that follow each other, at least one")
+    with scenario._opened() as (engine, opened):
+        known = {one["name"]: one for one in request(engine, "profiles")}
+        names = list(profiles) if profiles is not None else [name for name, one in known.items() if one["usual"]]
+        for name in names:
+            if name not in known:
+                raise StarlError(f"there is no profile {name!r}; there are {', '.join(known)}")
+        try:
+            native = _native.Campaign(engine, opened["simulation"], names, chosen[0], len(chosen), most_trials)
+        except ValueError as error:
+            raise StarlError(str(error)) from None
+    where: dict[str, Any] = {"threads": threads, "processes": processes, "cluster": cluster}
+
+    def tell(what: str, results: Iterable[bytes], count: int) -> Iterable[bytes]:
+        return Progress(what, count, 0, progress).of(results)
+
+    numbers = list(range(len(native)))
+    results = run_all(native.attempt, _attempt, native.plan, scenario._programs, numbers, **where)
+    attempts: dict[int, bytes] = {}
+    for attempt in tell("test", results, len(numbers)):
+        attempts[json.loads(attempt)["number"]] = attempt
+    told = {number: json.loads(attempts[number]) for number in numbers}
+    failed = [number for number in numbers if told[number]["finding"] is not None]
+    smaller = failed[:shrink]
+    results = run_all(native.shrink, _shrink, native.plan, scenario._programs, smaller, **where)
+    shrunk = {json.loads(one)[0]: one for one in tell("shrink", results, len(smaller))}
+    runs = []
     failures = []
-    for place, number in enumerate(failed):
-        one = tried[number]
-        about = shrunk[place] if place < len(shrunk) else {}
-        failures.append(
-            Failure(
-                profile=one["profile"],
-                seed=int(one["seed"]),
-                wrong=one["wrong"],
-                text=one["text"],
-                digest=one["digest"],
-                scenario=about.get("scenario"),
-                before=about.get("before"),
-                after=about.get("after"),
-            )
-        )
-    runs = [{key: one[key] for key in ("profile", "seed", "outcome", "wrong", "digest")} for one in tried]
-    return CampaignResults([{**run, "seed": int(run["seed"])} for run in runs], failures)
+    for number, one in told.items():
+        profile, seed = native.at(number)
+        wrong = _wrong(one["finding"])
+        runs.append({"profile": profile, "seed": seed, "outcome": one["outcome"], "wrong": wrong, "digest": one["digest"]})
+        if wrong is not None:
+            left = native.smaller(attempts[number], shrunk[number]) if number in shrunk else None
+            about = json.loads(left) if left is not None else {}
+            sizes = {key: about.get(key) for key in ("scenario", "before", "after")}
+            failures.append(Failure(profile, seed, wrong, one["text"], one["digest"], **sizes))
+    return CampaignResults(runs, failures)
 
 
-def _all(
-    plan: dict[str, Any], count: int, what: str, threads: int | None, cluster: str | None, progress: bool | None
-) -> list[dict[str, Any]]:
-    """The answers to all trials of a plan, in order."""
-    text = json.dumps(plan).encode()
-    numbers = list(range(count))
-    if cluster is not None:
-        results = on_ray(cluster, text, _try_on_worker, numbers)
-    else:
-        # An engine keeps what it compiled last, and answers one request at a time.
-        local = threading.local()
-
-        def work(number: int) -> tuple[int, dict[str, Any]]:
-            local.engine = getattr(local, "engine", None) or Engine()
-            return _try(plan, local.engine, number)
-
-        results = on_threads(work, numbers, threads, lambda stop: None)
-    found = dict(Progress(what, count, 0, progress).of(results))
-    return [found[number] for number in numbers]
+def _wrong(finding: dict[str, str] | str | None) -> str | None:
+    return finding["violated"] if isinstance(finding, dict) else finding
 
 
-def _try(plan: dict[str, Any], engine: Engine, number: int) -> tuple[int, dict[str, Any]]:
-    profile, seed = plan["trials"][number]
-    about = {"files": plan["files"], "options": plan["options"], "profile": profile, "seed": seed}
-    if "shrink" in plan:
-        return number, request(engine, "shrink", most=plan["shrink"], **about)
-    return number, request(engine, "try", **about)
+#: The campaign that this process worked on last: programs are compiled once.
+_latest: dict[Plan, _native.Campaign] = {}
 
 
-#: The plan of this worker with its engine, which keeps what it compiled last.
-_latest: dict[bytes, tuple[dict[str, Any], Engine]] = {}
-
-
-def _try_on_worker(text: bytes, numbers: list[int]) -> list[tuple[int, dict[str, Any]]]:
-    if text not in _latest:
+def _campaign(plan: Plan) -> _native.Campaign:
+    if plan not in _latest:
         _latest.clear()
-        _latest[text] = (json.loads(text), Engine())
-    plan, engine = _latest[text]
-    return [_try(plan, engine, number) for number in numbers]
+        _latest[plan] = _native.Campaign.from_plan(plan.content, plan.load())
+    return _latest[plan]
+
+
+def _attempt(plan: Plan, numbers: list[int]) -> list[bytes]:
+    campaign = _campaign(plan)
+    return [campaign.attempt(number) for number in numbers]
+
+
+def _shrink(plan: Plan, numbers: list[int]) -> list[bytes]:
+    campaign = _campaign(plan)
+    return [campaign.shrink(number) for number in numbers]

@@ -182,19 +182,6 @@ class Scenario:
         """What the scenario is called."""
         return self._title
 
-    def _portable(self) -> dict[str, Any]:
-        """The scenario with all files that it names, as requests take it on any machine: `files` and `options`."""
-        if self._programs:
-            raise StarlError("a program in Python runs in simulations, not in sweeps and campaigns")
-        with self._opened() as (engine, opened):
-            named = engine.inputs(opened["simulation"])
-        path = self._options.get("scenario", "")
-        folder = str(Path(path).parent) + "/" if path in self._files and Path(path).parent != Path() else ""
-        files: dict[str, Any] = {
-            folder + name: _json(content) for name, content in named.items() if not name.startswith("example:")
-        }
-        return {"files": {**files, **self._files}, "options": self._options}
-
     def text(self) -> str:
         """The whole scenario as the text of a file, changes and defaults included."""
         with self._opened() as (engine, opened):
@@ -218,14 +205,6 @@ def _read(path: str | Path) -> str:
         raise StarlError(f"{path}:{line}: is not text in UTF-8; save it as that") from None
     except OSError as error:
         raise StarlError(f"{path}: cannot be read: {error.strerror}") from None
-
-
-def _json(content: bytes) -> str | list[int]:
-    """A file as a request holds it."""
-    try:
-        return content.decode()
-    except UnicodeDecodeError:
-        return list(content)
 
 
 def _leaves(name: str, value: Any) -> list[tuple[str, Any]]:

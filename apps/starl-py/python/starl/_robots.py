@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 from collections.abc import Iterable, Sequence
 from typing import Any, Literal, TypeVar
@@ -115,6 +116,16 @@ class Primitive:
 
     def _make(self, name: str) -> _native.Primitive:
         raise NotImplementedError
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Primitive:
+        other = type(self).__new__(type(self))
+        memo[id(self)] = other
+        other.__dict__.update({name: copy.deepcopy(value, memo) for name, value in vars(self).items()})
+        return other
+
+    def __getstate__(self) -> dict[str, Any]:
+        # Another process gets a program before it runs, whose primitives are still to be bound there.
+        return {name: value for name, value in vars(self).items() if name != "_bound"}
 
     def _bind(self, name: str) -> None:
         if self._bound is None:

@@ -15,7 +15,7 @@ from starl._errors import StarlError
 from starl._files import Scenario, _leaves, _toml
 from starl._requests import request
 from starl._tables import Table
-from starl._work import Progress, on_ray, on_threads
+from starl._work import Plan, Progress, run_all
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -99,6 +99,7 @@ def sweep(
     profile: str | None = None,
     out: str | PathLike[str] | None = None,
     threads: int | None = None,
+    processes: int | None = None,
     cluster: str | None = None,
     progress: bool | None = None,
 ) -> SweepResults:
@@ -106,15 +107,16 @@ def sweep(
 
     `set` gives fields of the scenario and their values: a list, or a range as text, `"0..0.4:9"`; `fleet` is the number
     of robots. `profile` adds the faults of one (docs/reference/testing.md). With `out`, rows are kept beside that file as
-    they come, so that a sweep that was stopped goes on where it was, and the file is written at the end. `cluster` is
-    "ray", or the address of a cluster of Ray, whose workers need the same wheel; else it runs on threads of this machine,
-    all cores by default. The rows are the same anywhere."""
+    they come, so that a sweep that was stopped goes on where it was, and the file is written at the end.
+
+    It runs on threads of this process, as many as there are cores unless `threads` says how many; on so many `processes`
+    of this machine; or on a `cluster` of Ray, whose workers need the same wheel: "ray" is the one that this process is
+    connected to, that RAY_ADDRESS names or that runs on this machine, "local" starts one, and other texts are addresses.
+    Programs in Python share one lock on threads. The rows are the same anywhere."""
     scenario = Scenario(scenario) if isinstance(scenario, str) else scenario
     axes = [_axis(*leaf) for name, values in (set or {}).items() for leaf in _leaves(name, values)]
-    if scenario._programs:
-        raise StarlError("a program in Python runs in simulations, not in sweeps and campaigns")
     first = _native_call(_native.Sweep.first_values, axes)
-    engine = _native.Engine()
+    engine = scenario._engine()
     options = {**scenario._options, "set": [*scenario._options.get("set", []), *first]}
     opened = request(engine, "open", files=scenario._files, options=options, topics=[])
     spread = str(seeds)
@@ -128,11 +130,8 @@ def sweep(
         _native_call(native.keep_beside, fspath(out))
     numbers = native.open()
     told = Progress("sweep", len(native), len(native) - len(numbers), progress)
-    rows: Iterable[bytes | None]
-    if cluster is None:
-        rows = on_threads(native.run, numbers, threads, native.stop)
-    else:
-        rows = on_ray(cluster, native.plan(), _run_on_worker, numbers)
+    where: dict[str, Any] = {"threads": threads, "processes": processes, "cluster": cluster, "stop": native.stop}
+    rows = run_all(native.run, _run_on_worker, native.plan, scenario._programs, numbers, **where)
     try:
         for row in told.of(rows):
             if row is not None:
@@ -145,14 +144,14 @@ def sweep(
     return results
 
 
-#: The sweep that this worker ran last: programs are compiled once.
-_latest: dict[bytes, _native.Sweep] = {}
+#: The sweep that this process ran last: programs are compiled once.
+_latest: dict[Plan, _native.Sweep] = {}
 
 
-def _run_on_worker(plan: bytes, numbers: list[int]) -> list[bytes | None]:
+def _run_on_worker(plan: Plan, numbers: list[int]) -> list[bytes | None]:
     if plan not in _latest:
         _latest.clear()
-        _latest[plan] = _native.Sweep.from_plan(plan)
+        _latest[plan] = _native.Sweep.from_plan(plan.content, plan.load())
     return [_latest[plan].run(number) for number in numbers]
 
 

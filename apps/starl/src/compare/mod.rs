@@ -28,7 +28,10 @@ pub fn compare(arguments: &CompareArguments, registry: &Registry) -> Result<bool
     let [a, b] = sides.map(|(target, set)| plan(target, set, arguments, seeds, registry));
     let plans = [a?, b?];
     let stop = stop_on_interrupt();
-    let progress = Count::new(!arguments.runs.quiet && !arguments.runs.json, 2 * seeds.count());
+    let progress = Count::new(
+        !arguments.runs.quiet && !arguments.runs.json,
+        2 * seeds.count(),
+    );
     let threads = threads::for_runs(arguments.runs.threads);
     let begun = Instant::now();
     // In turn, so that an interrupted comparison has pairs.

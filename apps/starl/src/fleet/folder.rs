@@ -1,7 +1,7 @@
 //! The folder of one life of a fleet: its epoch, each robot's storage, and the robots' traces.
 
 use crate::failure::Failure;
-use crate::output::reason;
+use starl_catalog::disk::reason;
 use starl_node::WallClock;
 use std::fs::{self, OpenOptions};
 use std::io::{ErrorKind, Write};

@@ -3,7 +3,7 @@
 use crate::args::FleetKeyArguments;
 use crate::console;
 use crate::failure::Failure;
-use crate::output::reason;
+use starl_catalog::disk::reason;
 use starl_node::link::Key;
 use std::fs::OpenOptions;
 use std::io::{self, Write};

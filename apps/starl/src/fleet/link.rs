@@ -2,7 +2,7 @@
 
 use super::file::{Fleet, LinkKind, Member};
 use crate::failure::Failure;
-use crate::output::reason;
+use starl_catalog::disk::reason;
 use starl_node::WallClock;
 use starl_node::link::udp::Udp;
 use starl_node::link::{Arrival, Impaired, Transport};

@@ -20,8 +20,8 @@ mod show;
 mod transport;
 
 use crate::failure::Failure;
-use crate::output::reason;
 use session::{Session, Step};
+use starl_catalog::disk::reason;
 use std::io;
 use std::sync::mpsc::{Receiver, TryRecvError};
 use transport::Incoming;

@@ -115,10 +115,7 @@ fn one_line(text: &str) -> String {
 
 /// The command line that finds a run again.
 fn again(target: &Target, case: &Case, arguments: &TestArguments) -> String {
-    let mut words = vec![
-        format!("{} test", console::command()),
-        quoted(&target.name),
-    ];
+    let mut words = vec![format!("{} test", console::command()), quoted(&target.name)];
     let changes = &arguments.changes;
     let options = [
         ("--scenario", changes.scenario.clone()),

@@ -37,7 +37,10 @@ pub fn test(arguments: &TestArguments, registry: &Registry) -> Result<bool, Fail
     let read = targets
         .iter()
         .map(|target| Target::read(target, arguments, registry));
-    let (targets, subjects) = read.collect::<Result<Vec<_>, Failure>>()?.into_iter().unzip();
+    let (targets, subjects) = read
+        .collect::<Result<Vec<_>, Failure>>()?
+        .into_iter()
+        .unzip();
     let settings = Settings {
         profiles,
         first_seed: arguments.first_seed.into(),

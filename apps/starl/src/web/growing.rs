@@ -1,10 +1,10 @@
 //! A trace that grows while it is served: each page gets all of it, and the rest as it comes.
 
 use crate::failure::Failure;
-use crate::output::reason;
 use axum::body::Body;
 use axum::http::header::CONTENT_TYPE;
 use axum::response::{IntoResponse, Response};
+use starl_catalog::disk::reason;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::PathBuf;

@@ -13,7 +13,6 @@ mod trace;
 
 use crate::args::{PageArguments, RunArguments, ViewArguments};
 use crate::failure::Failure;
-use crate::output::reason;
 use crate::{console, fleet, replay, run, target, threads};
 use axum::extract::{State, WebSocketUpgrade};
 use axum::http::header::CONTENT_TYPE;
@@ -25,6 +24,7 @@ use engine::Origin;
 use growing::Growing;
 use guard::{Guard, guarded};
 use page::Page;
+use starl_catalog::disk::reason;
 use starl_catalog::programs::Registry;
 use starl_catalog::session::Session;
 use std::io;

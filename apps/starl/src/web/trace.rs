@@ -1,12 +1,12 @@
 //! Serves a trace in parts, so that a page need not load all of it (RFC 9110, section 14).
 
-use crate::output::reason;
 use axum::body::Body;
 use axum::http::StatusCode;
 use axum::http::header::{
     ACCEPT_RANGES, CONTENT_LENGTH, CONTENT_RANGE, CONTENT_TYPE, HeaderMap, IF_RANGE, RANGE,
 };
 use axum::response::{IntoResponse, Response};
+use starl_catalog::disk::reason;
 use std::io::{self, SeekFrom};
 use std::ops::Range;
 use std::path::Path;

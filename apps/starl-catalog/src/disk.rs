@@ -1,0 +1,44 @@
+//! Files of the disk, for front ends that have one.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// Larger files are no scenarios, programs, world files or images.
+const LARGEST: u64 = 256 << 20;
+
+/// The content of a file, or why it cannot be read, in words.
+///
+/// # Errors
+/// Where there is no such file, it is a folder or a device, is larger than 256 MiB, or cannot be read.
+pub fn read(path: &Path) -> Result<Vec<u8>, String> {
+    let read = || {
+        let mut bytes = Vec::new();
+        // Opening a pipe would wait for its writer.
+        let kind = std::fs::metadata(path)?;
+        if !kind.is_file() && !kind.is_dir() {
+            return Err(io::Error::other("it is not an ordinary file"));
+        }
+        File::open(path)?
+            .take(LARGEST + 1)
+            .read_to_end(&mut bytes)?;
+        Ok(bytes)
+    };
+    let bytes = read().map_err(|error: io::Error| reason(&error))?;
+    match bytes.len() as u64 > LARGEST {
+        true => Err("it is larger than 256 MiB".to_string()),
+        false => Ok(bytes),
+    }
+}
+
+/// The reason of a failure with a file, in words.
+pub fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file or folder".to_string(),
+        io::ErrorKind::PermissionDenied => "permission denied".to_string(),
+        io::ErrorKind::StorageFull => "the disk is full".to_string(),
+        io::ErrorKind::IsADirectory => "it is a folder".to_string(),
+        io::ErrorKind::NotADirectory => "a part of the path is not a folder".to_string(),
+        _ => error.to_string(),
+    }
+}
