@@ -130,7 +130,11 @@ impl Application {
     /// Where a group names another program, or gives it parameters that it does not take.
     pub fn run_of(&self, scenario: Scenario) -> Result<Run, StartError> {
         let monitors = match scenario.properties.program {
-            true => self.programs.monitors(&scenario),
+            true => {
+                let mut monitors = self.programs.monitors(&scenario);
+                monitors.extend(self.registry.monitors(&scenario.fleet));
+                monitors
+            }
             false => Vec::new(),
         };
         let fleet = scenario.fleet.clone();

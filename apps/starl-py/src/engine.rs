@@ -1,7 +1,7 @@
 //! Simulations: requests and answers in JSON, as for the page in a browser, and arrays of numbers.
 
 use crate::numbers;
-use crate::robot::PyProgram;
+use crate::robot::{PyMonitor, PyProgram};
 use crate::table::{self, Table};
 use numpy::PyReadwriteArray2;
 use pyo3::exceptions::PyValueError;
@@ -120,8 +120,12 @@ pub fn registry(
 ) -> PyResult<Registry> {
     let mut registry = Registry::default();
     for (name, object) in programs.unwrap_or_default() {
-        let prototype = PyProgram::new(py, object)?;
+        let monitor = PyMonitor::new(py, &name, &object)?;
+        let prototype = PyProgram::new(py, &name, object)?;
         registry = registry.with(&name, "a program in Python", move |_| prototype.clone());
+        if let Some(monitor) = monitor {
+            registry = registry.watched_by(monitor);
+        }
     }
     Ok(registry)
 }

@@ -32,6 +32,8 @@ mod _native {
     #[pymodule_export]
     use super::judge::Judge;
     #[pymodule_export]
+    use super::robot::Draws;
+    #[pymodule_export]
     use super::robot::Handle;
     #[pymodule_export]
     use super::robot::Primitive;

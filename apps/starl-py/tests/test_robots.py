@@ -187,5 +187,136 @@ def test_bad_options_and_unbound_primitives_are_refused() -> None:
         starl.Scenario("race", program=Bad())
     with pytest.raises(starl.StarlError, match="belongs to no running program"):
         starl.ReachAvoid().active  # noqa: B018
-    with pytest.raises(starl.StarlError, match="not in sweeps"):
-        starl.sweep(starl.Scenario("race", program=Race()))
+
+
+class Geocaster(starl.RobotProgram):
+    """Robot 0 tells those near it; who hears is finished."""
+
+    def __init__(self) -> None:
+        self.near = starl.Geocast()
+        self.spoke = False
+
+    def activate(self, robot: starl.RobotHandle) -> None:
+        if robot.id == 0 and not self.spoke:
+            self.spoke = True
+            self.near.geocast(robot, "here", center=(0.0, 0.0), radius=1.5)
+            self.near.geocast(robot, "there", low=(2.5, -1, -1), high=(3.5, 1, 1))
+
+    def receive(self, robot: starl.RobotHandle, sender: int, message: Any, primitive: starl.Primitive | None) -> None:
+        assert primitive is self.near and sender == 0
+        robot.action(message)
+
+
+def test_geocast_reaches_the_robots_in_an_area() -> None:
+    floor = """
+duration = "5s"
+goal = "duration"
+
+[[robots]]
+model = "create"
+count = 4
+start = [{ position = [0, 0] }, { position = [1, 0] }, { position = [2, 0] }, { position = [3, 0] }]
+"""
+    simulation = starl.Simulation(starl.Scenario.from_text(floor, program=Geocaster()))
+    simulation.run()
+    heard = simulation.records("action").to_polars()
+    assert heard.sort("robot").select("robot", "name").rows() == [(1, "here"), (3, "there")]
+
+
+class Counting(starl.RobotProgram):
+    """Robots write a register, read it, and agree in the end."""
+
+    def __init__(self) -> None:
+        self.shared = starl.Register()
+        self.operation: int | None = None
+        self.wrote = False
+        self.seen: Any = None
+
+    def activate(self, robot: starl.RobotHandle) -> None:
+        if self.operation is None:
+            value = {"from": robot.id}
+            self.operation = self.shared.read(robot, "x") if self.wrote or robot.id else self.shared.write(robot, "x", value)
+        elif self.shared.status(self.operation) == "done":
+            self.wrote = True
+            self.seen = self.shared.value(self.operation)
+            self.operation = None
+            if self.seen == {"from": 0}:
+                robot.finish()
+
+
+@pytest.mark.parametrize("loss", [0.0, 0.3])
+def test_registers_are_read_and_written(loss: float) -> None:
+    scenario = starl.Scenario("race", program=Counting(), network={"loss": loss})
+    simulation = starl.Simulation(scenario)
+    simulation.run()
+    assert simulation.outcome == "reached", simulation.report()["failures"]
+    verdicts = {one["property"]: one["verdict"] for one in simulation.report()["properties"]}
+    assert "violated" not in verdicts.values()
+    assert [name for name, verdict in verdicts.items() if name.startswith("register.") and verdict == "holds"]
+
+
+class Obedient(starl.RobotProgram):
+    def told(self, robot: starl.RobotHandle, name: str, fields: dict[str, Any]) -> None:
+        robot.log(f"{name} {fields}")
+        if name == "stop":
+            robot.finish()
+
+
+def test_orders_of_an_operator_arrive_with_their_fields() -> None:
+    simulation = starl.Simulation(starl.Scenario("race", program=Obedient(), robots="create=2"))
+    simulation.tell("go", 1, to=(1.0, 2.0, 0.5), count=3, fast=True, who="me")
+    simulation.set_way_point("X", (1.0, 1.0))
+    simulation.tell("stop", at=2.0)
+    simulation.run()
+    assert simulation.outcome == "reached"
+    said = simulation.records("log").to_polars()
+    texts = said.filter(said["robot"] == 1)["text"].to_list()
+    assert any(text.startswith("go {") and "'count': 3" in text and "'fast': True" in text for text in texts), texts
+    assert any(text.startswith("way_points") for text in texts), texts
+
+
+SPEAKER = """program Speaker
+
+message Hello(count: Int)
+
+radio = Broadcast(name = "radio")
+said: Bool = false
+
+hello()
+    pre not said
+    eff radio.broadcast(Hello(3)); said = true; finish()
+"""
+
+
+class Listener(starl.RobotProgram):
+    def __init__(self) -> None:
+        self.radio = starl.Broadcast()
+
+    def activate(self, robot: starl.RobotHandle) -> None:
+        robot.finish()
+
+    def receive(self, robot: starl.RobotHandle, sender: int, message: Any, primitive: starl.Primitive | None) -> None:
+        raise AssertionError("it is not for this program")
+
+
+def test_a_message_of_a_program_of_the_language_is_ignored_and_logged() -> None:
+    text = """
+duration = "5s"
+goal = "duration"
+
+[[robots]]
+model = "create"
+program = "Listener"
+start = [{ position = [0, 0] }]
+
+[[robots]]
+model = "holonomic"
+program = "speaker.starl"
+start = [{ position = [1, 0] }]
+"""
+    scenario = starl.Scenario.from_text(text, files={"speaker.starl": SPEAKER}, program=Listener())
+    simulation = starl.Simulation(scenario)
+    simulation.run()
+    assert not simulation.report()["failures"]
+    logged = simulation.records("log").to_polars()["text"].to_list()
+    assert logged == ["a message of robot 1 is ignored: it is not of a program in Python"]

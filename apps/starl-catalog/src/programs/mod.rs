@@ -16,9 +16,10 @@ use radio::Radio;
 use starl_core::motion::Planner;
 use starl_core::{Duration, Program};
 use starl_primitives::{reach_avoid, reliable};
+use starl_properties::Monitor;
 use starl_race::Race;
 use starl_sim::read::suggest;
-use starl_sim::scenario::Group;
+use starl_sim::scenario::{Fleet, Group};
 use std::fmt;
 use std::sync::Arc;
 
@@ -35,6 +36,7 @@ pub struct Entry {
     /// A description, in one line.
     pub summary: String,
     make: Arc<Make>,
+    monitor: Option<Box<dyn Monitor>>,
 }
 
 type Make = dyn Fn(&mut Parameters<'_>) -> Box<dyn Program> + Send + Sync;
@@ -91,8 +93,28 @@ impl Registry {
             name: name.to_string(),
             summary: summary.to_string(),
             make: Arc::new(move |parameters| Box::new(make(parameters))),
+            monitor: None,
         });
         self
+    }
+
+    /// With properties of the program that was added last, which every run with a robot of this program is judged by.
+    #[must_use]
+    pub fn watched_by(mut self, monitor: impl Monitor + 'static) -> Registry {
+        if let Some(entry) = self.0.last_mut() {
+            entry.monitor = Some(Box::new(monitor));
+        }
+        self
+    }
+
+    /// Fresh monitors of the properties of a fleet's programs.
+    pub fn monitors(&self, fleet: &Fleet) -> Vec<Box<dyn Monitor>> {
+        let runs = |entry: &&Entry| {
+            let mut groups = fleet.groups.iter();
+            groups.any(|group| group.program == entry.name)
+        };
+        let entries = self.0.iter().filter(runs);
+        entries.filter_map(|entry| entry.monitor.clone()).collect()
     }
 
     /// All programs, in the order in which they were added.

@@ -6,22 +6,25 @@ places are in one right-handed world frame with z up. Robots are numbers, from 0
 
 from starl._campaign import CampaignResults, Failure, test
 from starl._errors import Diagnostic, StarlError
+from starl._faults import Draws
 from starl._files import Program, Scenario, examples
-from starl._robots import (
+from starl._primitives import (
     Barrier,
     Broadcast,
     FailureDetector,
+    Geocast,
     LeaderElection,
     LocalBroadcast,
     Mutex,
     Primitive,
     ReachAvoid,
+    Register,
     Registration,
-    RobotHandle,
-    RobotProgram,
     SharedMemory,
     Unicast,
 )
+from starl._properties import Fleet, Member, eventually, invariant
+from starl._robots import RobotHandle, RobotProgram
 from starl._show import Viewer
 from starl._simulation import Robot, Simulation, Snapshot, Status
 from starl._sweep import SweepResults, sweep
@@ -33,14 +36,19 @@ __all__ = [
     "Broadcast",
     "CampaignResults",
     "Diagnostic",
+    "Draws",
     "Failure",
     "FailureDetector",
+    "Fleet",
+    "Geocast",
     "LeaderElection",
     "LocalBroadcast",
+    "Member",
     "Mutex",
     "Primitive",
     "Program",
     "ReachAvoid",
+    "Register",
     "Registration",
     "Robot",
     "RobotHandle",
@@ -56,7 +64,9 @@ __all__ = [
     "Trace",
     "Unicast",
     "Viewer",
+    "eventually",
     "examples",
+    "invariant",
     "read_trace",
     "sweep",
     "test",

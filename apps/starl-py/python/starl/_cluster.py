@@ -12,15 +12,15 @@ import os
 import queue
 import sys
 import threading
-from typing import IO
+from typing import IO, Any
 
 from starl import _native
 from starl._campaign import _attempt, _shrink
 from starl._errors import StarlError
 from starl._sweep import _run_on_worker
-from starl._work import connect, on_ray
+from starl._work import Worker, connect, on_ray
 
-_WORKERS = {"sweep": _run_on_worker, "test": _attempt, "shrink": _shrink}
+_WORKERS: dict[str, Worker[Any]] = {"sweep": _run_on_worker, "test": _attempt, "shrink": _shrink}
 
 
 def main() -> None:

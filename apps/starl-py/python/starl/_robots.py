@@ -1,14 +1,16 @@
-"""Robots that are programmed in Python, and the primitives of the thesis as objects."""
+"""Robots that are programmed in Python."""
 
 from __future__ import annotations
 
-import copy
 import json
-from collections.abc import Iterable, Sequence
-from typing import Any, Literal, TypeVar
+from collections.abc import Callable, Sequence
+from typing import Any, ClassVar, TypeVar
 
 from starl import _native
 from starl._errors import StarlError
+from starl._faults import Draws, overwritten
+from starl._primitives import Primitive, encoded
+from starl._properties import of_class
 
 T = TypeVar("T")
 
@@ -65,6 +67,11 @@ class RobotHandle:
         """Whether the body touches something."""
         return self._native.bumped
 
+    @property
+    def has_storage(self) -> bool:
+        """Whether stable variables outlast a crash: see `RobotProgram.stable`."""
+        return self._native.has_storage
+
     def wheels(self, left: float, right: float) -> None:
         """Turns the wheels of a differential drive at these rim speeds, without avoidance of others."""
         self._native.wheels(left, right)
@@ -91,7 +98,7 @@ class RobotHandle:
 
     def log(self, text: str) -> None:
         """Records a line of the log."""
-        self._native.log(text)
+        self._native.log(text, False)
 
     # The robot's random stream: the same draws in every run of a scenario and seed.
 
@@ -108,235 +115,19 @@ class RobotHandle:
         return among[int(self.random() * len(among))]
 
 
-class Primitive:
-    """A primitive of a program. It gets its name, by which the robots' instances find each other, from the attribute that
-    holds it."""
-
-    _bound: _native.Primitive | None = None
-
-    def _make(self, name: str) -> _native.Primitive:
-        raise NotImplementedError
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> Primitive:
-        other = type(self).__new__(type(self))
-        memo[id(self)] = other
-        other.__dict__.update({name: copy.deepcopy(value, memo) for name, value in vars(self).items()})
-        return other
-
-    def __getstate__(self) -> dict[str, Any]:
-        # Another process gets a program before it runs, whose primitives are still to be bound there.
-        return {name: value for name, value in vars(self).items() if name != "_bound"}
-
-    def _bind(self, name: str) -> None:
-        if self._bound is None:
-            try:
-                self._bound = self._make(name)
-            except ValueError as error:
-                raise StarlError(f"{name}: {error}") from None
-
-    @property
-    def _native(self) -> _native.Primitive:
-        if self._bound is None:
-            raise StarlError("this primitive belongs to no running program; make it an attribute of one in __init__")
-        return self._bound
-
-
-class ReachAvoid(Primitive):
-    """Moves the robot to a target around obstacles and other robots."""
-
-    def __init__(self, *, vicinity: float = 0.075, planner: str = "auto", most_nodes: int = 20_000) -> None:
-        self._options = (vicinity, planner, most_nodes)
-
-    def _make(self, name: str) -> _native.Primitive:
-        return _native.Primitive.reach_avoid(name, *self._options)
-
-    def reach_avoid(self, robot: RobotHandle, target: Sequence[float]) -> None:
-        """Sets out for a target, x, y and perhaps z."""
-        x, y, z = (*target, 0.0)[:3]
-        self._native.go(robot._native, x, y, z)
-
-    def stop(self, robot: RobotHandle) -> None:
-        """Gives up the target."""
-        self._native.stop(robot._native)
-
-    @property
-    def active(self) -> bool:
-        """Whether a target is under way."""
-        return self._native.motion()[0]
-
-    @property
-    def done(self) -> bool:
-        """Whether the target was reached."""
-        return self._native.motion()[1]
-
-    @property
-    def failed(self) -> bool:
-        """Whether the target was given up."""
-        return self._native.motion()[2]
-
-    @property
-    def target(self) -> tuple[float, float, float] | None:
-        """The target under way."""
-        return self._native.target()
-
-
-class Broadcast(Primitive):
-    """Messages to all other robots, acknowledged and sent again."""
-
-    def __init__(self, *, order: Literal["unordered", "fifo", "causal", "total"] = "unordered") -> None:
-        self._order = order
-
-    def _make(self, name: str) -> _native.Primitive:
-        return _native.Primitive.broadcast(name, self._order)
-
-    def broadcast(self, robot: RobotHandle, message: Any) -> None:
-        """Sends a message that JSON can write to every other robot; in total order, to this one too."""
-        self._native.send_all(robot._native, _encoded(message))
-
-
-class LocalBroadcast(Primitive):
-    """Messages to all robots in reach of the radio, once, without acknowledgement."""
-
-    def _make(self, name: str) -> _native.Primitive:
-        return _native.Primitive.local_broadcast(name)
-
-    def broadcast(self, robot: RobotHandle, message: Any) -> None:
-        """Sends a message that JSON can write."""
-        self._native.send_all(robot._native, _encoded(message))
-
-
-class Unicast(Primitive):
-    """Messages to one robot, acknowledged and sent again."""
-
-    def _make(self, name: str) -> _native.Primitive:
-        return _native.Primitive.unicast(name)
-
-    def send(self, robot: RobotHandle, to: int, message: Any) -> None:
-        """Sends a message that JSON can write to a robot."""
-        self._native.send(robot._native, to, _encoded(message))
-
-
-class Mutex(Primitive):
-    """Mutual exclusion on named resources."""
-
-    def __init__(self, *, algorithm: Literal["permission", "quorum", "lease"] = "permission") -> None:
-        self._algorithm = algorithm
-
-    def _make(self, name: str) -> _native.Primitive:
-        return _native.Primitive.mutex(name, self._algorithm)
-
-    def acquire(self, robot: RobotHandle, resources: Iterable[str]) -> None:
-        """Asks for all resources at once."""
-        self._native.acquire(robot._native, sorted(resources))
-
-    def release(self, robot: RobotHandle, resources: Iterable[str]) -> None:
-        """Gives resources back."""
-        self._native.release(robot._native, sorted(resources))
-
-    @property
-    def held(self) -> bool:
-        """Whether this robot alone holds them."""
-        return self._native.held()[0]
-
-    @property
-    def waiting(self) -> bool:
-        """Whether resources are asked for and not held yet."""
-        return self._native.held()[1]
-
-
-class FailureDetector(Primitive):
-    """Notices which robots have failed, by their heartbeats."""
-
-    def _make(self, name: str) -> _native.Primitive:
-        return _native.Primitive.failure_detector(name)
-
-    @property
-    def suspects(self) -> list[int]:
-        """The robots that are believed to have failed; it may be wrong."""
-        return self._native.suspects()
-
-
-class LeaderElection(Primitive):
-    """Elects one robot; to replace a leader that has failed, the program also needs a FailureDetector."""
-
-    def _make(self, name: str) -> _native.Primitive:
-        return _native.Primitive.leader_election(name)
-
-    def elect(self, robot: RobotHandle) -> None:
-        """Takes part in the election."""
-        self._native.elect(robot._native)
-
-    @property
-    def leader(self) -> int | None:
-        """The leader, as far as it is known."""
-        return self._native.leader()
-
-
-class Registration(Primitive):
-    """Robots that register agree on who is registered."""
-
-    def _make(self, name: str) -> _native.Primitive:
-        return _native.Primitive.registration(name)
-
-    def register(self, robot: RobotHandle) -> None:
-        """Asks to be registered."""
-        self._native.register(robot._native)
-
-    def unregister(self, robot: RobotHandle) -> None:
-        """Ends the registration."""
-        self._native.unregister(robot._native)
-
-    @property
-    def members(self) -> list[int] | None:
-        """The robots on which all members agree; None before they do."""
-        return self._native.members()
-
-
-class Barrier(Primitive):
-    """A place in the program at which all robots wait for each other."""
-
-    def _make(self, name: str) -> _native.Primitive:
-        return _native.Primitive.barrier(name)
-
-    def arrive(self, robot: RobotHandle) -> None:
-        """This robot has arrived."""
-        self._native.arrive(robot._native)
-
-    @property
-    def passed(self) -> bool:
-        """Whether all have arrived since this robot did."""
-        return self._native.passed()[0]
-
-    @property
-    def waiting(self) -> bool:
-        """Whether this robot waits for others."""
-        return self._native.passed()[1]
-
-
-class SharedMemory(Primitive):
-    """Variables that all robots read and write; the last write is seen by all in the end."""
-
-    def _make(self, name: str) -> _native.Primitive:
-        return _native.Primitive.shared_memory(name)
-
-    def write(self, robot: RobotHandle, variable: str, value: Any) -> None:
-        """Writes a value that JSON can write."""
-        self._native.write(robot._native, variable, _encoded(value))
-
-    def read(self, variable: str, default: Any = None) -> Any:
-        """The value that is known; the default before the first write."""
-        found = self._native.read(variable)
-        return default if found is None else json.loads(found)
-
-
 class RobotProgram:
-    """A program of a robot in Python: override `start`, `activate` and `receive`.
+    """A program of a robot in Python: override `start`, `activate`, `receive` and `told`.
 
     Make primitives in `__init__`, one attribute each. Each robot runs a deep copy of the object, and a restarted one a
     fresh copy, so attributes are the robot's own variables. Calls must depend on nothing else: draw random numbers from the
     robot, read no clock and no global that changes, and do not iterate over sets of texts, whose order differs from
     process to process. Then the run repeats exactly.
     """
+
+    #: The names of attributes that outlast a crash on robots with storage (docs/reference/scenario.md#storage). They hold
+    #: values that JSON can write, are written after each call that changes them, and have their stored values when `start`
+    #: is called again.
+    stable: ClassVar[tuple[str, ...]] = ()
 
     def start(self, robot: RobotHandle) -> None:
         """Called once, and again when the robot restarts after a crash."""
@@ -347,24 +138,56 @@ class RobotProgram:
     def receive(self, robot: RobotHandle, sender: int, message: Any, primitive: Primitive | None) -> None:
         """Called when a primitive delivers a message."""
 
-    def _primitives(self) -> list[_native.Primitive]:
-        """The native primitives, named after their attributes."""
+    def told(self, robot: RobotHandle, name: str, fields: dict[str, Any]) -> None:
+        """Called when an operator tells the robot something, and with the name "way_points" when the waypoints have
+        changed. Places are lists, times are seconds, and robots are numbers."""
+
+    def corrupt(self, draws: Draws) -> None:
+        """Overwrites the robot's variables at random, as a fault of a scenario does: every attribute that is a number, a
+        text or a truth value, or that holds such in lists, tuples, sets and dictionaries, gets another value of its type.
+        Override it for attributes of other types."""
+        for name, value in sorted(vars(self).items()):
+            if not isinstance(value, Primitive):
+                setattr(self, name, overwritten(value, draws))
+
+    # What the native module calls.
+
+    def _prepare(self) -> tuple[list[tuple[Primitive, _native.Primitive]], bool]:
+        """The primitives, which get the names of their attributes, and whether there are stable variables."""
+        for name in self.stable:
+            if not hasattr(self, name):
+                raise StarlError(f"{type(self).__name__}.stable: there is no attribute {name!r}; set it in __init__")
         found = [(name, value) for name, value in vars(self).items() if isinstance(value, Primitive)]
         for name, primitive in found:
             primitive._bind(name)
-        return [primitive._native for _, primitive in found]
+        return [(primitive, primitive._native) for _, primitive in found], bool(self.stable)
 
-    def _receive(self, native: _native.Handle, sender: int, port: int, content: bytes) -> None:
-        own = (value for value in vars(self).values() if isinstance(value, Primitive))
-        primitive = next((one for one in own if one._native.port == port), None)
-        self.receive(RobotHandle(native), sender, json.loads(content), primitive)
-
-    def _start(self, native: _native.Handle) -> None:
+    def _start(self, native: _native.Handle, stored: dict[str, list[int]]) -> None:
+        for name in self.stable:
+            if name in stored:
+                setattr(self, name, json.loads(bytes(stored[name])))
         self.start(RobotHandle(native))
 
     def _activate(self, native: _native.Handle) -> None:
         self.activate(RobotHandle(native))
 
+    def _receive(self, native: _native.Handle, sender: int, primitive: Primitive | None, content: bytes | None) -> None:
+        try:
+            message = json.loads(content or b"")
+        except ValueError:
+            native.log(f"a message of robot {sender} is ignored: it is not of a program in Python", True)
+            return
+        self.receive(RobotHandle(native), sender, message, primitive)
 
-def _encoded(message: Any) -> bytes:
-    return json.dumps(message, separators=(",", ":"), allow_nan=False).encode()
+    def _told(self, native: _native.Handle, name: str, fields: str) -> None:
+        self.told(RobotHandle(native), name, json.loads(fields))
+
+    def _corrupt(self, draws: _native.Draws) -> None:
+        self.corrupt(Draws(draws))
+
+    def _stable_values(self) -> dict[str, bytes]:
+        return {name: encoded(getattr(self, name)) for name in self.stable}
+
+    @classmethod
+    def _properties(cls) -> list[tuple[str, Callable[..., str | None], float | None]]:
+        return of_class(cls)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from starl._errors import Diagnostic
+from starl._errors import StarlError
 from starl._files import Scenario
 from starl._native import Engine
 from starl._requests import request
@@ -292,8 +293,9 @@ class Simulation:
         self.apply({"push": {"robot": robot, "by": _point(by)}}, at=at)
 
     def tell(self, name: str, *robots: int, at: float | None = None, **fields: Any) -> None:
-        """An operator tells robots something; all of them if none are named."""
-        order = {"name": name, "fields": fields}
+        """An operator tells robots something; all of them if none are named. Fields are truth values, numbers, texts and
+        places."""
+        order = {"name": name, "fields": [[field, _value(field, value)] for field, value in fields.items()]}
         self.apply({"tell": {"robots": list(robots), "order": order}}, at=at)
 
     def set_way_point(self, name: str, position: Sequence[float], *, at: float | None = None) -> None:
@@ -329,3 +331,19 @@ def _point(numbers: Sequence[float]) -> dict[str, float]:
     if not all(np.isfinite([x, y, z])):
         raise ValueError(f"{numbers!r} is not a point; give x, y and z")
     return {"x": x, "y": y, "z": z}
+
+
+def _value(name: str, value: Any) -> dict[str, Any]:
+    """A field of an order."""
+    match value:
+        case bool():
+            return {"bool": value}
+        case int():
+            return {"int": value}
+        case float():
+            return {"float": value}
+        case str():
+            return {"text": value}
+        case [_, _] | [_, _, _]:
+            return {"point": _point(value)}
+    raise StarlError(f"{name}: an order has truth values, numbers, texts and places, not {value!r}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import multiprocessing
 import os
 import pickle
@@ -132,7 +133,7 @@ def connect(address: str) -> int:
             # Ray itself would try for minutes.
             if (place := urlsplit(address if "://" in address else f"//{address}")).port:
                 socket.create_connection((place.hostname, place.port), timeout=5.0).close()
-            ray.init(address=named, log_to_driver=False, logging_level="ERROR")
+            ray.init(address=named, log_to_driver=False, logging_level=logging.ERROR)
         except (OSError, RuntimeError, ValueError, ImportError) as error:
             if tries and not isinstance(error, OSError):
                 continue

@@ -6,6 +6,7 @@
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use starl_core::effect::Effects;
+use starl_core::event::Level;
 use starl_core::motion::{Body, Obstacles};
 use starl_core::sensor::{Contact, Detection, Ray};
 use starl_core::{Command, Estimate, Point, Random, Robot, RobotId, Sensors, Time, View, WayPoint};
@@ -31,6 +32,7 @@ pub struct Context {
     proximity: Vec<Ray>,
     detections: Vec<Detection>,
     holding: Option<u32>,
+    has_storage: bool,
     pub effects: Effects,
     pub random: Random,
 }
@@ -50,6 +52,7 @@ impl Context {
             proximity: sensors.proximity.to_vec(),
             detections: sensors.detections.to_vec(),
             holding: sensors.holding,
+            has_storage: robot.has_storage(),
             effects: Effects::default(),
             random: robot.random().clone(),
         }
@@ -75,8 +78,7 @@ impl Handle {
     pub fn with<T>(&self, run: impl FnOnce(&mut Robot<'_>) -> T) -> PyResult<T> {
         let mut context = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(context) = context.as_mut() else {
-            let message = "this robot belongs to a call that has returned; use the one that is passed to each call";
-            return Err(PyRuntimeError::new_err(message));
+            return Err(ended());
         };
         let view = View {
             id: context.id,
@@ -100,6 +102,12 @@ impl Handle {
             &mut context.random,
         )))
     }
+}
+
+fn ended() -> PyErr {
+    PyRuntimeError::new_err(
+        "this robot belongs to a call that has returned; use the one that is passed to each call",
+    )
 }
 
 #[pymethods]
@@ -153,6 +161,15 @@ impl Handle {
         self.with(|robot| robot.sensors().bumper.is_some())
     }
 
+    /// Whether stable variables outlast a crash.
+    #[getter]
+    fn has_storage(&self) -> PyResult<bool> {
+        let context = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        context
+            .as_ref()
+            .map_or_else(|| Err(ended()), |context| Ok(context.has_storage))
+    }
+
     fn finish(&self) -> PyResult<()> {
         self.with(|robot| robot.finish())
     }
@@ -166,8 +183,12 @@ impl Handle {
         self.with(|robot| robot.action(name))
     }
 
-    fn log(&self, text: String) -> PyResult<()> {
-        self.with(|robot| robot.log(starl_core::event::Level::Info, text))
+    fn log(&self, text: String, warning: bool) -> PyResult<()> {
+        let level = match warning {
+            true => Level::Warning,
+            false => Level::Info,
+        };
+        self.with(|robot| robot.log(level, text))
     }
 
     /// Turns the wheels of a differential drive at these rim speeds, metres per second.
@@ -195,4 +216,32 @@ impl Handle {
 /// x, y and z.
 pub fn numbers(point: Point) -> Place {
     (point.x, point.y, point.z)
+}
+
+/// Random numbers for a fault that overwrites variables.
+#[pyclass(frozen, module = "starl._native")]
+pub struct Draws(Mutex<Random>);
+
+impl Draws {
+    /// The draws that follow in a stream.
+    pub fn of(random: &Random) -> Draws {
+        Draws(Mutex::new(random.clone()))
+    }
+
+    /// The stream after the draws.
+    pub fn end(&self) -> Random {
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone()
+    }
+}
+
+#[pymethods]
+impl Draws {
+    /// A number from 0 to 1.
+    fn random(&self) -> f64 {
+        let mut random = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        random.uniform()
+    }
 }

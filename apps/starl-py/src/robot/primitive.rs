@@ -1,18 +1,20 @@
 //! Primitives as objects of Python: state machines that a program owns. Their classes in Python give them names.
 
-use super::handle::{Handle, numbers};
+use super::handle::{Handle, Place, numbers};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use starl_core::motion::Planner;
-use starl_core::{Point, RobotId};
+use starl_core::{Area, Point, Random, RobotId};
 use starl_primitives::broadcast::Order;
 use starl_primitives::mutex::{self, Algorithm};
+use starl_primitives::register::{OperationError, OperationId};
 use starl_primitives::{
-    Barrier, Broadcast, FailureDetector, LeaderElection, LocalBroadcast, Mutex, ReachAvoid,
-    Registration, SharedMemory, Unicast, barrier, election, failure_detector, reach_avoid,
-    registration, reliable, shared_memory,
+    Barrier, Broadcast, FailureDetector, Geocast, LeaderElection, LocalBroadcast, Mutex,
+    ReachAvoid, Register, Registration, SharedMemory, Unicast, barrier, election, failure_detector,
+    reach_avoid, register, registration, reliable, shared_memory,
 };
+use std::collections::BTreeMap;
 use std::sync::{Mutex as Lock, MutexGuard, PoisonError};
 
 /// A primitive of a program.
@@ -32,6 +34,29 @@ enum Kind {
     Registration(Box<Registration>),
     Barrier(Box<Barrier>),
     SharedMemory(Box<SharedMemory>),
+    Geocast(Box<Geocast>),
+    Register(Box<Operations>),
+}
+
+/// Registers, and the operations that the program has begun, by their numbers in Python.
+#[derive(Clone)]
+struct Operations {
+    register: Register,
+    begun: BTreeMap<u64, OperationId>,
+    last: u64,
+}
+
+impl Operations {
+    fn begin(&mut self, begun: Result<OperationId, OperationError>) -> PyResult<u64> {
+        let id = begun.map_err(|error| PyValueError::new_err(error.to_string()))?;
+        // Results that the registers have forgotten need no number.
+        let register = &self.register;
+        self.begun
+            .retain(|_, id| register.status(*id) != register::Status::Unknown);
+        self.last += 1;
+        self.begun.insert(self.last, id);
+        Ok(self.last)
+    }
 }
 
 /// The primitive of this kind, or the error that it is of another.
@@ -154,15 +179,108 @@ impl Primitive {
         Primitive::of(Kind::SharedMemory(Box::new(memory)))
     }
 
+    #[staticmethod]
+    fn geocast(name: &str) -> Primitive {
+        let geocast = Geocast::new(name, reliable::Options::default());
+        Primitive::of(Kind::Geocast(Box::new(geocast)))
+    }
+
+    #[staticmethod]
+    fn registers(name: &str) -> Primitive {
+        Primitive::of(Kind::Register(Box::new(Operations {
+            register: Register::new(name, None, register::Options::default()),
+            begun: BTreeMap::new(),
+            last: 0,
+        })))
+    }
+
+    /// Sends bytes to the other robots in an area: a circle of a centre and a radius, or a box of two corners.
+    fn send_into(
+        &self,
+        robot: &Handle,
+        circle: Option<(Place, f64)>,
+        corners: Option<(Place, Place)>,
+        content: Vec<u8>,
+    ) -> PyResult<()> {
+        let point = |(x, y, z): Place| Point::new(x, y, z);
+        let area = match (circle, corners) {
+            (Some((center, radius)), None) if radius.is_finite() && radius >= 0.0 => Area::Circle {
+                center: point(center),
+                radius,
+            },
+            (None, Some((low, high))) => Area::Box {
+                low: point(low),
+                high: point(high),
+            },
+            _ => {
+                let message =
+                    "give a centre with a radius of at least 0 m, or the two corners of a box";
+                return Err(PyValueError::new_err(message));
+            }
+        };
+        let mut kind = self.kind();
+        let geocast = of_kind!(kind, Geocast);
+        robot.with(|robot| {
+            geocast.geocast(robot, &content, &area);
+        })
+    }
+
+    /// Begins to read a register, and gives the number of the operation.
+    fn begin_read(&self, robot: &Handle, register: &str) -> PyResult<u64> {
+        let mut kind = self.kind();
+        let operations = of_kind!(kind, Register);
+        let begun = robot.with(|robot| operations.register.read(robot, register))?;
+        operations.begin(begun)
+    }
+
+    /// Begins to write a register, and gives the number of the operation.
+    fn begin_write(&self, robot: &Handle, register: &str, value: Vec<u8>) -> PyResult<u64> {
+        let mut kind = self.kind();
+        let operations = of_kind!(kind, Register);
+        let value = value[..].into();
+        let begun = robot.with(|robot| operations.register.write(robot, register, value))?;
+        operations.begin(begun)
+    }
+
+    /// How far an operation is, in a word, and the value that was read or written.
+    fn status(&self, operation: u64) -> PyResult<(&'static str, Option<Vec<u8>>)> {
+        let mut kind = self.kind();
+        let operations = of_kind!(kind, Register);
+        let id = operations.begun.get(&operation);
+        let status = id.map_or(register::Status::Unknown, |id| {
+            operations.register.status(*id)
+        });
+        Ok(match status {
+            register::Status::Pending => ("pending", None),
+            register::Status::NoQuorum => ("no_quorum", None),
+            register::Status::Done(value) => ("done", value.map(|value| value.to_vec())),
+            // Python offers no claims.
+            register::Status::Lost | register::Status::Refused | register::Status::Unknown => {
+                ("unknown", None)
+            }
+        })
+    }
+
+    /// Gives up an operation, or forgets its result.
+    fn withdraw(&self, robot: &Handle, operation: u64) -> PyResult<()> {
+        let mut kind = self.kind();
+        let operations = of_kind!(kind, Register);
+        match operations.begun.remove(&operation) {
+            Some(id) => robot.with(|robot| operations.register.withdraw(robot, id)),
+            None => Ok(()),
+        }
+    }
+
+    /// The value of this robot's own copy of a register.
+    fn known(&self, register: &str) -> PyResult<Option<Vec<u8>>> {
+        let mut kind = self.kind();
+        let operations = of_kind!(kind, Register);
+        Ok(operations.register.known(register).map(<[u8]>::to_vec))
+    }
+
     fn __deepcopy__(&self, memo: &Bound<'_, PyDict>) -> Primitive {
         let _ = memo;
         Primitive::of(self.kind().clone())
-    }
-
-    /// The endpoint of messages that it delivers.
-    #[getter]
-    fn port(&self) -> u32 {
-        self.visit(|primitive| primitive.port()).0
     }
 
     fn go(&self, robot: &Handle, x: f64, y: f64, z: f64) -> PyResult<()> {
@@ -331,6 +449,17 @@ impl Primitive {
             Kind::Registration(primitive) => visit(&mut **primitive),
             Kind::Barrier(primitive) => visit(&mut **primitive),
             Kind::SharedMemory(primitive) => visit(&mut **primitive),
+            Kind::Geocast(primitive) => visit(&mut **primitive),
+            Kind::Register(operations) => visit(&mut operations.register),
+        }
+    }
+
+    /// Overwrites state at random that primitives of programs in the language may lose so.
+    pub fn corrupt(&self, random: &mut Random) {
+        match &mut *self.kind() {
+            Kind::Barrier(barrier) => barrier.corrupt(random),
+            Kind::Registration(registration) => registration.corrupt(random),
+            _ => {}
         }
     }
 
