@@ -3,6 +3,8 @@
 mod bad_input;
 mod bench_workloads;
 mod check_programs;
+#[cfg(unix)]
+mod cluster_option;
 mod compare_command;
 mod diagram_command;
 mod exit_status;
