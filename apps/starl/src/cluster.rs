@@ -9,9 +9,9 @@ use crate::console;
 use crate::failure::Failure;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use std::collections::VecDeque;
-use std::ffi::OsString;
-use std::io::{BufRead, BufReader, Write};
+use starl_catalog::disk::reason;
+use std::ffi::{OsStr, OsString};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -29,8 +29,8 @@ pub struct Cluster {
     /// None once no more jobs can be given.
     jobs: Option<ChildStdin>,
     answers: Receiver<String>,
-    /// The last lines of the interpreter's error stream.
-    errors: Option<JoinHandle<VecDeque<String>>>,
+    /// The last line of the interpreter's error stream.
+    errors: Option<JoinHandle<Option<String>>>,
     processors: usize,
 }
 
@@ -67,43 +67,16 @@ impl Cluster {
         let named = arguments.python.clone().map(OsString::from);
         let named = named.or_else(|| std::env::var_os(VARIABLE).filter(|name| !name.is_empty()));
         let python = named.unwrap_or_else(|| "python3".into());
-        let mut child = Command::new(&python)
-            .args(["-m", "starl._cluster", address, env!("CARGO_PKG_VERSION")])
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .map_err(|error| {
-                let name = python.display();
-                let reason = starl_catalog::disk::reason(&error);
-                Failure(format!(
-                    "--cluster: {name} cannot be started: {reason}; name a Python that has the package `starl` with \
-                     --python or {VARIABLE}"
-                ))
-            })?;
+        let mut child = start(&python, address)?;
         let (sender, answers) = channel();
         if let Some(output) = child.stdout.take() {
             std::thread::spawn(move || {
-                let lines = BufReader::new(output).lines().map_while(Result::ok);
-                for line in lines {
-                    if sender.send(line).is_err() {
-                        break;
-                    }
-                }
+                let mut lines = BufReader::new(output).lines().map_while(Result::ok);
+                lines.try_for_each(|line| sender.send(line))
             });
         }
-        let errors = child.stderr.take().map(|output| {
-            std::thread::spawn(move || {
-                let mut last = VecDeque::new();
-                for line in BufReader::new(output).lines().map_while(Result::ok) {
-                    if last.len() == 10 {
-                        last.pop_front();
-                    }
-                    last.push_back(line);
-                }
-                last
-            })
-        });
+        let errors = child.stderr.take();
+        let errors = errors.map(|output| std::thread::spawn(move || last_line(output)));
         let mut cluster = Cluster {
             address: address.clone(),
             python,
@@ -198,8 +171,7 @@ impl Cluster {
     /// The interpreter has ended by itself.
     fn gone(&mut self) -> Failure {
         let last = self.errors.take().and_then(|reader| reader.join().ok());
-        let last = last.unwrap_or_default();
-        let said = last.iter().rev().find(|line| !line.trim().is_empty());
+        let said = last.flatten();
         let said = said.map_or(String::new(), |line| format!(": {}", line.trim()));
         Failure(format!(
             "--cluster: {} -m starl._cluster has ended{said}; it needs a Python with the package `starl` of `make wheel`, \
@@ -223,6 +195,27 @@ impl Drop for Cluster {
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
+}
+
+/// Starts the interpreter.
+fn start(python: &OsStr, address: &str) -> Result<Child, Failure> {
+    let arguments = ["-m", "starl._cluster", address, env!("CARGO_PKG_VERSION")];
+    let mut command = Command::new(python);
+    let command = command.args(arguments);
+    let command = command.stdin(Stdio::piped()).stdout(Stdio::piped());
+    command.stderr(Stdio::piped()).spawn().map_err(|error| {
+        let (name, reason) = (python.display(), reason(&error));
+        Failure(format!(
+            "--cluster: {name} cannot be started: {reason}; name a Python that has the package `starl` with --python or \
+             {VARIABLE}"
+        ))
+    })
+}
+
+/// The last line of a stream that has letters, when it has ended.
+fn last_line(stream: impl Read) -> Option<String> {
+    let lines = BufReader::new(stream).lines().map_while(Result::ok);
+    lines.filter(|line| !line.trim().is_empty()).last()
 }
 
 /// Where runs are made.

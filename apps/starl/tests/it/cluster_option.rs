@@ -25,7 +25,11 @@ fn refused(test: &str, script: &str, expected: &[&str]) {
         arguments.extend(["--cluster", "ray", "--python", &python]);
         let output = starl(&folder, &arguments);
         let said = stderr(&output);
-        assert_eq!((status(&output), stdout(&output).as_str()), (2, ""), "{said}");
+        assert_eq!(
+            (status(&output), stdout(&output).as_str()),
+            (2, ""),
+            "{said}"
+        );
         assert_eq!(said.lines().count(), 1, "{said}");
         for part in expected {
             assert!(said.contains(part), "{part} is not in {said}");
@@ -37,14 +41,22 @@ fn refused(test: &str, script: &str, expected: &[&str]) {
 #[test]
 fn an_interpreter_without_the_package_is_named_with_its_last_words() {
     let script = "echo Traceback >&2; echo 'No module named starl' >&2; exit 1";
-    let expected = ["--cluster: ", "has ended: No module named starl; ", "--python or STARL_PYTHON"];
+    let expected = [
+        "--cluster: ",
+        "has ended: No module named starl; ",
+        "--python or STARL_PYTHON",
+    ];
     refused("cluster_without_package", script, &expected);
 }
 
 #[test]
 fn an_interpreter_that_refuses_gives_its_reason() {
     let script = r#"echo '{"error":"a cluster needs Ray"}'"#;
-    refused("cluster_refuses", script, &["error: --cluster: a cluster needs Ray\n"]);
+    refused(
+        "cluster_refuses",
+        script,
+        &["error: --cluster: a cluster needs Ray\n"],
+    );
 }
 
 #[test]
@@ -62,7 +74,8 @@ fn an_interpreter_that_ends_in_the_middle_is_an_error() {
 
 #[test]
 fn a_result_of_another_shape_is_an_error() {
-    let script = r#"echo '{"ready":{"processors":2}}'; read job; echo '{"result":{"number":0}}'; read job"#;
+    let script =
+        r#"echo '{"ready":{"processors":2}}'; read job; echo '{"result":{"number":0}}'; read job"#;
     let expected = ["answers what this command does not understand"];
     refused("cluster_shape", script, &expected);
 }
@@ -70,16 +83,23 @@ fn a_result_of_another_shape_is_an_error() {
 #[test]
 fn the_interpreter_learns_the_address_and_the_version_and_gets_the_job() {
     let folder = folder("cluster_job");
-    let script = r#"echo "$@" > called; echo '{"ready":{"processors":2}}'; read job; echo "$job" > job"#;
+    let script =
+        r#"echo "$@" > called; echo '{"ready":{"processors":2}}'; read job; echo "$job" > job"#;
     let python = interpreter(&folder, script);
     let arguments = ["sweep", "race", "--seeds", "3", "--cluster", "ray://host:1"];
     let mut sweep = command(&folder, &arguments);
     // The variable stands in for the option.
-    let output = sweep.env("STARL_PYTHON", &python).output().expect("it ends");
+    let output = sweep
+        .env("STARL_PYTHON", &python)
+        .output()
+        .expect("it ends");
     assert_eq!(status(&output), 2);
     let called = fs::read_to_string(folder.join("called")).expect("it was called");
     let version = env!("CARGO_PKG_VERSION");
-    assert_eq!(called, format!("-m starl._cluster ray://host:1 {version}\n"));
+    assert_eq!(
+        called,
+        format!("-m starl._cluster ray://host:1 {version}\n")
+    );
     let job = fs::read_to_string(folder.join("job")).expect("it had a job");
     let job: serde_json::Value = serde_json::from_str(&job).expect("a job is JSON");
     assert_eq!(job["work"], "sweep");
@@ -90,7 +110,10 @@ fn the_interpreter_learns_the_address_and_the_version_and_gets_the_job() {
 fn the_options_belong_together() {
     let folder = folder("cluster_options");
     for (arguments, expected) in [
-        (["--cluster", "ray", "--threads", "2"], "cannot be used with"),
+        (
+            ["--cluster", "ray", "--threads", "2"],
+            "cannot be used with",
+        ),
         (["--python", "x", "--seeds", "1"], "--cluster"),
     ] {
         let all = [&["test", "race"][..], &arguments].concat();
