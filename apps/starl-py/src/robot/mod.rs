@@ -178,7 +178,7 @@ impl Program for PyProgram {
         }
         let values = Python::attach(|py| {
             let values = self.object.call_method0(py, "_stable_values");
-            let values = values.and_then(|values| Ok(values.extract(py)?));
+            let values = values.and_then(|values| values.extract(py));
             values.map_err(|error: PyErr| text(py, &error))
         });
         let values: BTreeMap<String, Vec<u8>> = match values {

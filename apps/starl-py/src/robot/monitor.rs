@@ -79,7 +79,7 @@ impl PyMonitor {
     /// What is wrong with a property; none if it holds.
     fn judge(py: Python<'_>, property: &Property, fleet: &Bound<'_, PyTuple>) -> Option<String> {
         let judged = property.judge.call1(py, fleet.clone());
-        let judged = judged.and_then(|judged| Ok(judged.extract::<Option<String>>(py)?));
+        let judged = judged.and_then(|judged| judged.extract::<Option<String>>(py));
         judged.unwrap_or_else(|error| Some(format!("cannot be judged: {}", text(py, &error))))
     }
 }
