@@ -136,7 +136,7 @@ impl Libraries for Beside {
 
     fn model(&self, path: &str) -> Result<Vec<u8>, String> {
         match &self.folder {
-            Folder::Disk(folder) => target::bytes(&folder.join(path)),
+            Folder::Disk(folder) => starl_catalog::disk::read(&folder.join(path)),
             Folder::Example(example) => example.load(path),
         }
     }

@@ -1,8 +1,8 @@
 //! The texts that are open, the files beside them, and what is known of each.
 
 use super::location;
-use crate::target;
 use lsp_types::Uri;
+use starl_catalog::disk;
 use starl_lang::check::{Libraries, StandardLibraries};
 use starl_lang::editor::{Analysis, is_library};
 use starl_lang::syntax::MAX_LENGTH;
@@ -257,7 +257,7 @@ impl Libraries for Beside<'_> {
         let path = folder.map(|folder| folder.join(path));
         let path = path.ok_or_else(|| "there is no such file".to_string())?;
         self.asked.borrow_mut().insert(path.clone());
-        target::bytes(&path)
+        disk::read(&path)
     }
 
     fn names(&self) -> Vec<String> {
