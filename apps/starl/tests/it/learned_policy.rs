@@ -33,7 +33,10 @@ fn the_network_is_a_part_of_the_run() {
         "that of the command itself"
     );
     assert_eq!(
-        digest(&folder, &["run", "crossing.toml", "--trace", "a.mcap"]),
+        digest(
+            &folder,
+            &["run", "crossing.toml", "--trace", "a.mcap", "--inputs"]
+        ),
         run
     );
     for name in ["crossing.toml", "crossing.starl", "crossing.onnx"] {
