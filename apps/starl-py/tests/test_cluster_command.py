@@ -116,7 +116,7 @@ def test_a_killed_node_changes_nothing(command: str, cluster: Any, tmp_path: Pat
 
 
 def test_an_interrupted_sweep_keeps_its_rows_and_goes_on(command: str, cluster: Any, tmp_path: Path) -> None:
-    sweep = [command, "sweep", "race", "--seeds", "200", "--out", "rows.csv", "--cluster", cluster.client, "--python", sys.executable]
+    sweep = [command, "sweep", "race", "--seeds", "200", "--out", "rows.csv", "--cluster", cluster.address, "--python", sys.executable]
     journal = tmp_path / "rows.csv.journal"
     process = subprocess.Popen(sweep, cwd=tmp_path, stdout=subprocess.PIPE, text=True, start_new_session=True)
     while process.poll() is None and not (journal.exists() and journal.read_bytes().count(b"\n") > 5):
