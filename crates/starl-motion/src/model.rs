@@ -127,7 +127,7 @@ pub trait Model: Debug + Send + Sync {
     /// remembers from one estimate to the next.
     fn track(&self, tracking: &mut Tracking, estimate: &Estimate, goal: &Goal) -> Command;
 
-    /// What there is to learn from an estimate while the robot is to stand still: by default nothing.
+    /// Learns from an estimate while the robot is to stand still: by default nothing.
     fn rest(&self, tracking: &mut Tracking, _: &Estimate) {
         tracking.interrupt();
     }

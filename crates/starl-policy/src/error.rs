@@ -26,7 +26,7 @@ pub enum ModelError {
         operator: String,
         /// The node's name, or the name of its output.
         node: String,
-        /// What is not supported, and what is.
+        /// Says what is not supported, and what is.
         reason: &'static str,
     },
     /// A node takes a value, or the graph gives one, that nothing before it makes.

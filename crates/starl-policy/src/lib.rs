@@ -5,7 +5,7 @@
 //! functions come from [`starl_core::math`]. Libraries for inference choose the order of their sums by the processor, so that a
 //! run could not be repeated elsewhere.
 //!
-//! What can be read are feed-forward networks of one sample: dense layers, activations, element-wise arithmetic, concatenation,
+//! Networks are feed-forward and take one sample: dense layers, activations, element-wise arithmetic, concatenation,
 //! softmax and arg max. Convolutions, recurrent layers and control flow cannot.
 
 #![no_std]

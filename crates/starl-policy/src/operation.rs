@@ -1,4 +1,4 @@
-//! What a network computes, one operation after the other.
+//! The operations of a network, computed one after the other.
 
 use alloc::vec::Vec;
 use core::ops::Range;

@@ -128,7 +128,7 @@ impl Programs {
         })
     }
 
-    /// What can be made of the programs; the errors of the first one if of none.
+    /// Makes something of each program where that is possible; gives the errors of the first one if of none.
     fn each_that_can<T>(
         &self,
         make: impl Fn(&str, &Compiled) -> Result<T, Vec<Diagnostic>>,

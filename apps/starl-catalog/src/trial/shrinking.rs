@@ -118,7 +118,7 @@ impl Shrinking {
         Shrinking { answers, ..self }
     }
 
-    /// What was tried so far.
+    /// The answers of all that was tried so far.
     pub fn into_answers(self) -> Answers {
         self.answers
     }

@@ -25,7 +25,7 @@ _WORKERS: dict[str, Worker[Any]] = {"sweep": _run_on_worker, "test": _attempt, "
 
 def main() -> None:
     """Does jobs until there are no more."""
-    # What Ray prints does not get among the answers.
+    # Output of Ray does not get among the answers.
     answers = os.fdopen(os.dup(1), "wb", buffering=0)
     os.dup2(2, 1)
     jobs: queue.SimpleQueue[bytes] = queue.SimpleQueue()

@@ -150,7 +150,7 @@ class RobotProgram:
             if not isinstance(value, Primitive):
                 setattr(self, name, overwritten(value, draws))
 
-    # What the native module calls.
+    # The native module calls these.
 
     def _prepare(self) -> tuple[list[tuple[Primitive, _native.Primitive]], bool]:
         """The primitives, which get the names of their attributes, and whether there are stable variables."""

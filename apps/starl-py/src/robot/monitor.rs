@@ -76,7 +76,7 @@ impl PyMonitor {
         PyList::new(py, members)
     }
 
-    /// What is wrong with a property; none if it holds.
+    /// Says what is wrong with a property; none if it holds.
     fn judge(py: Python<'_>, property: &Property, fleet: &Bound<'_, PyTuple>) -> Option<String> {
         let judged = property.judge.call1(py, fleet.clone());
         let judged = judged.and_then(|judged| judged.extract::<Option<String>>(py));

@@ -134,7 +134,7 @@ impl Gains {
     }
 
     /// The drone hovers by itself: the push is observed all the same, since wind that drives it off its path has it stopped
-    /// again and again to plan anew.
+    /// again and again to replan.
     pub fn rest(&self, tracking: &mut Tracking, estimate: &Estimate) {
         let period = tracking.period(estimate);
         match estimate.pose.position.z < 0.5 * self.lowest {

@@ -97,7 +97,7 @@ fn it_knows_when_the_wind_is_too_strong() {
     }
 }
 
-/// It was stopped to plan anew before it knew, and forgot each time how long the wind had been too strong.
+/// It was stopped to replan before it knew, and forgot each time how long the wind had been too strong.
 #[test]
 fn it_knows_so_too_when_it_is_stopped_again_and_again() {
     let drone = models::by_name("drone").unwrap();
