@@ -100,9 +100,9 @@ fn a_wrong_condition_is_blamed_on_the_scenario() {
         message("count + 1")
     );
     assert!(
-        message("finishd").contains("did you mean `finished`?"),
+        message("finish").contains("did you mean `finished`?"),
         "{}",
-        message("finishd")
+        message("finish")
     );
 }
 
