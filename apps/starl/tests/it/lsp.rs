@@ -192,6 +192,7 @@ fn what_may_be_typed_is_suggested() {
         "failed",
         "follow",
         "reach_avoid",
+        "reason",
         "stop",
         "target",
     ];
