@@ -199,7 +199,7 @@ fn what_may_be_typed_is_suggested() {
     assert_eq!(labels, expected);
     assert_eq!(items[4]["textEdit"]["newText"], "reach_avoid($0)");
     assert_eq!(items[4]["insertTextFormat"], 2);
-    assert_eq!(items[5]["textEdit"]["newText"], "stop()");
+    assert_eq!(items[6]["textEdit"]["newText"], "stop()");
     assert_eq!(items[0]["detail"], "ReachAvoid.active: Bool");
 }
 
