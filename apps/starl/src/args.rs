@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::log::Shown;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -120,12 +121,26 @@ pub struct RunArguments {
     /// Print only errors and violations
     #[arg(long)]
     pub quiet: bool,
+    /// The options of the robots' log.
+    #[command(flatten)]
+    pub log: LogArguments,
     /// Show the run in a browser, and steer it there
     #[arg(long, conflicts_with_all = ["trace", "plot", "json"])]
     pub open: bool,
     /// The options of the page, with `open`.
     #[command(flatten)]
     pub page: PageArguments,
+}
+
+/// The options of the robots' log.
+#[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
+pub struct LogArguments {
+    /// Show what programs log, as it happens, on the error stream; with a level, what matters at least so much
+    #[arg(long, value_name = "LEVEL", num_args = 0..=1, require_equals = true, default_missing_value = "info")]
+    pub log: Option<Shown>,
+    /// Show the log of these robots only
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', requires = "log")]
+    pub log_robots: Vec<String>,
 }
 
 /// The options of the page's server.
@@ -342,6 +357,7 @@ impl ChangeArguments {
             plot: None,
             json: false,
             quiet,
+            log: LogArguments::default(),
             open: false,
             page: PageArguments::default(),
         }

@@ -41,6 +41,7 @@ mod fleet;
 mod fmt;
 mod json;
 mod list;
+mod log;
 mod lsp;
 mod origin;
 mod output;

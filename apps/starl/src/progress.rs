@@ -32,6 +32,11 @@ impl Progress {
         }
     }
 
+    /// Writes lines above the bar.
+    pub fn above(&self, write: impl FnOnce()) {
+        self.0.suspend(write);
+    }
+
     /// Takes the bar away.
     pub fn clear(&self) {
         self.0.finish_and_clear();

@@ -2,6 +2,7 @@
 
 use crate::args::{PageArguments, RunArguments};
 use crate::failure::Failure;
+use crate::log::Log;
 use crate::outputs::{Outputs, Picture};
 use crate::progress::Progress;
 use crate::report::{Circumstances, Report};
@@ -37,8 +38,11 @@ pub fn run(arguments: &RunArguments, registry: &Registry) -> Result<bool, Failur
     let mut outputs = Outputs::open(arguments, application.resolved(), &setting, &files, picture)?;
     let shown = !arguments.quiet && !arguments.json;
     let progress = Progress::new(shown, scenario.duration);
+    let log = Log::of(&arguments.log, &scenario.fleet)?;
     let begun = Instant::now();
-    let driven = threads::with(threads, || drive(&mut run, &mut outputs, &progress, &stop))?;
+    let driven = threads::with(threads, || {
+        drive(&mut run, &mut outputs, log.as_ref(), &progress, &stop)
+    })?;
     let wall_seconds = begun.elapsed().as_secs_f64();
     progress.clear();
     driven?;
@@ -82,12 +86,17 @@ pub fn start_error(application: &Application, error: &StartError) -> Failure {
 fn drive(
     run: &mut Run,
     outputs: &mut Outputs,
+    log: Option<&Log>,
     progress: &Progress,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
     while !run.is_over() && !stop.load(Ordering::Relaxed) {
-        for record in run.step() {
+        run.step();
+        for record in run.records() {
             outputs.observe(record)?;
+            if let Some(log) = log {
+                log.observe(record, &run.simulation().scenario().fleet, progress);
+            }
         }
         outputs.advance(run.simulation())?;
         progress.advance(run.simulation().now());

@@ -12,7 +12,7 @@ mod progress;
 mod record;
 mod replay;
 
-use crate::args::{ExploreArguments, PageArguments, RunArguments};
+use crate::args::{ExploreArguments, LogArguments, PageArguments, RunArguments};
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::run::stop_on_interrupt;
@@ -144,6 +144,7 @@ fn as_run(target: &str, arguments: &ExploreArguments) -> RunArguments {
         plot: None,
         json: arguments.json,
         quiet: arguments.quiet,
+        log: LogArguments::default(),
         open: false,
         page: PageArguments::default(),
     }

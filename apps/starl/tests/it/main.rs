@@ -26,6 +26,7 @@ mod output_files;
 mod reference_of_the_command;
 mod replay_robot;
 mod replay_trace;
+mod run_log;
 mod run_programs;
 mod same_seed_same_run;
 mod schema_command;
