@@ -13,13 +13,13 @@ use std::fmt::Write;
 /// The levels of `--log`, from the one that shows most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Shown {
-    /// Everything.
+    /// All lines.
     Debug,
-    /// All but what is for debugging; lines of programs in the StarL language have this level.
+    /// All but those for debugging; lines of programs in the StarL language have this level.
     Info,
-    /// What is probably wrong.
+    /// Lines about something that is probably wrong, and errors.
     Warning,
-    /// What is certainly wrong.
+    /// Lines about something that is certainly wrong.
     Error,
 }
 
@@ -43,7 +43,7 @@ pub struct Log {
 }
 
 impl Log {
-    /// What the arguments ask for, if they ask for the log.
+    /// The log that the arguments ask for, if they do.
     ///
     /// # Errors
     /// If they name a robot that the fleet does not have.
