@@ -125,7 +125,7 @@ def connect(address: str) -> int:
         raise StarlError("a cluster needs Ray: pip install 'starl[ray]'") from None
 
     # A cluster that takes clients sometimes fails to start the process for one.
-    tries = 2 if address.startswith("ray://") else 1
+    tries = 3 if address.startswith("ray://") else 1
     while not ray.is_initialized():
         tries -= 1
         named = {"ray": "auto", "local": None}.get(address, address)
