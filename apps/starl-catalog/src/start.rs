@@ -53,7 +53,7 @@ pub fn read(
         .collect();
     let is_broken = review.findings.iter().any(Findings::are_errors);
     let is_whole = problems.is_empty() && !is_broken;
-    let application = Application {
+    let mut application = Application {
         resolved,
         programs,
         registry: registry.clone(),
@@ -69,10 +69,8 @@ pub fn read(
             problems.push(blame(&application.resolved, index, complaint));
         }
     }
-    if let (true, Goal::Condition(condition)) = (is_whole, &application.scenario().goal)
-        && let Err(found) = application
-            .programs
-            .goal(condition, &application.scenario().fleet)
+    if let (true, Goal::Condition(condition)) = (is_whole, &application.resolved.scenario.goal)
+        && let Err(found) = application.programs.set_goal(condition)
     {
         let message = match found.first() {
             Some(first) => format!("{condition:?}: {}", first.message),
@@ -145,12 +143,9 @@ impl Application {
         monitors
             .into_iter()
             .for_each(|monitor| run.add_monitor(monitor));
-        if let Goal::Condition(condition) = &run.simulation().scenario().goal {
-            // A scenario that was not read here may have another goal, which is never reached if it makes no sense.
-            let goal = self.programs.goal(condition, &fleet).unwrap_or_default();
-            if !goal.is_empty() {
-                run.set_goal(goal);
-            }
+        let goal = self.programs.goal(&fleet);
+        if !goal.is_empty() {
+            run.set_goal(goal);
         }
         Ok(run)
     }

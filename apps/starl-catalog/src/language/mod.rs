@@ -111,21 +111,33 @@ impl Programs {
         self.each_that_can(|path, compiled| FleetCondition::new(path, compiled, condition))
     }
 
-    /// The monitors of a run's goal: one for each program for which the condition has no errors.
+    /// Sets the condition that is the goal of runs, for each program for which it has no errors.
     ///
     /// # Errors
     /// As for [`Programs::conditions`].
-    pub fn goal(
-        &self,
-        condition: &str,
-        fleet: &Fleet,
-    ) -> Result<Vec<Box<dyn Monitor>>, Vec<Diagnostic>> {
-        self.each_that_can(|path, compiled| {
-            let code = condition::code_with(compiled, condition)?;
-            let qualifier = (self.0.len() > 1).then_some(compiled.name.as_str());
-            let monitor = ProgramMonitor::of_goal(qualifier, &code, members(fleet, path));
-            Ok(Box::new(monitor) as Box<dyn Monitor>)
-        })
+    pub fn set_goal(&mut self, condition: &str) -> Result<(), Vec<Diagnostic>> {
+        let codes = self.each_that_can(|path, compiled| {
+            Ok((path.to_string(), condition::code_with(compiled, condition)?))
+        })?;
+        for (path, code) in codes {
+            if let Some(compiled) = self.0.get_mut(&path) {
+                compiled.goal = Some(code);
+            }
+        }
+        Ok(())
+    }
+
+    /// The monitors of a run's goal, if one was set.
+    pub fn goal(&self, fleet: &Fleet) -> Vec<Box<dyn Monitor>> {
+        let mut monitors: Vec<Box<dyn Monitor>> = Vec::new();
+        for (path, compiled) in &self.0 {
+            if let Some(code) = &compiled.goal {
+                let qualifier = (self.0.len() > 1).then_some(compiled.name.as_str());
+                let monitor = ProgramMonitor::of_goal(qualifier, code, members(fleet, path));
+                monitors.push(Box::new(monitor));
+            }
+        }
+        monitors
     }
 
     /// Makes something of each program where that is possible; gives the errors of the first one if of none.

@@ -37,6 +37,8 @@ pub struct Compiled {
     pub libraries: BTreeMap<String, String>,
     /// The models that it names.
     pub models: Vec<Model>,
+    /// The same program with the goal of runs as its only property.
+    pub goal: Option<Code>,
 }
 
 /// Those that it was compiled with.
@@ -134,6 +136,7 @@ pub fn compile(
         code,
         text,
         models: checked.program.models,
+        goal: None,
         libraries: libraries.map(|file| (file.name, file.source)).collect(),
     };
     Ok((Some(compiled), findings))

@@ -1,8 +1,7 @@
 //! The static checker: from a tree to a resolved, typed program, and all that is wrong with it.
 //!
 //! [`check`] never fails: it gives a program, perhaps with errors in it, and diagnostics of each file.
-//! What has an error gets the type [`Type::Error`], which fits everywhere, so
-//! that one mistake is reported once.
+//! A part with an error gets the type [`Type::Error`], which fits everywhere, so that one mistake is reported once.
 //!
 //! The way is: load the files (`load`), note what is declared (`collect`), give declarations their types
 //! (`types`), check what is in them (`declaration`, `statement`, `expression`, `property`), then look at

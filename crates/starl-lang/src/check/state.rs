@@ -108,7 +108,7 @@ pub(super) struct Checker {
     pub variants: BTreeMap<String, Vec<(EnumId, u16)>>,
     /// Of how many parts the records are made.
     pub sizes: BTreeMap<RecordId, u32>,
-    /// What models are asked, where it is known how many numbers that are.
+    /// The evaluations of models whose count of numbers is known.
     pub evaluations: Vec<Evaluation>,
     /// The names of the actions.
     pub actions: BTreeSet<String>,

@@ -30,7 +30,7 @@ pub fn with_condition(
 /// places of its instructions are bytes of the expression.
 ///
 /// # Errors
-/// What is wrong with the expression; places are bytes of it.
+/// The problems of the expression; places are bytes of it.
 pub fn with_value(
     program: &str,
     expression: &str,
@@ -45,7 +45,7 @@ pub fn with_value(
         span.start = span.start.saturating_sub(start);
         span.end = span.end.saturating_sub(start);
     }
-    // What gives no Bool is no property.
+    // An expression of another type than Bool is no property.
     match bytecode.properties.pop().map(|value| value.claim) {
         Some(Claim::Eventually { holds, .. }) => Ok((bytecode, holds)),
         _ => Err(Vec::from([no_room(expression)])),
