@@ -176,7 +176,7 @@ impl Server {
         RigidBody {
             number,
             position,
-            rotation: quaternion(pose).map(|part| part as f32),
+            rotation: pose.quaternion().map(|part| part as f32),
             error: deviation as f32,
             tracked: !random.chance(hidden),
         }
@@ -188,16 +188,4 @@ impl Server {
             .socket
             .send_to(&message.encode(self.cameras.version), client);
     }
-}
-
-/// The unit quaternion x, y, z, w of Rz(yaw) Ry(pitch) Rx(roll).
-pub(crate) fn quaternion(pose: &Pose) -> [f64; 4] {
-    let half = |angle: f64| (0.5 * angle).sin_cos();
-    let ((sy, cy), (sp, cp), (sr, cr)) = (half(pose.yaw), half(pose.pitch), half(pose.roll));
-    [
-        sr * cp * cy - cr * sp * sy,
-        cr * sp * cy + sr * cp * sy,
-        cr * cp * sy - sr * sp * cy,
-        cr * cp * cy + sr * sp * sy,
-    ]
 }

@@ -4,7 +4,6 @@
 //! either way the stream goes over TCP.
 
 use crate::World;
-use crate::natnet::quaternion;
 use crate::service::Service;
 use starl_core::Point;
 use starl_vrpn::wire::{self, Decoder, KIND_NAME, Message, PING, PLACE, PONG, Place, SENDER_NAME};
@@ -88,7 +87,7 @@ impl Server {
                 let place = Place {
                     sensor: 0,
                     position: [x, y, z],
-                    rotation: quaternion(pose),
+                    rotation: pose.quaternion(),
                 };
                 client.put(number, PLACE, place.encode());
             }

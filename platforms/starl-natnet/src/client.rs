@@ -252,17 +252,5 @@ fn pose(body: &RigidBody, up: UpAxis) -> Option<Pose> {
     let [x, y, z] = turned(body.position.map(f64::from));
     let [i, j, k, w] = body.rotation.map(f64::from);
     let [i, j, k] = turned([i, j, k]);
-    let length = (i * i + j * j + k * k + w * w).sqrt();
-    let position = Point::new(x, y, z);
-    if !position.is_finite() || !length.is_finite() || length < 0.5 {
-        return None;
-    }
-    let [i, j, k, w] = [i, j, k, w].map(|part| part / length);
-    // Yaw, pitch and roll of R = Rz(yaw) Ry(pitch) Rx(roll).
-    Some(Pose {
-        position,
-        yaw: (2.0 * (w * k + i * j)).atan2(1.0 - 2.0 * (j * j + k * k)),
-        pitch: (2.0 * (w * j - k * i)).clamp(-1.0, 1.0).asin(),
-        roll: (2.0 * (w * i + j * k)).atan2(1.0 - 2.0 * (i * i + j * j)),
-    })
+    Pose::of_quaternion(Point::new(x, y, z), [i, j, k, w])
 }

@@ -223,17 +223,5 @@ struct Names {
 /// The pose; `None` if the rotation is none.
 fn pose(place: &Place) -> Option<Pose> {
     let [x, y, z] = place.position;
-    let [i, j, k, w] = place.rotation;
-    let length = (i * i + j * j + k * k + w * w).sqrt();
-    if !length.is_finite() || length < 0.5 {
-        return None;
-    }
-    let [i, j, k, w] = [i, j, k, w].map(|part| part / length);
-    // Yaw, pitch and roll of R = Rz(yaw) Ry(pitch) Rx(roll).
-    Some(Pose {
-        position: Point::new(x, y, z),
-        yaw: (2.0 * (w * k + i * j)).atan2(1.0 - 2.0 * (j * j + k * k)),
-        pitch: (2.0 * (w * j - k * i)).clamp(-1.0, 1.0).asin(),
-        roll: (2.0 * (w * i + j * k)).atan2(1.0 - 2.0 * (i * i + j * j)),
-    })
+    Pose::of_quaternion(Point::new(x, y, z), place.rotation)
 }

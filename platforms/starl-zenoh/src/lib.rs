@@ -26,10 +26,32 @@ pub struct ZenohOptions {
     pub listen: Vec<String>,
     /// Whom it connects to, e.g. `tcp/192.168.0.1:7447`. Those that are not there yet are tried again for ever.
     pub connect: Vec<String>,
-    /// Whether it is a client, all of whose packets go by a router, or a peer.
-    pub is_client: bool,
+    /// Its part in the network.
+    pub mode: Mode,
     /// What encrypts links whose endpoints begin with `tls/`.
     pub tls: Option<Tls>,
+}
+
+/// The part of a member in the network.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// It connects to other peers.
+    #[default]
+    Peer,
+    /// All of its packets go by a router.
+    Client,
+    /// It is a router.
+    Router,
+}
+
+impl Mode {
+    fn name(self) -> &'static str {
+        match self {
+            Mode::Peer => "peer",
+            Mode::Client => "client",
+            Mode::Router => "router",
+        }
+    }
 }
 
 /// Certificates and keys, as files in PEM.
@@ -61,6 +83,14 @@ impl From<zenoh::Error> for ZenohError {
     }
 }
 
+/// Opens a session. A client waits until its router is there.
+///
+/// # Errors
+/// If an endpoint is malformed or cannot be listened on, or certificates cannot be read.
+pub fn session(options: &ZenohOptions) -> Result<Session, ZenohError> {
+    Ok(zenoh::open(config(options)?).wait()?)
+}
+
 /// A member's connection to the network, which ends when this is dropped.
 pub struct Zenoh {
     packets: SyncSender<(Member, Vec<u8>)>,
@@ -79,7 +109,7 @@ impl Zenoh {
         options: &ZenohOptions,
         deliver: impl Fn(Arrival) -> bool + Send + Sync + 'static,
     ) -> Result<Zenoh, ZenohError> {
-        let session = zenoh::open(config(options)?).wait()?;
+        let session = session(options)?;
         let own = key(fleet, me);
         session
             .declare_subscriber(own)
@@ -139,18 +169,21 @@ fn key(fleet: &str, member: Member) -> String {
     format!("starl/{name}/{member}")
 }
 
-fn config(options: &ZenohOptions) -> Result<Config, ZenohError> {
+/// The configuration of a session.
+///
+/// # Errors
+/// If an endpoint is malformed.
+pub fn config(options: &ZenohOptions) -> Result<Config, ZenohError> {
     let mut config = Config::default();
     let list = |items: &[String]| {
         let quoted: Vec<String> = items.iter().map(|item| format!("{item:?}")).collect();
         format!("[{}]", quoted.join(","))
     };
-    let mode = if options.is_client { "client" } else { "peer" };
     let mut set = |key: &str, value: &str| {
         let done = config.insert_json5(key, value);
         done.map_err(|error| ZenohError(format!("{key} = {value}: {error}")))
     };
-    set("mode", &format!("{mode:?}"))?;
+    set("mode", &format!("{:?}", options.mode.name()))?;
     set("listen/endpoints", &list(&options.listen))?;
     set("connect/endpoints", &list(&options.connect))?;
     // Robots start in any order.

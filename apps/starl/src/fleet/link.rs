@@ -57,7 +57,7 @@ fn zenoh(
     me: u32,
     deliver: impl Fn(Arrival) -> bool + Send + Sync + 'static,
 ) -> Result<Box<dyn Transport>, Failure> {
-    use starl_zenoh::{Tls, Zenoh, ZenohOptions};
+    use starl_zenoh::{Mode, Tls, Zenoh, ZenohOptions};
     use std::path::Path;
 
     let network = &fleet.network;
@@ -80,7 +80,10 @@ fn zenoh(
             None => before.map(|other| endpoint(other.address)).collect(),
         },
         // An operator is a guest: others need not connect to it.
-        is_client: network.router.is_some(),
+        mode: match network.router {
+            Some(_) => Mode::Client,
+            None => Mode::Peer,
+        },
         tls: network.tls.as_ref().map(|tls| Tls {
             authority: file(&tls.authority),
             certificate: file(&tls.certificate),

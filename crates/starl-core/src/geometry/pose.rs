@@ -1,6 +1,7 @@
 //! Where a robot is and how it moves.
 
 use super::Point;
+use crate::math;
 use serde::{Deserialize, Serialize};
 
 /// Position and attitude in the world frame. Angles are intrinsic yaw (about z), pitch (about y),
@@ -27,6 +28,36 @@ impl Pose {
             roll: 0.0,
         }
     }
+
+    /// The pose with the attitude of a quaternion x, y, z, w of any length; `None` where a number is not finite or the
+    /// quaternion is too short to mean a direction.
+    pub fn of_quaternion(position: Point, quaternion: [f64; 4]) -> Option<Pose> {
+        let squared: f64 = quaternion.iter().map(|part| part * part).sum();
+        let length = math::sqrt(squared);
+        if !position.is_finite() || !length.is_finite() || length < 0.5 {
+            return None;
+        }
+        let [i, j, k, w] = quaternion.map(|part| part / length);
+        // Yaw, pitch and roll of R = Rz(yaw) Ry(pitch) Rx(roll).
+        Some(Pose {
+            position,
+            yaw: math::atan2(2.0 * (w * k + i * j), 1.0 - 2.0 * (j * j + k * k)),
+            pitch: math::asin((2.0 * (w * j - k * i)).clamp(-1.0, 1.0)),
+            roll: math::atan2(2.0 * (w * i + j * k), 1.0 - 2.0 * (i * i + j * j)),
+        })
+    }
+
+    /// The attitude as a unit quaternion x, y, z, w.
+    pub fn quaternion(&self) -> [f64; 4] {
+        let half = |angle: f64| math::sincos(0.5 * angle);
+        let ((sy, cy), (sp, cp), (sr, cr)) = (half(self.yaw), half(self.pitch), half(self.roll));
+        [
+            sr * cp * cy - cr * sp * sy,
+            cr * sp * cy + sr * cp * sy,
+            cr * cp * sy - sr * sp * cy,
+            cr * cp * cy + sr * sp * sy,
+        ]
+    }
 }
 
 /// Rates of change of a [`Pose`] in the world frame.
@@ -40,4 +71,31 @@ pub struct Twist {
     pub pitch: f64,
     /// Rate of roll, radians per second.
     pub roll: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quaternions_and_angles_are_the_same_attitude() {
+        let pose = Pose {
+            position: Point::new(1.0, -2.0, 0.5),
+            yaw: 2.5,
+            pitch: -0.7,
+            roll: 0.3,
+        };
+        let twice = pose.quaternion().map(|part| 2.0 * part);
+        let back = Pose::of_quaternion(pose.position, twice).unwrap();
+        for (is, was) in [
+            (back.yaw, pose.yaw),
+            (back.pitch, pose.pitch),
+            (back.roll, pose.roll),
+        ] {
+            assert!((is - was).abs() < 1e-12, "{back:?}");
+        }
+        assert_eq!(Pose::of_quaternion(Point::ZERO, [0.0; 4]), None);
+        let nan = [0.0, 0.0, f64::NAN, 1.0];
+        assert_eq!(Pose::of_quaternion(Point::ZERO, nan), None);
+    }
 }
