@@ -228,6 +228,24 @@ pub enum EmulateArguments {
         #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:14540")]
         client: SocketAddr,
     },
+    /// A ROS 2 robot on two wheels with a laser scanner, over Zenoh
+    Ros2 {
+        /// Where its Zenoh router listens
+        #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:7447")]
+        router: String,
+        /// The domain of its nodes
+        #[arg(long, value_name = "N", default_value_t = 0)]
+        domain: u32,
+        /// The namespace of its topics, e.g. /r1
+        #[arg(long, value_name = "NAME", default_value = "")]
+        namespace: String,
+        /// Its size and speed
+        #[arg(long, value_name = "MODEL", default_value = "create", value_parser = ["create", "differential"])]
+        model: String,
+        /// Take TwistStamped instead of Twist
+        #[arg(long)]
+        stamped: bool,
+    },
 }
 
 /// Arguments of `starl emulate fleet`.

@@ -16,6 +16,7 @@ use starl_mavlink::Autopilot;
 use starl_motion::models::by_name;
 use std::error::Error;
 use std::io::{BufRead, stdin};
+use std::net::SocketAddr;
 use std::path::PathBuf;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -30,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let create = EmulatedCreate::start(body, Some(&folder.join("create")))?;
     let hangar = Pose::level(Point::planar(-3.0, 1.0), -0.4);
     let body = world.add("drone", by_name("drone").ok_or("no model")?, hangar)?;
-    let any = "127.0.0.1:0".parse()?;
+    let any: SocketAddr = "127.0.0.1:0".parse()?;
     let drone = EmulatedArdrone::start(body, any, any)?;
     let natnet = |version| {
         let cameras = Cameras {
@@ -51,7 +52,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let shelf = Pose::level(Point::planar(20.0, 20.0), 1.2);
     let body = world.add("crazyflie", by_name("drone").ok_or("no model")?, shelf)?;
     let crazyflie = EmulatedCrazyflie::start(body, any)?;
+    #[cfg(feature = "ros2")]
+    let (_ros2, ros2_port) = ros2(&world)?;
+    #[cfg(not(feature = "ros2"))]
+    let ros2_port = 0;
     let ports = [
+        ("ros2", SocketAddr::new(any.ip(), ros2_port)),
         ("commands", drone.commands()),
         ("navdata", drone.navdata()?),
         ("natnet_3", natnet_3.address()),
@@ -76,4 +82,29 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{{{}}}", poses.join(", "));
     }
     Ok(())
+}
+
+/// Two ROS 2 robots at a router of their own: `/twist` takes `Twist`, `/stamped` takes `TwistStamped`.
+#[cfg(feature = "ros2")]
+fn ros2(world: &World) -> Result<(Box<dyn std::any::Any>, u16), Box<dyn Error>> {
+    use starl_emulate::ros2::{EmulatedRos2, Ros2Setup, router};
+    let port = std::net::TcpListener::bind("127.0.0.1:0")?
+        .local_addr()?
+        .port();
+    let context = router(&format!("tcp/127.0.0.1:{port}"), 0)?;
+    let robot = |name: &str, model, y, stamped| {
+        let start = Pose::level(Point::planar(40.0, y), 0.8);
+        let body = world.add(name, by_name(model).ok_or("no model")?, start)?;
+        let setup = Ros2Setup {
+            namespace: format!("/{name}"),
+            stamped,
+            ..Ros2Setup::default()
+        };
+        EmulatedRos2::start(body, &context, &setup).map_err(Box::<dyn Error>::from)
+    };
+    let robots = [
+        robot("twist", "create", 0.0, false)?,
+        robot("stamped", "differential", 3.0, true)?,
+    ];
+    Ok((Box::new((robots, context)), port))
 }

@@ -29,6 +29,8 @@ pub mod crazyflie;
 pub mod create;
 pub mod mavlink;
 pub mod natnet;
+#[cfg(feature = "ros2")]
+pub mod ros2;
 mod service;
 pub mod vrpn;
 pub mod world;

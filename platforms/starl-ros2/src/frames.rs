@@ -50,7 +50,7 @@ pub(crate) fn plain(name: &str) -> &str {
 }
 
 /// A pose in a frame that is at `place`.
-fn inside(place: &Pose, pose: &Pose) -> Pose {
+pub fn inside(place: &Pose, pose: &Pose) -> Pose {
     let (sin, cos) = sincos(place.yaw);
     let Point { x, y, z } = pose.position;
     let turned = Point::new(cos * x - sin * y, sin * x + cos * y, z);

@@ -14,14 +14,13 @@
 
 pub mod cdr;
 mod driver;
-mod frames;
+pub mod frames;
 pub mod graph;
 mod localisation;
 pub mod message;
 pub mod node;
 
 pub use driver::{Ros2Options, Ros2Robot};
-pub use frames::Frames;
 pub use localisation::Localisation;
 
 /// Where a robot's Zenoh router listens unless it was told otherwise.

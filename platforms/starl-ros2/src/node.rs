@@ -34,6 +34,14 @@ impl Context {
         })
     }
 
+    /// The same session, for nodes of another domain.
+    pub fn in_domain(&self, domain: u32) -> Context {
+        Context {
+            domain,
+            ..self.clone()
+        }
+    }
+
     /// Adds a node with this name to a namespace, e.g. `/r1`; an empty one is none.
     ///
     /// # Errors

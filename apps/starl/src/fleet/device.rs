@@ -1,6 +1,7 @@
 //! Connects a robot's process to its hardware, and to the source of positions.
 
 use super::file::{Device, Fleet, Member, Positions, Up};
+use super::ros2;
 use crate::failure::Failure;
 use starl_ardrone::{Ardrone, ArdroneOptions};
 use starl_core::Pose;
@@ -19,7 +20,8 @@ use std::time::Instant;
 /// Where an AR.Drone is that makes its own network.
 const DRONE: IpAddr = IpAddr::V4(Ipv4Addr::new(192, 168, 1, 1));
 
-type Hardware = (Box<dyn starl_node::Device>, Option<Box<dyn PositionSource>>);
+/// A robot's device, and the source of its positions.
+pub type Hardware = (Box<dyn starl_node::Device>, Option<Box<dyn PositionSource>>);
 
 /// Connects to the robot's device and to its positions.
 pub fn connect(
@@ -65,6 +67,18 @@ pub fn connect(
             };
             Box::new(MavlinkVehicle::connect(&options).map_err(cannot)?)
         }
+        Device::Ros2 {
+            router,
+            domain,
+            namespace,
+        } => {
+            let place = ros2::Place::of(router.as_deref(), *domain, namespace.as_deref());
+            let (device, own) = ros2::connect(fleet, member, group, &place)?;
+            if own.is_some() {
+                return Ok((device, own));
+            }
+            device
+        }
     };
     let positions = fleet
         .positions
@@ -105,6 +119,7 @@ fn follow(source: &Positions, member: &Member) -> Result<Box<dyn PositionSource>
                 tracker,
             }))))
         }
+        Positions::Ros2 { .. } => Err(ros2::no_localisation(member)),
     }
 }
 

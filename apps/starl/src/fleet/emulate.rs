@@ -3,6 +3,7 @@
 
 use super::device::generation;
 use super::file::{Device, Fleet, Member, Positions};
+use super::ros2::{self, Manner, Place, Routers};
 use crate::args::{EmulateArguments, EmulateFleet};
 use crate::console;
 use crate::failure::Failure;
@@ -52,6 +53,27 @@ pub fn run(arguments: &EmulateArguments, registry: &Registry) -> Result<bool, Fa
             let body = add(&world, "crazyflie", Pose::default(), drone()?)?;
             vec![crazyflie(body, *address)?]
         }
+        EmulateArguments::Ros2 {
+            router,
+            domain,
+            namespace,
+            model,
+            stamped,
+        } => {
+            let place = Place::of(Some(router), Some(*domain), Some(namespace));
+            let world = World::new(Vec::new(), Noise::NONE);
+            let body = add(&world, "robot", Pose::default(), named_model(model)?)?;
+            let manner = Manner {
+                stamped: *stamped,
+                ..Manner::default()
+            };
+            vec![ros2::emulate(
+                body,
+                &mut Routers::default(),
+                &place,
+                &manner,
+            )?]
+        }
         EmulateArguments::Mavlink { address, client } => {
             let world = World::new(Vec::new(), Noise::NONE);
             let body = add(&world, "vehicle", Pose::default(), drone()?)?;
@@ -69,10 +91,10 @@ pub fn run(arguments: &EmulateArguments, registry: &Registry) -> Result<bool, Fa
 }
 
 /// Something that is emulated as long as this is there.
-struct Emulated {
+pub struct Emulated {
     /// Where it is.
-    text: String,
-    _device: Box<dyn std::any::Any>,
+    pub text: String,
+    pub _device: Box<dyn std::any::Any>,
 }
 
 /// All devices that a fleet file names, in the world of its scenario.
@@ -90,11 +112,12 @@ fn fleet(arguments: &EmulateFleet, registry: &Registry) -> Result<Vec<Emulated>,
         noise,
     );
     let mut emulated = Vec::new();
+    let mut routers = Routers::default();
     for member in &fleet.robots {
-        emulated.extend(member_device(&world, &fleet, member)?);
+        emulated.extend(member_device(&world, &fleet, member, &mut routers)?);
     }
     if let Some(source) = &fleet.positions {
-        emulated.push(positions(&world, source, scenario)?);
+        emulated.extend(positions(&world, source, scenario)?);
     }
     match emulated.is_empty() {
         true => Err(Failure::file(
@@ -105,8 +128,12 @@ fn fleet(arguments: &EmulateFleet, registry: &Registry) -> Result<Vec<Emulated>,
     }
 }
 
-/// The motion capture of a world.
-fn positions(world: &World, source: &Positions, scenario: &Scenario) -> Result<Emulated, Failure> {
+/// The motion capture of a world; none where robots locate themselves.
+fn positions(
+    world: &World,
+    source: &Positions,
+    scenario: &Scenario,
+) -> Result<Option<Emulated>, Failure> {
     let cannot = |server: &SocketAddr, error: &std::io::Error| {
         Failure(format!("positions.server {server}: {}", reason(error)))
     };
@@ -119,19 +146,21 @@ fn positions(world: &World, source: &Positions, scenario: &Scenario) -> Result<E
             };
             let device = EmulatedNatNet::start(world.clone(), *server, cameras)
                 .map_err(|error| cannot(server, &error))?;
-            Ok(Emulated {
+            Ok(Some(Emulated {
                 text: format!("motion capture at {}", device.address()),
                 _device: Box::new(device),
-            })
+            }))
         }
         Positions::Vrpn { server } => {
             let device = EmulatedVrpn::start(world.clone(), *server)
                 .map_err(|error| cannot(server, &error))?;
-            Ok(Emulated {
+            Ok(Some(Emulated {
                 text: format!("trackers at {}", device.address()),
                 _device: Box::new(device),
-            })
+            }))
         }
+        // Each robot's own, which is part of it.
+        Positions::Ros2 { .. } => Ok(None),
     }
 }
 
@@ -139,6 +168,7 @@ fn member_device(
     world: &World,
     fleet: &Fleet,
     member: &Member,
+    routers: &mut Routers,
 ) -> Result<Option<Emulated>, Failure> {
     let robot = |id: RobotId| {
         let (group, index) = fleet.application.scenario().fleet.group_of(id)?;
@@ -179,6 +209,15 @@ fn member_device(
             let body = add(world, &member.body, start, own)?;
             mavlink(body, vehicle.unwrap_or(any), client).map_err(named)?
         }
+        Device::Ros2 {
+            router,
+            domain,
+            namespace,
+        } => {
+            let place = Place::of(router.as_deref(), *domain, namespace.as_deref());
+            let body = add(world, &member.body, start, own)?;
+            ros2::emulate(body, routers, &place, &Manner::of(fleet)).map_err(named)?
+        }
     };
     Ok(Some(Emulated {
         text: format!("{}: {}", member.name, device.text),
@@ -198,7 +237,11 @@ fn add(
 }
 
 fn drone() -> Result<Arc<dyn Model>, Failure> {
-    models::by_name("drone").ok_or_else(|| Failure("there is no model drone".to_string()))
+    named_model("drone")
+}
+
+fn named_model(name: &str) -> Result<Arc<dyn Model>, Failure> {
+    models::by_name(name).ok_or_else(|| Failure(format!("there is no model {name}")))
 }
 
 fn mavlink(body: BodyHandle, address: SocketAddr, client: SocketAddr) -> Result<Emulated, Failure> {

@@ -178,6 +178,15 @@ pub enum Device {
         /// The vehicle's address, if it waits for the first message.
         vehicle: Option<SocketAddr>,
     },
+    /// A ROS 2 robot on two wheels, over Zenoh.
+    Ros2 {
+        /// The robot's Zenoh router; default `tcp/127.0.0.1:7447`.
+        router: Option<String>,
+        /// The domain of its nodes; default 0.
+        domain: Option<u32>,
+        /// The namespace of its topics, e.g. `/r1`; default none.
+        namespace: Option<String>,
+    },
 }
 
 /// The source of positions. Without it robots have only their odometry, from the scenario's starts.
@@ -196,6 +205,11 @@ pub enum Positions {
     Vrpn {
         /// Its address, e.g. `192.168.0.5:3883`.
         server: SocketAddr,
+    },
+    /// The own localisation of each robot, for ROS 2 robots.
+    Ros2 {
+        /// The frame that is the scenario's world; default `map`.
+        map: Option<String>,
     },
 }
 

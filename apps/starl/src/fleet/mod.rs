@@ -12,6 +12,7 @@ mod link;
 mod member;
 mod merge;
 mod recorder;
+mod ros2;
 mod status;
 mod stop;
 #[cfg(feature = "web")]

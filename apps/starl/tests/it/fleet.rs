@@ -478,3 +478,69 @@ fn race_runs_on_emulated_creates_and_drones_over_zenoh() {
         assert!(line.is_some_and(|line| line.ends_with("holds")), "{text}");
     }
 }
+
+/// Two Creates that run a race of a few seconds.
+#[cfg(feature = "zenoh")]
+const CREATES: &str = r#"
+program = "race"
+duration = "60s"
+
+[world]
+way_point = [
+    { name = "A", position = [1, 0] },
+    { name = "B", position = [1, 1] },
+]
+
+[[robots]]
+model = "create"
+name = "robot"
+count = 2
+start = [{ position = [0, 0] }, { position = [0, 1] }]
+"#;
+
+#[cfg(feature = "zenoh")]
+#[test]
+fn ros_2_robots_race_and_locate_themselves() {
+    let folder = folder("fleet_ros2");
+    file(&folder, "race.toml", CREATES);
+    let first = ports(3);
+    let mut text = format!("scenario = \"race.toml\"\n[link]\nfirst_port = {first}\n");
+    text += "[positions]\nkind = \"ros2\"\n";
+    for robot in ["robot0", "robot1"] {
+        let router = format!("tcp/127.0.0.1:{}", first + 2);
+        text += &format!(
+            "[robots.{robot}]\ndevice = {{ kind = \"ros2\", router = \"{router}\", namespace = \"{robot}\" }}\n"
+        );
+    }
+    file(&folder, "fleet.toml", &text);
+    let output = Up::start(&folder, &["--emulate"]).end();
+    let (text, messages) = (stdout(&output), stderr(&output));
+    assert_eq!(status(&output), 0, "{text}{messages}");
+    let run = folder.join("fleet.runs/0001");
+    let output = starl(&run, &["verify", "merged.mcap"]);
+    assert_eq!(status(&output), 0, "{}", stdout(&output));
+    assert!(
+        stdout(&output).contains("broadcast.integrity   holds"),
+        "{}",
+        stdout(&output)
+    );
+}
+
+#[cfg(feature = "zenoh")]
+#[test]
+fn robots_that_have_no_localisation_cannot_be_located_by_ros_2() {
+    let folder = folder("fleet_ros2_bad");
+    file(&folder, "race.toml", CREATES);
+    let device = "[robots.robot0]\ndevice = { kind = \"create\", port = \"/dev/null\" }\n";
+    let text = format!("scenario = \"race.toml\"\n[positions]\nkind = \"ros2\"\n{device}");
+    file(&folder, "fleet.toml", &text);
+    starl(&folder, &["fleet", "key", "fleet.toml"]);
+    let arguments = ["robot", "--id", "robot0", "--fleet", "fleet.toml"];
+    let output = starl(&folder, &arguments);
+    assert_eq!(status(&output), 2);
+    assert!(
+        stderr(&output).contains("positions.kind"),
+        "{}",
+        stderr(&output)
+    );
+}

@@ -4,7 +4,8 @@ use super::{STEP, World};
 use starl_core::math::{sincos, wrap_angle};
 use starl_core::sensor::Contact;
 use starl_core::{Command, Duration, Point, Pose};
-use starl_motion::{Disturbance, Impact, Model, State};
+use starl_motion::proximity::Rays;
+use starl_motion::{Disturbance, Impact, Model, Neighbour, State};
 use std::sync::Arc;
 
 /// How far the wheels of a body have driven it since it was added, as its encoders count: slipping and being held up
@@ -37,6 +38,16 @@ impl Body {
             command: Command::Stop,
             odometer: Odometer::default(),
             touched: None,
+        }
+    }
+
+    pub fn neighbour(&self) -> Neighbour {
+        let shape = self.model.body();
+        Neighbour {
+            position: self.state.pose.position,
+            velocity: self.state.twist.linear,
+            radius: shape.radius,
+            height: shape.height,
         }
     }
 
@@ -92,6 +103,11 @@ impl BodyHandle {
                 bearing: wrap_angle(direction.heading() - body.state.pose.yaw),
             })
         })
+    }
+
+    /// Distances along rays from the body's centre, metres; infinite where a ray meets nothing in its range.
+    pub fn scan(&self, rays: &Rays) -> Vec<f64> {
+        self.world.scan(self.index, rays)
     }
 
     /// What the wheels' encoders have counted.

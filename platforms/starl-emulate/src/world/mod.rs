@@ -12,6 +12,8 @@ pub use body::{BodyHandle, Odometer};
 use body::Body;
 use starl_core::geometry::ObstacleIndex;
 use starl_core::{Duration, Obstacle, Pose, Random};
+use starl_motion::contact::Grid;
+use starl_motion::proximity::{Rays, Scene};
 use starl_motion::{Disturbance, Model};
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
@@ -133,6 +135,25 @@ impl World {
     /// The world's time: how long its bodies have moved.
     pub fn elapsed(&self) -> Duration {
         Duration(lock(&self.shared).steps * STEP.0)
+    }
+
+    /// Distances along rays from the centre of a body, metres; infinite where a ray meets nothing.
+    fn scan(&self, index: usize, rays: &Rays) -> Vec<f64> {
+        let floor = lock(&self.shared);
+        let bodies: Vec<_> = floor.bodies.iter().map(Body::neighbour).collect();
+        let mut grid = Grid::default();
+        grid.rebuild(&bodies, &[]);
+        let scene = Scene {
+            bodies: &bodies,
+            grid: &grid,
+            map: &floor.map,
+        };
+        let mut distances = vec![f64::INFINITY; rays.bearings.len()];
+        let yaw = floor.bodies[index].state.pose.yaw;
+        rays.measure(&scene, index, yaw, &mut Vec::new(), |ray, distance| {
+            distances[ray] = bodies[index].radius + distance;
+        });
+        distances
     }
 
     fn with<T>(&self, index: usize, look: impl FnOnce(&mut Body) -> T) -> T {
