@@ -121,12 +121,14 @@ examples: $(STARL)
 # The emulated devices, driven by libraries that are not ours.
 FOREIGN = platforms/starl-emulate/tests/foreign
 devices:
-	cargo build --locked --profile test -p starl-emulate --example devices
+	cargo build --locked --profile test --workspace --features starl/zenoh --example devices --example drive
 	$(VENV)/python $(FOREIGN)/create.py $(CARGO_TARGET_DIR)/debug/examples/devices
 	$(VENV)/python $(FOREIGN)/natnet_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
 	$(VENV)/python $(FOREIGN)/vrpn_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
 	$(VENV)/python $(FOREIGN)/mavlink_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
 	$(VENV)/python $(FOREIGN)/crazyflie_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
+	$(VENV)/python $(FOREIGN)/ros2_client.py $(CARGO_TARGET_DIR)/debug/examples/devices \
+		$(CARGO_TARGET_DIR)/debug/examples/drive
 	cd $(FOREIGN) && npm ci --silent --no-audit --no-fund
 	node --no-deprecation $(FOREIGN)/ardrone.mjs $(CARGO_TARGET_DIR)/debug/examples/devices
 

@@ -23,7 +23,7 @@ AT_ONCE = 6
 PATIENCE = 200
 # Programs without an end of their own run for so long.
 LONGEST = "100s"
-PLATFORMS = ["simulator", "UDP", "Zenoh", "Create and AR.Drone", "Crazyflie", "MAVLink"]
+PLATFORMS = ["simulator", "UDP", "Zenoh", "Create and AR.Drone", "Crazyflie", "MAVLink", "ROS 2"]
 
 
 class Ports:
@@ -51,7 +51,10 @@ class Ports:
 
 def devices(robots, platform, ports):
     """The tables of a fleet file that name the devices, or the reason why there are none."""
-    text = f'[positions]\nkind = "natnet"\nserver = "127.0.0.1:{ports.take(1)}"\n'
+    first = ports.take(1)
+    text = f'[positions]\nkind = "natnet"\nserver = "127.0.0.1:{first}"\n'
+    if platform == "ROS 2":
+        text = '[positions]\nkind = "ros2"\n'
     named = 0
     for name, model in robots:
         if platform == "MAVLink" and model == "drone":
@@ -63,6 +66,8 @@ def devices(robots, platform, ports):
             device = f'{{ kind = "ardrone", commands = "127.0.0.1:{first}", navdata = "127.0.0.1:{first + 1}" }}'
         elif platform == "Create and AR.Drone" and model == "create":
             device = f'{{ kind = "create", port = "{name}.line" }}'
+        elif platform == "ROS 2" and model in ("create", "differential"):
+            device = f'{{ kind = "ros2", router = "tcp/127.0.0.1:{first}", namespace = "{name}" }}'
         else:
             continue
         named += 1

@@ -78,7 +78,7 @@ struct Link {
     _subscriptions: [Subscription; 3],
 }
 
-/// What the robot has told.
+/// The latest news from the robot.
 #[derive(Debug, Default)]
 struct Heard {
     odometry: Option<(Odometry, Instant)>,

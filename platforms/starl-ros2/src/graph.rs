@@ -47,7 +47,7 @@ impl fmt::Display for Qos {
     }
 }
 
-/// What an endpoint of a topic does.
+/// The part of an endpoint in a topic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// It sends.
@@ -126,7 +126,7 @@ impl NodeName {
     }
 }
 
-/// What all tokens of a topic's endpoints with this role match.
+/// A pattern that matches the tokens of all endpoints of a topic with this role.
 pub fn any_token(domain: u32, role: Role, topic: &str) -> String {
     let code = role.code();
     let topic = mangled(topic);
@@ -175,7 +175,7 @@ fn mangled(name: &str) -> String {
     }
 }
 
-/// What is attached to each message: its number from 1, when it was sent, and who sent it.
+/// The attachment of a message: its number from 1, the time when it was sent, and the number of its publisher.
 pub fn attachment(number: u64, unix_ns: u64, gid: [u8; GID_LENGTH]) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(17 + GID_LENGTH);
     bytes.extend(number.to_le_bytes());

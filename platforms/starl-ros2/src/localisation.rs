@@ -75,7 +75,7 @@ impl Track {
         }
     }
 
-    /// Something is known anew in this frame.
+    /// Finds the robot on the map, if a pose in this frame can lead there.
     fn locate(&mut self, parent: &str) {
         let base = self
             .base

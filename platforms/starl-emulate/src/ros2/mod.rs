@@ -85,7 +85,7 @@ pub struct EmulatedRos2 {
     service: Service,
 }
 
-/// What the robot sends with.
+/// The publishers of the robot.
 #[derive(Debug)]
 struct Voice {
     node: Node,
@@ -167,7 +167,7 @@ impl Drop for EmulatedRos2 {
     }
 }
 
-/// Sends what the robot measures.
+/// Sends the robot's measurements.
 struct Sender {
     body: BodyHandle,
     setup: Ros2Setup,
