@@ -12,6 +12,9 @@ use std::time::{Duration, Instant};
 /// A localisation that says nothing for so long does not work. It has a while to begin.
 const SILENCE: Duration = Duration::from_secs(3);
 
+/// A map that knows where `odom` is does not help where nothing says for so long where the robot is in `odom`.
+const OLDEST_BASE: Duration = Duration::from_secs(1);
+
 /// The robot's own localisation as a source of positions: AMCL, slam_toolbox and others.
 ///
 /// The scenario's world is the frame `map`: the same axes and the same origin, in metres. A position is as old as the last
@@ -32,6 +35,8 @@ pub(crate) struct Track {
     base: Option<String>,
     /// Whether `tf` says where the robot's frame is: it knows better than the wheels.
     has_base: bool,
+    /// When its place in its parent was heard last.
+    based: Option<Instant>,
     fix: Option<(Instant, Pose)>,
 }
 
@@ -42,6 +47,7 @@ impl Track {
             frames: Frames::default(),
             base: None,
             has_base: false,
+            based: None,
             fix: None,
         }
     }
@@ -54,6 +60,7 @@ impl Track {
         }
         if !self.has_base {
             self.frames.put(&header.frame, child, odometry.pose);
+            self.based = Some(Instant::now());
             self.locate(&header.frame);
         }
     }
@@ -66,8 +73,10 @@ impl Track {
                 pose,
             } = transform;
             self.frames.put(&header.frame, child, *pose);
-            let base = self.base.as_deref();
-            self.has_base |= base.is_some_and(|base| plain(base) == plain(child));
+            if self.base.as_deref().map(plain) == Some(plain(child)) {
+                self.has_base = true;
+                self.based = Some(Instant::now());
+            }
         }
         // All of them belong to one moment.
         for transform in transforms {
@@ -77,10 +86,11 @@ impl Track {
 
     /// Finds the robot on the map, if a pose in this frame can lead there.
     fn locate(&mut self, parent: &str) {
-        let base = self
-            .base
-            .as_deref()
-            .filter(|_| plain(parent) == plain(&self.map));
+        let is_based = self.based.is_some_and(|at| at.elapsed() < OLDEST_BASE);
+        if !is_based || plain(parent) != plain(&self.map) {
+            return;
+        }
+        let base = self.base.as_deref();
         let pose = base.and_then(|base| self.frames.pose(base, &self.map));
         self.fix = pose.map(|pose| (Instant::now(), pose)).or(self.fix.take());
     }
@@ -160,6 +170,15 @@ mod tests {
         assert_eq!(track.fix, None);
         track.transforms(&[transform("map", "odom", 10.0)]);
         assert_eq!(track.fix.take().unwrap().1.position.x, 11.5);
+    }
+
+    #[test]
+    fn a_map_without_odometry_gives_no_position() {
+        let mut track = Track::new("map");
+        track.odometry(&odometry(1.0));
+        track.based = Instant::now().checked_sub(OLDEST_BASE);
+        track.transforms(&[transform("map", "odom", 10.0)]);
+        assert_eq!(track.fix, None);
     }
 
     #[test]

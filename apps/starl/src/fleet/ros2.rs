@@ -191,7 +191,7 @@ mod without_zenoh {
     }
 
     #[derive(Default)]
-    pub struct Routers;
+    pub struct Routers(());
 
     pub fn emulate(
         _: BodyHandle,
