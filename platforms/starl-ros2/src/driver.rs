@@ -8,6 +8,7 @@ use crate::{ROUTER, frames, graph};
 use starl_core::{Command, Estimate, Point, Pose};
 use starl_node::{Device, DeviceError, Reading};
 use starl_zenoh::{Mode, ZenohError, ZenohOptions};
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, OnceLock};
 use std::thread;
@@ -94,7 +95,8 @@ impl Ros2Robot {
     /// Where the endpoint or a name is malformed, or the system gives no thread.
     pub fn connect(options: &Ros2Options) -> Result<Ros2Robot, DeviceError> {
         let namespace = &options.namespace;
-        if !namespace.is_empty() && !(namespace.starts_with('/') && graph::is_name(namespace)) {
+        let is_name = namespace.starts_with('/') && graph::is_name(namespace);
+        if !(is_name || namespace.is_empty()) {
             return Err(DeviceError::Fault(format!(
                 "namespace: {namespace:?} is not a name of ROS; use one such as \"/r1\""
             )));
@@ -167,9 +169,10 @@ impl Ros2Robot {
         let topics: BTreeSet<Topic> = lock(&self.heard).listeners.values().cloned().collect();
         self.publishers.retain(|topic, _| topics.contains(topic));
         for topic in topics.into_iter().take(MOST_TOPICS) {
-            if !self.publishers.contains_key(&topic) {
-                let publisher = link.node.publish_as(topic.clone(), Qos::DEFAULT);
-                self.publishers.insert(topic, publisher.map_err(fault)?);
+            if let Entry::Vacant(place) = self.publishers.entry(topic) {
+                let topic = place.key().clone();
+                let publisher = link.node.publish_as(topic, Qos::DEFAULT);
+                place.insert(publisher.map_err(fault)?);
             }
         }
         for (topic, publisher) in &self.publishers {
