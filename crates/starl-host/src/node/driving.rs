@@ -36,6 +36,8 @@ impl Node {
         };
         match &request {
             MotionRequest::Drive(command) if !drive.model.accepts(command) => {
+                // Whatever the robot did before, its program wants something else now.
+                self.pilot = None;
                 self.command = Command::Stop;
                 let text = format!("a {} does not take {command:?}", drive.model.name());
                 let level = Level::Warning;
