@@ -14,6 +14,7 @@ pub mod parameters;
 pub mod pilot;
 pub mod planning;
 pub mod proximity;
+pub mod sensing;
 pub mod tracking;
 
 pub use model::{Disturbance, Impact, Limits, Model, State};

@@ -3,11 +3,11 @@
 use super::inbox::{Delivery, Transmission};
 use super::mind::{Account, Frozen, Senses};
 use super::outlet::Desk;
-use super::sense::Readings;
 use super::shared::{Kind, Shared, Window};
 use super::{discover, position};
 use starl_core::{Event, Input, Message, Payload, Sensors, Time};
 use starl_host::{Happening, Node, Outlet, Snapshot};
+use starl_motion::sensing::Readings;
 
 /// All that one robot's turn touches.
 pub struct Turn<'a> {
@@ -147,14 +147,8 @@ impl Turn<'_> {
             readings.detections.extend_from_slice(&frozen.detections);
             return;
         }
-        match &kind.sensors.proximity {
-            Some(sensor) => readings.measure(shared, robot, &state.pose, sensor),
-            None => readings.clear(),
-        }
-        match &kind.sensors.detector {
-            Some(sensor) => readings.detect(shared, robot, sensor),
-            None => readings.detections.clear(),
-        }
+        let (scene, things) = (shared.scene(), shared.things.lying());
+        readings.read(&kind.sensors, &scene, things, robot, state.pose.yaw);
         if self.senses.are_frozen {
             self.senses.frozen = Some(Box::new(Frozen {
                 bumper: self.senses.contact,

@@ -1,9 +1,9 @@
 //! Looks into a running simulation without changing it.
 
 use super::Simulation;
-use super::sense::Readings;
 use super::shard::SIZE;
 use starl_core::{Obstacle, Port, Program, Robot, RobotId, Sensors, Time, View};
+use starl_motion::sensing::Readings;
 
 /// A datagram on its way to a robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,12 +100,8 @@ impl Simulation {
             let mut shared = shared.clone();
             shared.grid.rebuild(&shared.bodies, &shared.gone);
             let pose = &self.shards[robot.index() / SIZE].states[robot.index() % SIZE].pose;
-            if let Some(sensor) = &kind.sensors.proximity {
-                readings.measure(&shared, robot, pose, sensor);
-            }
-            if let Some(sensor) = &kind.sensors.detector {
-                readings.detect(&shared, robot, sensor);
-            }
+            let (scene, things) = (shared.scene(), shared.things.lying());
+            readings.read(&kind.sensors, &scene, things, robot, pose.yaw);
         }
         let view = View {
             id: robot,

@@ -14,7 +14,6 @@ mod populate;
 mod position;
 mod radio;
 mod record;
-mod sense;
 mod shard;
 mod shared;
 mod simulation;

@@ -8,7 +8,6 @@ use super::mind::{Mind, Outgoing};
 use super::outlet::Desk;
 use super::radio::{self, Posted};
 use super::record::Log;
-use super::sense::Readings;
 use super::shared::{Shared, Window};
 use super::things::Grip;
 use starl_core::event::Hit;
@@ -16,6 +15,7 @@ use starl_core::{Command, Event, Point, Random, RobotId, Time, math, sensor};
 use starl_host::Workspace;
 use starl_host::journal::Journal;
 use starl_motion::contact::{Contact, Motions};
+use starl_motion::sensing::Readings;
 use starl_motion::{Neighbour, State};
 
 /// How many robots a shard holds.

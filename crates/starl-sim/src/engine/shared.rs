@@ -8,6 +8,7 @@ use starl_core::motion::Obstacles;
 use starl_core::{Command, Point, Program, RobotId, Time, WayPoint, math};
 use starl_host::Hardware;
 use starl_motion::contact::Grid;
+use starl_motion::proximity::Scene;
 use starl_motion::{Disturbance, Model, Neighbour};
 use std::sync::Arc;
 
@@ -67,6 +68,15 @@ pub struct Shared {
 }
 
 impl Shared {
+    /// What sensors measure in.
+    pub fn scene(&self) -> Scene<'_> {
+        Scene {
+            bodies: &self.bodies,
+            grid: &self.grid,
+            map: &self.map,
+        }
+    }
+
     /// Whether a partition keeps a robot from being heard by another.
     pub fn parted(&self, from: RobotId, to: RobotId) -> bool {
         if self.parts.is_empty() {

@@ -2,6 +2,7 @@
 
 use starl_core::{Duration, Pose, RobotId};
 use starl_motion::Model;
+use starl_motion::sensing::SensorSuite;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -54,36 +55,6 @@ pub enum Parameter {
     List(Vec<Parameter>),
 }
 
-/// The sensors that robots of a group carry.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SensorSuite {
-    /// Feels contacts; default true.
-    pub bumper: bool,
-    /// Measures distances; default none.
-    pub proximity: Option<Proximity>,
-    /// Sees things and robots; default none.
-    pub detector: Option<Detector>,
-    /// Hidden obstacles this near to the body's edge and in line of sight become known, metres;
-    /// default 0.6. A robot that bumps into one knows it in any case.
-    pub discovery_range: f64,
-}
-
-/// Rays evenly round the body, the first straight ahead.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Proximity {
-    /// How many; default 24.
-    pub rays: u32,
-    /// How far they see beyond the body's edge, metres; default 0.1.
-    pub range: f64,
-}
-
-/// Sees things and robots in line of sight.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Detector {
-    /// How far, from the robot's centre, metres; default 0.6.
-    pub range: f64,
-}
-
 /// How wrong the clocks of a group's robots are: each robot's own clock reads
 /// `offset + (1 + drift) * time`, with offset and drift drawn uniformly within these bounds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -92,17 +63,6 @@ pub struct Clock {
     pub offset: Duration,
     /// Greatest drift either way, parts per million; default 0.
     pub drift_ppm: f64,
-}
-
-impl Default for SensorSuite {
-    fn default() -> SensorSuite {
-        SensorSuite {
-            bumper: true,
-            proximity: None,
-            detector: None,
-            discovery_range: 0.6,
-        }
-    }
 }
 
 impl Fleet {

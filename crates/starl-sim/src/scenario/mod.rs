@@ -12,10 +12,11 @@ mod world;
 pub(crate) use event::{Joins, Moment};
 pub use event::{Occasion, ScenarioEvent};
 pub use fault::{Fault, FaultRates, Faults};
-pub use fleet::{Clock, Detector, Fleet, Group, Parameter, Proximity, SensorSuite};
+pub use fleet::{Clock, Fleet, Group, Parameter};
 pub use network::{Link, LinkOverride, Network};
 pub use starl_core::FaultKind;
 pub use starl_core::intervention::DelayDistribution;
+pub use starl_motion::sensing::{Detector, Proximity, SensorSuite};
 pub use starl_properties::Properties;
 pub use world::{Bounds, Thing, World, WorldObstacle};
 
