@@ -253,6 +253,9 @@ pub enum EmulateArguments {
 pub struct EmulateFleet {
     /// The fleet file
     pub fleet: PathBuf,
+    /// End with the process at the other end of standard input
+    #[arg(long, hide = true)]
+    pub supervised: bool,
 }
 
 /// The subcommands for a real fleet.

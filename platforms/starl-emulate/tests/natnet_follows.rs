@@ -30,6 +30,25 @@ fn client(server: SocketAddr, body: &str) -> NatNet {
     .unwrap()
 }
 
+#[test]
+fn other_bodies_are_seen_too() {
+    let server = EmulatedNatNet::start(world(), any(), Cameras::default()).unwrap();
+    let options = NatNetOptions::new(server.address().ip(), "r0");
+    let mut client = NatNet::connect(NatNetOptions {
+        server: server.address(),
+        others: vec!["ghost".to_string(), "r1".to_string()],
+        ..options
+    })
+    .unwrap();
+    wait(&mut client, |answer| answer.ok().flatten());
+    let seen: Vec<_> = client.others().collect();
+    assert_eq!(seen.len(), 1, "no server knows the first");
+    let (index, _, pose) = seen[0];
+    assert_eq!(index, 1);
+    assert!(pose.position.distance(Point::planar(2.0, -1.5)) < 1e-4);
+    assert_eq!(client.others().count(), 0, "they are told once");
+}
+
 /// The first answer that `wanted` takes, within 3 s.
 fn wait<T>(
     client: &mut NatNet,

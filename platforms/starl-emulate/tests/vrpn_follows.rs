@@ -27,6 +27,7 @@ fn client(server: SocketAddr, tracker: &str) -> Vrpn {
     Vrpn::connect(VrpnOptions {
         server,
         tracker: tracker.to_string(),
+        others: vec!["ghost".to_string(), "r1".to_string()],
     })
 }
 
@@ -43,6 +44,23 @@ fn wait<T>(
         assert!(Instant::now() < limit, "nothing has come within 4 s");
         sleep(Duration::from_millis(2));
     }
+}
+
+#[test]
+fn other_trackers_are_seen_too() {
+    let server = EmulatedVrpn::start(world(), any()).unwrap();
+    let mut client = client(server.address(), "r0");
+    let limit = Instant::now() + Duration::from_secs(4);
+    let (index, _, pose) = loop {
+        let _ = client.poll();
+        if let Some(seen) = client.others().pop() {
+            break seen;
+        }
+        assert!(Instant::now() < limit, "nothing has come within 4 s");
+        sleep(Duration::from_millis(2));
+    };
+    assert_eq!(index, 1, "no server knows the first");
+    assert!(pose.position.distance(Point::planar(2.0, -1.5)) < 1e-6);
 }
 
 #[test]

@@ -24,6 +24,8 @@ pub struct NatNetOptions {
     pub server: SocketAddr,
     /// The name of the rigid body in Motive.
     pub body: String,
+    /// The names of other bodies whose poses are wanted too. The server need not know them.
+    pub others: Vec<String>,
     /// Which axis points up.
     pub up: UpAxis,
 }
@@ -34,6 +36,7 @@ impl NatNetOptions {
         NatNetOptions {
             server: (server, COMMAND_PORT).into(),
             body: body.to_string(),
+            others: Vec::new(),
             up: UpAxis::default(),
         }
     }
@@ -104,6 +107,8 @@ pub struct NatNet {
     number: Option<u32>,
     last_frame: Option<u32>,
     sighting: Option<(Instant, Pose)>,
+    /// The latest pose of each of the other bodies, in the order of the options.
+    others: Vec<Option<(Instant, Pose)>>,
     asked: Option<Instant>,
     heard: Instant,
 }
@@ -123,6 +128,7 @@ impl NatNet {
         socket.set_nonblocking(true)?;
         Ok(NatNet {
             socket,
+            others: vec![None; options.others.len()],
             options,
             version: None,
             ticks_per_second: 0,
@@ -166,6 +172,14 @@ impl NatNet {
             return Err(NatNetError::Silent(self.options.server));
         }
         Ok(self.sighting.take())
+    }
+
+    /// The latest poses of the other bodies that have arrived since the last call: the place of each in
+    /// [`NatNetOptions::others`], and when the cameras saw it. Bodies that are hidden or unknown are left out.
+    /// [`NatNet::poll`] takes them in.
+    pub fn others(&mut self) -> impl Iterator<Item = (usize, Instant, Pose)> {
+        let others = self.others.iter_mut().enumerate();
+        others.filter_map(|(index, seen)| seen.take().map(|(at, pose)| (index, at, pose)))
     }
 
     fn ask(&mut self) -> Result<(), NatNetError> {
@@ -223,13 +237,25 @@ impl NatNet {
             return;
         }
         self.last_frame = Some(frame.number);
-        let wanted = |body: &&RigidBody| body.tracked && Some(body.number) == self.number;
-        let Some(body) = frame.bodies.iter().find(wanted) else {
-            return;
-        };
-        let age = self.age(frame);
-        if let Some(pose) = pose(body, self.options.up) {
-            self.sighting = Some((now.checked_sub(age).unwrap_or(now), pose));
+        let at = now.checked_sub(self.age(frame)).unwrap_or(now);
+        for body in frame.bodies.iter().filter(|body| body.tracked) {
+            let Some(pose) = pose(body, self.options.up) else {
+                continue;
+            };
+            if Some(body.number) == self.number {
+                self.sighting = Some((at, pose));
+                continue;
+            }
+            let named = |(number, _): &&(u32, String)| *number == body.number;
+            let name = self.bodies.iter().find(named).map(|(_, name)| name);
+            let wanted = self
+                .options
+                .others
+                .iter()
+                .position(|other| Some(other) == name);
+            if let Some(index) = wanted {
+                self.others[index] = Some((at, pose));
+            }
         }
     }
 

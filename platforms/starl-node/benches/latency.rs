@@ -9,6 +9,7 @@ use starl_core::{
     Robot as Handle, RobotId,
 };
 use starl_host::{Hardware, Observed};
+use starl_motion::sensing::SensorSuite;
 use starl_node::link::channel::Opened;
 use starl_node::link::frame::Frame;
 use starl_node::link::udp::Udp;
@@ -161,7 +162,8 @@ fn robot(keys: Vec<[u8; 32]>) -> Vec<Span> {
             control_period: Duration::from_millis(100),
             drive: None,
         },
-        has_bumper: false,
+        sensors: SensorSuite::default(),
+        things: Vec::new(),
         way_points: Vec::new(),
         obstacles: [].into(),
         positioning_period: Duration::from_millis(50),

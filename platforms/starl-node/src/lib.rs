@@ -15,6 +15,7 @@ pub mod robot;
 pub mod safety;
 pub mod simulated;
 pub mod storage;
+pub mod surroundings;
 pub mod writer;
 
 pub use clock::WallClock;

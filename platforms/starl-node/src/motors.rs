@@ -2,7 +2,7 @@
 //! motors when the program does not answer any more.
 
 use crate::{Device, DeviceError, Reading, WallClock};
-use starl_core::{Command, Estimate, Pose, Time};
+use starl_core::{Command, Estimate, Pose, RobotId, Time};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
@@ -26,6 +26,11 @@ pub trait PositionSource: Send {
     /// # Errors
     /// Where the source cannot be reached, or does not know the robot. It is asked again.
     fn poll(&mut self) -> Result<Option<(Instant, Pose)>, DeviceError>;
+
+    /// Where other robots were seen since the last call, if the source sees them too. Called after [`Self::poll`].
+    fn others(&mut self) -> Vec<(RobotId, Instant, Pose)> {
+        Vec::new()
+    }
 }
 
 /// What the device's thread tells the program's.
@@ -35,6 +40,8 @@ pub enum Report {
     Measured(Time, Reading),
     /// The robot was seen somewhere.
     Seen(Time, Pose),
+    /// Another robot was seen somewhere.
+    SawOther(RobotId, Time, Pose),
     /// The device cannot be used, or can be used again.
     Trouble(Option<String>),
 }
@@ -167,6 +174,9 @@ fn drive(
             Some(Ok(Some((at, pose)))) => tell(Report::Seen(clock.at(at), pose)),
             Some(Err(error)) => problem = Some(error),
             Some(Ok(None)) | None => {}
+        }
+        for (robot, at, pose) in positions.iter_mut().flat_map(|source| source.others()) {
+            tell(Report::SawOther(robot, clock.at(at), pose));
         }
         report(&mut trouble, problem, is_due, &mut tell);
         thread::sleep(PERIOD.saturating_sub(now.elapsed()));

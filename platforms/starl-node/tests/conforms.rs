@@ -10,6 +10,7 @@ use starl_host::hardware::Drive;
 use starl_host::testing::conformance::{DELAY, Fleet, Host, Need, PERIOD, TICK, WRITE_TIME};
 use starl_host::{Hardware, Observed, PlanJob, StoreJob};
 use starl_motion::Neighbour;
+use starl_motion::sensing::SensorSuite;
 use starl_node::link::frame::Frame;
 use starl_node::link::{Arrival, Channel, Member, Origin};
 use starl_node::robot::{Core, Equipment, Incoming, Recorder, Setup};
@@ -152,7 +153,8 @@ impl Robots {
             program: self.fleet.robots[robot.index()].clone().boxed(),
             random: Random::keyed(1, &[u64::from(robot.0)]),
             hardware,
-            has_bumper: false,
+            sensors: SensorSuite::default(),
+            things: Vec::new(),
             way_points: Vec::<WayPoint>::new(),
             obstacles: [].into(),
             positioning_period: PERIOD,

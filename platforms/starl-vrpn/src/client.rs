@@ -18,6 +18,8 @@ pub struct VrpnOptions {
     pub server: SocketAddr,
     /// The name of the tracker.
     pub tracker: String,
+    /// The names of other trackers whose poses are wanted too. The server need not know them.
+    pub others: Vec<String>,
 }
 
 /// Why there are no positions.
@@ -75,6 +77,8 @@ struct Shared {
 #[derive(Debug)]
 struct Seen {
     pose: Option<(Instant, Pose)>,
+    /// The latest pose of each of the other trackers, in the order of the options.
+    others: Vec<Option<(Instant, Pose)>>,
     last: Instant,
     trouble: Option<String>,
     known: Vec<String>,
@@ -84,14 +88,15 @@ impl Vrpn {
     /// Begins to connect to the server. One that does not answer shows in [`Vrpn::poll`].
     pub fn connect(options: VrpnOptions) -> Vrpn {
         let shared = Arc::new(Shared {
-            options,
             stop: AtomicBool::new(false),
             seen: Mutex::new(Seen {
                 pose: None,
+                others: vec![None; options.others.len()],
                 last: Instant::now(),
                 trouble: None,
                 known: Vec::new(),
             }),
+            options,
         });
         let thread = thread::spawn({
             let shared = shared.clone();
@@ -116,7 +121,9 @@ impl Vrpn {
         if seen.last.elapsed() < SILENCE {
             return Ok(None);
         }
-        let VrpnOptions { server, tracker } = self.shared.options.clone();
+        let VrpnOptions {
+            server, tracker, ..
+        } = self.shared.options.clone();
         Err(match seen.trouble.clone() {
             Some(trouble) => VrpnError::Connection(server, trouble),
             None => VrpnError::Silent {
@@ -124,6 +131,16 @@ impl Vrpn {
                 known: seen.known.clone(),
             },
         })
+    }
+
+    /// The latest poses of the other trackers that have arrived since the last call: the place of each in
+    /// [`VrpnOptions::others`], and when it arrived.
+    pub fn others(&mut self) -> Vec<(usize, Instant, Pose)> {
+        let mut seen = self.shared.seen();
+        let others = seen.others.iter_mut().enumerate();
+        others
+            .filter_map(|(index, seen)| seen.take().map(|(at, pose)| (index, at, pose)))
+            .collect()
     }
 }
 
@@ -201,12 +218,22 @@ impl Shared {
             kind => {
                 let named = |name: Option<&String>, wanted: &str| name.is_some_and(|n| n == wanted);
                 if named(names.kinds.get(&kind), wire::PLACE)
-                    && named(names.senders.get(&message.sender), &self.options.tracker)
+                    && let Some(sender) = names.senders.get(&message.sender)
                     && let Some(pose) = Place::decode(&message.body).and_then(|place| pose(&place))
                 {
+                    let now = Instant::now();
                     let mut seen = self.seen();
-                    seen.last = Instant::now();
-                    seen.pose = Some((seen.last, pose));
+                    let others = self.options.others.iter();
+                    for (_, other) in others
+                        .zip(&mut seen.others)
+                        .filter(|(name, _)| *name == sender)
+                    {
+                        *other = Some((now, pose));
+                    }
+                    if *sender == self.options.tracker {
+                        seen.last = now;
+                        seen.pose = Some((now, pose));
+                    }
                 }
             }
         }

@@ -4,7 +4,7 @@ use super::file::{Device, Fleet, Member, Positions, Up};
 use super::ros2;
 use crate::failure::Failure;
 use starl_ardrone::{Ardrone, ArdroneOptions};
-use starl_core::Pose;
+use starl_core::{Pose, RobotId};
 use starl_crazyflie::{Crazyflie, CrazyflieOptions};
 use starl_create::{Create, CreateOptions, Generation};
 use starl_mavlink::{MavlinkOptions, MavlinkVehicle};
@@ -83,7 +83,7 @@ pub fn connect(
     let positions = fleet
         .positions
         .as_ref()
-        .map(|source| follow(source, member));
+        .map(|source| follow(source, fleet, member));
     Ok((device, positions.transpose()?))
 }
 
@@ -98,47 +98,70 @@ pub fn generation(device: &Device) -> Generation {
     }
 }
 
-/// Follows the robot by motion capture.
-fn follow(source: &Positions, member: &Member) -> Result<Box<dyn PositionSource>, Failure> {
+/// Follows the robot by motion capture, and the others that it may see.
+fn follow(
+    source: &Positions,
+    fleet: &Fleet,
+    member: &Member,
+) -> Result<Box<dyn PositionSource>, Failure> {
+    let others = fleet.robots.iter().filter(|other| other.id != member.id);
+    let (others, names): (Vec<RobotId>, Vec<String>) =
+        others.map(|other| (other.id, other.body.clone())).unzip();
     match source {
         Positions::Natnet { server, up } => {
             let mut options = NatNetOptions::new(server.ip(), &member.body);
             options.server = *server;
+            options.others = names;
             options.up = match up {
                 Up::Z => UpAxis::Z,
                 Up::Y => UpAxis::Y,
             };
             let client = NatNet::connect(options)
                 .map_err(|error| Failure(format!("{}: positions: {error}", member.name)))?;
-            Ok(Box::new(Cameras(client)))
+            Ok(Box::new(Cameras(client, others)))
         }
         Positions::Vrpn { server } => {
-            let (server, tracker) = (*server, member.body.clone());
-            Ok(Box::new(Tracker(Vrpn::connect(VrpnOptions {
-                server,
-                tracker,
-            }))))
+            let client = Vrpn::connect(VrpnOptions {
+                server: *server,
+                tracker: member.body.clone(),
+                others: names,
+            });
+            Ok(Box::new(Trackers(client, others)))
         }
         Positions::Ros2 { .. } => Err(ros2::no_localisation(member)),
     }
 }
 
-/// A tracker as a source of positions.
-struct Tracker(Vrpn);
+/// Trackers as a source of positions, with the other robots that they follow.
+struct Trackers(Vrpn, Vec<RobotId>);
 
-impl PositionSource for Tracker {
+impl PositionSource for Trackers {
     fn poll(&mut self) -> Result<Option<(Instant, Pose)>, DeviceError> {
         let polled = self.0.poll();
         polled.map_err(|error| DeviceError::Fault(format!("positions: {error}")))
     }
+
+    fn others(&mut self) -> Vec<(RobotId, Instant, Pose)> {
+        let others = self.0.others().into_iter();
+        others
+            .map(|(index, at, pose)| (self.1[index], at, pose))
+            .collect()
+    }
 }
 
-/// Motion capture as a source of positions.
-struct Cameras(NatNet);
+/// Motion capture as a source of positions, with the other robots that it follows.
+struct Cameras(NatNet, Vec<RobotId>);
 
 impl PositionSource for Cameras {
     fn poll(&mut self) -> Result<Option<(Instant, Pose)>, DeviceError> {
         let polled = self.0.poll();
         polled.map_err(|error| DeviceError::Fault(format!("positions: {error}")))
+    }
+
+    fn others(&mut self) -> Vec<(RobotId, Instant, Pose)> {
+        let others = self.0.others();
+        others
+            .map(|(index, at, pose)| (self.1[index], at, pose))
+            .collect()
     }
 }

@@ -4,6 +4,7 @@
 use super::device::generation;
 use super::file::{Device, Fleet, Member, Positions};
 use super::ros2::{self, Manner, Place, Routers};
+use super::member::when_abandoned;
 use crate::args::{EmulateArguments, EmulateFleet};
 use crate::console;
 use crate::failure::Failure;
@@ -32,7 +33,13 @@ use std::time::Duration;
 pub fn run(arguments: &EmulateArguments, registry: &Registry) -> Result<bool, Failure> {
     let stop = stop_on_interrupt();
     let devices = match arguments {
-        EmulateArguments::Fleet(arguments) => fleet(arguments, registry)?,
+        EmulateArguments::Fleet(arguments) => {
+            if arguments.supervised {
+                let stop = stop.clone();
+                when_abandoned(move || stop.store(true, Ordering::Relaxed));
+            }
+            fleet(arguments, registry)?
+        }
         EmulateArguments::Create { link, generation } => {
             let generation = if *generation == 1 {
                 Generation::Create1

@@ -16,10 +16,11 @@ use starl_host::hardware::Drive;
 use starl_node::link::Channel;
 use starl_node::localise::Accuracy;
 use starl_node::robot::{Connections, Incoming, Robot, Setup, mailbox};
+use starl_node::surroundings::Thing;
 use starl_node::{Storage, WallClock};
 use starl_properties::Setting;
 use starl_sim::Scenario;
-use starl_sim::scenario::Group;
+use starl_sim::scenario::{self, Group};
 
 /// Runs a robot.
 pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Failure> {
@@ -64,9 +65,7 @@ pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Fail
     );
     if arguments.supervised {
         let halt = post.clone();
-        std::thread::spawn(move || {
-            // Nothing is ever written there: it ends with the process that holds the other end.
-            let _ = std::io::copy(&mut std::io::stdin(), &mut std::io::sink());
+        when_abandoned(move || {
             let _ = halt.send(Incoming::Halt);
         });
     }
@@ -78,6 +77,15 @@ pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Fail
         .map_err(|error| Failure(format!("{}: cannot start: {}", member.name, reason(&error))))?;
     robot.run().finish();
     Ok(true)
+}
+
+/// Does this when the process ends that holds the other end of standard input.
+pub fn when_abandoned(end: impl FnOnce() + Send + 'static) {
+    std::thread::spawn(move || {
+        // Nothing is ever written there.
+        let _ = std::io::copy(&mut std::io::stdin(), &mut std::io::sink());
+        end();
+    });
 }
 
 /// The group of a robot, and where it starts.
@@ -105,6 +113,11 @@ fn setup(
     let bodies = groups.flat_map(|group| vec![group.model.body(); group.starts.len()]);
     let obstacles = scenario.world.obstacles.iter();
     let known = obstacles.filter(|entry| !entry.hidden);
+    let things = scenario.world.things.iter();
+    let thing = |thing: &scenario::Thing| Thing {
+        name: thing.name.clone().into(),
+        position: thing.position,
+    };
     // A life of a robot draws what no other draws.
     let seed = now.0 ^ scenario.seed;
     let usual = Accuracy::default();
@@ -123,7 +136,8 @@ fn setup(
                 seed,
             }),
         },
-        has_bumper: group.sensors.bumper,
+        sensors: group.sensors,
+        things: things.map(thing).collect(),
         way_points: scenario.world.way_points.clone(),
         obstacles: known.map(|entry| entry.obstacle.clone()).collect(),
         positioning_period: scenario.positioning.period,

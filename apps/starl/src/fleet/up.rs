@@ -116,8 +116,10 @@ fn emulator(fleet: &Path) -> Result<Emulator, Failure> {
         Failure(format!("the devices cannot be emulated: {}", reason(error)))
     };
     let mut command = this_command().map_err(|error| cannot(&error))?;
-    command.args(["emulate", "fleet"]).arg(fleet);
-    command.stdin(Stdio::null()).stdout(Stdio::piped());
+    command
+        .args(["emulate", "fleet", "--supervised"])
+        .arg(fleet);
+    command.stdin(Stdio::piped()).stdout(Stdio::piped());
     let mut emulator = Emulator(command.spawn().map_err(|error| cannot(&error))?);
     let output = emulator.0.stdout.take().into_iter();
     let mut lines = output.flat_map(|output| BufReader::new(output).lines());

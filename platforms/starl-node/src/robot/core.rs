@@ -7,8 +7,9 @@ use crate::link::Channel;
 use crate::link::quality::Quality;
 use crate::localise::Localiser;
 use crate::motors::Report;
-use crate::outlet::{Desk, Perceived};
+use crate::outlet::Desk;
 use crate::safety::Hazard;
+use crate::surroundings::Surroundings;
 use crate::writer::Written;
 use starl_core::sensor::Contact;
 use starl_core::{Agent, Duration, Event, RobotId, Sensors, Time};
@@ -30,6 +31,7 @@ pub struct Core<R: Recorder, E: Equipment> {
     pub(super) fleet: Vec<RobotId>,
     pub(super) node: Node,
     pub(super) localiser: Localiser,
+    pub(super) surroundings: Surroundings,
     pub(super) equipment: E,
     pub(super) channel: Channel,
     pub(super) peers: Vec<Peer>,
@@ -55,11 +57,10 @@ pub struct Core<R: Recorder, E: Equipment> {
 
 /// What is known of another robot.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Peer {
+pub(super) struct Peer {
     pub quality: Quality,
     /// When it sent its latest beacon, by its clock, and when that arrived.
     pub latest: Option<(Time, Time)>,
-    pub perceived: Option<Perceived>,
 }
 
 impl<R: Recorder, E: Equipment> Core<R, E> {
@@ -81,6 +82,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             fleet,
             node,
             localiser: Localiser::new(setup.accuracy, setup.start, has_fixes, now),
+            surroundings: Surroundings::new(&setup),
             equipment,
             channel,
             to_self: Vec::new(),
@@ -262,6 +264,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
                 self.localiser.measure(at, &reading);
             }
             Report::Seen(at, pose) => self.localiser.fix(at, pose),
+            Report::SawOther(robot, at, pose) => self.surroundings.see(robot, at, pose),
             Report::Trouble(Some(what)) => self
                 .recorder
                 .notice(self.now, &format!("the device does not work: {what}")),
@@ -270,7 +273,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
     }
 
     fn feel(&mut self, reading: &Reading) {
-        if let Some(contact) = reading.bumper.filter(|_| self.setup.has_bumper) {
+        if let Some(contact) = reading.bumper.filter(|_| self.setup.sensors.bumper) {
             self.contact = contact;
         }
         self.battery = reading.battery.or(self.battery);
@@ -282,11 +285,17 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
 
     /// Calls the node, and carries out what it asks for.
     fn call(&mut self, call: impl FnOnce(&mut Node, Time, &Snapshot<'_>, &mut Desk<'_>)) {
+        let here = self.node.estimate().pose;
+        self.surroundings.sense(self.now, &here);
+        let readings = self.surroundings.readings();
         let snapshot = Snapshot {
             hardware: &self.setup.hardware,
             sensors: Sensors {
                 bumper: self.contact,
-                ..Sensors::default()
+                proximity: &readings.proximity,
+                detections: &readings.detections,
+                holding: None,
+                thing_names: &self.surroundings.thing_names,
             },
             fleet: &self.fleet,
             way_points: &self.setup.way_points,
@@ -295,8 +304,8 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
         let mut desk = Desk {
             workspace: &mut self.workspace,
             recorder: &mut self.recorder,
-            peers: &self.peers,
-            here: self.node.estimate().pose.position,
+            surroundings: &self.surroundings,
+            here: here.position,
             now: self.now,
             datagrams: Vec::new(),
             plans: Vec::new(),

@@ -10,7 +10,6 @@ mod network;
 mod watch;
 
 pub use self::core::Core;
-pub(crate) use self::core::Peer;
 pub use equipment::Equipment;
 
 use crate::link::{Arrival, Channel, Transport};
@@ -18,12 +17,14 @@ use crate::localise::Accuracy;
 use crate::motors::{Motors, PositionSource, Report};
 use crate::planner::Planner;
 use crate::safety::Safety;
+use crate::surroundings::Thing;
 use crate::writer::{StorageWriter, Written};
 use crate::{Device, Storage, WallClock};
 use equipment::Attached;
 use starl_core::motion::{Body, Obstacles, Path};
 use starl_core::{Duration, Event, Pose, Program, Random, RobotId, Time, WayPoint};
 use starl_host::{Hardware, Observed};
+use starl_motion::sensing::SensorSuite;
 use std::io;
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
@@ -46,8 +47,11 @@ pub struct Setup {
     pub random: Random,
     /// What it is made of.
     pub hardware: Hardware,
-    /// Whether it has a bumper that its program may feel.
-    pub has_bumper: bool,
+    /// The sensors that its program may read. A bumper is the device's; the others are measured among the places of the
+    /// other robots and the known obstacles.
+    pub sensors: SensorSuite,
+    /// The things that a detector sees.
+    pub things: Vec<Thing>,
     /// The application's way-points.
     pub way_points: Vec<WayPoint>,
     /// The obstacles that it knows.

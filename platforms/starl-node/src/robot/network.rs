@@ -4,7 +4,6 @@ use super::{Core, Equipment, Recorder};
 use crate::link::channel::{self, Opened};
 use crate::link::frame::{Beacon, Frame, Status};
 use crate::link::{Arrival, Member, OPERATORS};
-use crate::outlet::Perceived;
 use starl_core::event::DropReason;
 use starl_core::{Destination, Duration, Event, Message, RobotId};
 use starl_host::{Datagram, Happening};
@@ -80,14 +79,10 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
         let peer = &mut self.peers[from as usize];
         peer.quality.take(self.now, beacon);
         peer.latest = Some((beacon.sent, self.now));
-        let body = self.setup.bodies[from as usize];
         if let Some(pose) = beacon.pose {
-            peer.perceived = Some(Perceived {
-                at: self.now,
-                position: pose.position,
-                velocity: beacon.velocity,
-                body,
-            });
+            let robot = RobotId(from);
+            self.surroundings
+                .hear(robot, self.now, pose.position, beacon.velocity);
         }
     }
 
