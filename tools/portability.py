@@ -12,6 +12,7 @@ import pathlib
 import socket
 import subprocess
 import sys
+import threading
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/reference/portability.md"
@@ -19,7 +20,7 @@ MARK = "<!-- tools/portability.py writes what follows -->\n"
 # Examples with more robots than this are too many processes for one small machine.
 MOST_ROBOTS = 10
 # How many fleets run at once, and how long one may take, in seconds.
-AT_ONCE = 6
+AT_ONCE = 2
 PATIENCE = 200
 # Programs without an end of their own run for so long.
 LONGEST = "100s"
@@ -31,8 +32,13 @@ class Ports:
 
     def __init__(self, first):
         self.next = first
+        self.lock = threading.Lock()
 
     def take(self, count):
+        with self.lock:
+            return self.find(count)
+
+    def find(self, count):
         while True:
             first, self.next = self.next, self.next + count
             if all(self.is_free(port) for port in range(first, first + count)):
