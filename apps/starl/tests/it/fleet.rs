@@ -97,6 +97,17 @@ impl Drop for Up {
     }
 }
 
+/// Copies the folder of an example into this one.
+fn copy_example(folder: &Path, name: &str) {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let copy = Command::new("cp")
+        .arg("-r")
+        .arg(examples.join(name))
+        .arg(folder.join(name))
+        .status();
+    assert!(copy.expect("there is such a command").success());
+}
+
 /// Sends a robot of the folder's fleet packets that make no sense, of every length and kind.
 fn disturb(folder: &Path) {
     let text = std::fs::read_to_string(folder.join("fleet.toml")).expect("it is there");
@@ -439,13 +450,7 @@ fn what_is_wrong_with_a_fleet_file_is_said_in_one_message() {
 #[test]
 fn race_runs_on_emulated_creates_and_drones_over_zenoh() {
     let folder = folder("fleet_emulated");
-    let race = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/race");
-    let copy = Command::new("cp")
-        .arg("-r")
-        .arg(&race)
-        .arg(folder.join("race"))
-        .status();
-    assert!(copy.expect("there is such a command").success());
+    copy_example(&folder, "race");
     let first = ports(9);
     let mut text = format!(
         "scenario = \"race/race.toml\"\nlink = {{ kind = \"zenoh\", first_port = {first} }}\n\
@@ -543,4 +548,88 @@ fn robots_that_have_no_localisation_cannot_be_located_by_ros_2() {
         "{}",
         stderr(&output)
     );
+}
+
+/// A robot finishes when its detector shows another one.
+const LOOKOUT: &str = r#"
+program Lookout
+
+look()
+    pre sees(detected)
+    eff finish()
+
+function sees(seen: List[Detection]) -> Bool
+    for other in seen
+        if other.robot != none
+            return true
+    return false
+"#;
+
+#[test]
+fn a_detector_shows_robots_that_motion_capture_follows() {
+    let folder = folder("fleet_detector");
+    file(&folder, "lookout.starl", LOOKOUT);
+    let scenario = r#"
+program = "lookout.starl"
+duration = "60s"
+
+[[robots]]
+model = "create"
+name = "robot"
+count = 2
+start = [{ position = [0, 0] }, { position = [1, 0] }]
+sensors = { detector = { range = "1.5m" } }
+"#;
+    file(&folder, "lookout.toml", scenario);
+    let first = ports(3);
+    let mut text = format!(
+        "scenario = \"lookout.toml\"\n[link]\nfirst_port = {first}\n\
+         [positions]\nkind = \"natnet\"\nserver = \"127.0.0.1:{}\"\n",
+        first + 2
+    );
+    for robot in ["robot0", "robot1"] {
+        text += &format!(
+            "[robots.{robot}]\ndevice = {{ kind = \"create\", port = \"{robot}.line\" }}\n"
+        );
+    }
+    file(&folder, "fleet.toml", &text);
+    let output = Up::start(&folder, &["--emulate"]).end();
+    assert_eq!(status(&output), 0, "{}{}", stdout(&output), stderr(&output));
+    for robot in ["robot0", "robot1"] {
+        let trace = format!("fleet.runs/0001/{robot}.1.mcap");
+        let output = starl(&folder, &["replay", &trace, "--robot", robot]);
+        assert!(stdout(&output).contains("identical"), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn a_trained_network_steers_robots_in_processes_of_their_own() {
+    let folder = folder("fleet_policy");
+    copy_example(&folder, "crossing");
+    let scenario = r#"
+program = "crossing/crossing.starl"
+duration = "60s"
+
+[[robots]]
+model = "holonomic"
+name = "robot"
+count = 2
+model_parameters = { speed = "0.5m/s", cruise_speed = "0.5m/s" }
+start = [{ position = [1, 0] }, { position = [-1, 0] }]
+
+[world]
+way_point = [{ name = "robot0", position = [-1, 0] }, { name = "robot1", position = [1, 0] }]
+"#;
+    file(&folder, "two.toml", scenario);
+    let text = format!(
+        "scenario = \"two.toml\"\n[link]\nfirst_port = {}\n",
+        ports(2)
+    );
+    file(&folder, "fleet.toml", &text);
+    let output = Up::start(&folder, &[]).end();
+    assert_eq!(status(&output), 0, "{}{}", stdout(&output), stderr(&output));
+    // The network is in the trace, and gives the same numbers there.
+    let trace = "fleet.runs/0001/robot0.1.mcap";
+    let output = starl(&folder, &["replay", trace, "--robot", "robot0"]);
+    assert!(stdout(&output).contains("identical"), "{}", stderr(&output));
 }

@@ -12,7 +12,7 @@ use crate::safety::Hazard;
 use crate::surroundings::Surroundings;
 use crate::writer::Written;
 use starl_core::sensor::Contact;
-use starl_core::{Agent, Duration, Event, RobotId, Sensors, Time};
+use starl_core::{Agent, Duration, Event, Point, RobotId, Sensors, Time};
 use starl_host::{Clock, Datagram, Happening, Node, Snapshot, Workspace};
 use std::mem;
 
@@ -21,6 +21,10 @@ const BEACON_PERIOD: Duration = Duration::from_millis(100);
 
 /// How often the robot's true pose is recorded.
 const POSE_PERIOD: Duration = Duration::from_millis(100);
+
+/// A pose this far from the recorded one is recorded at once, metres: the program acts on it now, and properties are
+/// judged by the records.
+const JUMP: f64 = 0.05;
 
 /// So many timers fire at once at most, so that packets are not kept waiting.
 const MOST_TIMERS: usize = 16;
@@ -47,6 +51,8 @@ pub struct Core<R: Recorder, E: Equipment> {
     next_location: Time,
     next_beacon: Time,
     next_pose: Time,
+    /// The position that was recorded last.
+    recorded: Point,
     pub(super) beacons: u32,
     pub(super) link_heard: Time,
     pub(super) failure: Option<String>,
@@ -96,6 +102,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             next_location: now,
             next_beacon: now,
             next_pose: now,
+            recorded: Point::ZERO,
             beacons: 0,
             link_heard: now,
             failure: None,
@@ -222,8 +229,10 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
             return;
         }
         self.call(|node, now, _, desk| node.locate(now, estimate, desk));
-        if self.next_pose <= self.now {
+        let position = estimate.pose.position;
+        if self.next_pose <= self.now || position.distance(self.recorded) > JUMP {
             self.next_pose = self.now + POSE_PERIOD;
+            self.recorded = position;
             self.recorder.record(self.now, Event::Moved(estimate.pose));
         }
         if is_started {
