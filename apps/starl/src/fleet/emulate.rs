@@ -3,8 +3,8 @@
 
 use super::device::generation;
 use super::file::{Device, Fleet, Member, Positions};
-use super::ros2::{self, Manner, Place, Routers};
 use super::member::when_abandoned;
+use super::ros2::{self, Manner, Place, Routers};
 use crate::args::{EmulateArguments, EmulateFleet};
 use crate::console;
 use crate::failure::Failure;

@@ -68,7 +68,7 @@ pub struct Shared {
 }
 
 impl Shared {
-    /// What sensors measure in.
+    /// The bodies and obstacles among which sensors measure.
     pub fn scene(&self) -> Scene<'_> {
         Scene {
             bodies: &self.bodies,
