@@ -5,6 +5,7 @@
 //! settled between steps in a fixed order. So the same scenario and seed give the same run on any
 //! number of threads and on any target.
 
+pub mod cause;
 pub mod engine;
 pub mod profile;
 pub mod read;
@@ -14,6 +15,7 @@ pub mod shrink;
 pub mod trial;
 pub mod write;
 
+pub use cause::{Cause, History};
 pub use engine::Simulation;
 pub use profile::Profile;
 pub use run::{Failure, Outcome, Run, setting};

@@ -2,8 +2,8 @@
 
 use crate::run::{Outcome, Run};
 use serde::{Deserialize, Serialize};
-use starl_core::Time;
 use starl_core::event::Name;
+use starl_core::{Record, Time};
 use starl_properties::Excuse;
 use std::fmt;
 
@@ -38,8 +38,14 @@ impl Trial {
     /// Lets the run go on to its end, or until something goes wrong. Whether a goal that is not reached
     /// is wrong is for the caller to say.
     pub fn of(run: &mut Run, demands_goal: bool) -> Trial {
+        Trial::watched(run, demands_goal, &mut |_| ())
+    }
+
+    /// Does the same, and passes the records of each step to `see`.
+    pub fn watched(run: &mut Run, demands_goal: bool, see: &mut dyn FnMut(&[Record])) -> Trial {
         while !run.is_over() && run.violations().is_empty() && run.failures().is_empty() {
             run.advance();
+            see(run.simulation().records());
         }
         let (outcome, finding, text) = if let Some(violation) = run.violations().first() {
             let finding = Finding::Violated(violation.property.clone());

@@ -11,7 +11,7 @@ use starl_core::{Duration, Time};
 use starl_sim::profile::Profile;
 use starl_sim::read::{Loader, Request, Source};
 use starl_sim::shrink::{Limits, shrink};
-use starl_sim::{Finding, Run, Scenario, Trial, write};
+use starl_sim::{Cause, Finding, History, Run, Scenario, Trial, write};
 
 /// A search for the smallest scenario that fails as a run did. It can be made in pieces: what was tried is remembered.
 pub struct Shrinking {
@@ -21,6 +21,8 @@ pub struct Shrinking {
     /// Comments that the file begins with.
     head: String,
     answers: Answers,
+    /// The causal past of the original's failure; none before the original has run in this process.
+    cause: Option<Cause>,
 }
 
 /// When each scenario failed that a search tried so far, in order. The search depends on nothing else, so it can be made in
@@ -109,6 +111,7 @@ impl Shrinking {
             registry: subject.application.registry().clone(),
             head,
             answers: Vec::new(),
+            cause: None,
         }
     }
 
@@ -145,13 +148,19 @@ impl Shrinking {
         let shorter = self.finding != Finding::Unreached;
         let mut known = std::mem::take(&mut self.answers);
         let mut next = 0;
-        let shrunk = shrink(&self.original, limits, shorter, &mut |scenario| {
+        let mut first: Option<Scenario> = None;
+        let original = self.original.clone();
+        let shrunk = shrink(&original, limits, shorter, &mut |scenario| {
+            let first = first.get_or_insert_with(|| scenario.clone());
             let failed_at = match known.get(next) {
                 Some(known) => *known,
                 None if !watch(scenario) => return None,
                 None => {
-                    let trial = self.trial(scenario, loader);
-                    let failed_at = trial.map(|(.., trial)| trial.end);
+                    if self.cause.is_none() && next > 0 {
+                        // The original ran in another process.
+                        self.failure(first, loader);
+                    }
+                    let failed_at = self.failure(scenario, loader);
                     known.push(failed_at);
                     failed_at
                 }
@@ -161,7 +170,7 @@ impl Shrinking {
         });
         self.answers = known;
         let shrunk = shrunk?;
-        let (application, run, trial) = self.trial(&shrunk.scenario, loader)?;
+        let (application, run, trial, _) = self.trial(&shrunk.scenario, loader)?;
         Some(Smaller {
             text: self.text(&shrunk.scenario),
             scenario: shrunk.scenario,
@@ -177,13 +186,31 @@ impl Shrinking {
         format!("{}{}", self.head, write::scenario(scenario))
     }
 
-    /// The result of a scenario that is read from its file, if it fails in the same way.
-    fn trial(&self, scenario: &Scenario, loader: &dyn Loader) -> Option<(Application, Run, Trial)> {
+    /// The time at which a scenario fails, if it fails for the original's reason. The first call must be for the original.
+    fn failure(&mut self, scenario: &Scenario, loader: &dyn Loader) -> Option<Time> {
+        let (.., trial, cause) = self.trial(scenario, loader)?;
+        let original = self.cause.get_or_insert_with(|| cause.clone());
+        cause.is_part_of(original).then_some(trial.end)
+    }
+
+    /// The result of a scenario that is read from its file, and the cause of its failure, if its finding is the original's.
+    fn trial(
+        &self,
+        scenario: &Scenario,
+        loader: &dyn Loader,
+    ) -> Option<(Application, Run, Trial, Cause)> {
         let source = Source::new("the smaller scenario".to_string(), self.text(scenario));
         let application = read(&Request::new(source), loader, &self.registry).ok()?;
         let mut run = application.run().ok()?;
         let demands_goal = self.finding == Finding::Unreached;
-        let trial = Trial::of(&mut run, demands_goal);
-        (trial.finding.as_ref() == Some(&self.finding)).then_some((application, run, trial))
+        let mut history = History::default();
+        let trial = Trial::watched(&mut run, demands_goal, &mut |records| {
+            history.observe(records)
+        });
+        if trial.finding.as_ref() != Some(&self.finding) {
+            return None;
+        }
+        let cause = history.cause(&run, &self.finding);
+        Some((application, run, trial, cause))
     }
 }

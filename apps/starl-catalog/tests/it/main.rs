@@ -21,5 +21,6 @@ mod race_in_both_languages;
 mod race_thousand_seeds;
 mod search_shares_rooms;
 mod shared_variables_are_consistent;
+mod shrinking_keeps_the_cause;
 mod support;
 mod traces_of_sessions;
