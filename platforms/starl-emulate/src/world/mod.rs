@@ -1,20 +1,18 @@
 //! Bodies that share a floor, stepped in real time.
 //!
-//! Invariant: bodies overlap neither obstacles nor each other, as in the simulator: a motion that would make them
-//! overlap does not take place. One thread steps all bodies every 10 ms. A thread that wakes late catches up, but by no
+//! Invariant: bodies overlap neither obstacles nor each other. They stop where they touch, as in the simulator. One thread steps all bodies every 10 ms. A thread that wakes late catches up, but by no
 //! more than [`CATCH_UP`], so a machine that was asleep does not play back hours of motion.
 
 mod body;
-mod contact;
 
 pub use body::{BodyHandle, Odometer};
 
 use body::Body;
 use starl_core::geometry::ObstacleIndex;
-use starl_core::{Duration, Obstacle, Pose, Random};
-use starl_motion::contact::Grid;
+use starl_core::{Duration, Obstacle, Pose, Random, RobotId};
+use starl_motion::contact::{self, Grid, Motions};
 use starl_motion::proximity::{Rays, Scene};
-use starl_motion::{Disturbance, Model};
+use starl_motion::{Disturbance, Impact, Model, Neighbour, State};
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::thread;
@@ -115,7 +113,7 @@ impl World {
             return Err(AddError::NameTaken(name.to_string()));
         }
         let body = Body::new(name, model, pose);
-        if contact::blocked(&floor.map, &floor.bodies, &body) {
+        if floor.blocks(&body.neighbour()) {
             return Err(AddError::Blocked(name.to_string()));
         }
         floor.bodies.push(body);
@@ -140,9 +138,7 @@ impl World {
     /// Distances along rays from the centre of a body, metres; infinite where a ray meets nothing.
     fn scan(&self, index: usize, rays: &Rays) -> Vec<f64> {
         let floor = lock(&self.shared);
-        let bodies: Vec<_> = floor.bodies.iter().map(Body::neighbour).collect();
-        let mut grid = Grid::default();
-        grid.rebuild(&bodies, &[]);
+        let (bodies, grid) = floor.indexed();
         let scene = Scene {
             bodies: &bodies,
             grid: &grid,
@@ -167,11 +163,55 @@ impl Floor {
             .zip(&self.bodies)
             .map(|(index, body)| body.predict(&self.disturbance(index)))
             .collect();
-        let impacts = contact::impacts(&self.map, &self.bodies, &predicted);
+        let impacts = self.impacts(&predicted);
         for ((body, predicted), impact) in self.bodies.iter_mut().zip(predicted).zip(impacts) {
             body.advance(&predicted, impact);
         }
         self.steps += 1;
+    }
+
+    /// Whether a body would overlap an obstacle or another body.
+    fn blocks(&self, new: &Neighbour) -> bool {
+        let at = new.position;
+        let overlaps = |other: Neighbour| {
+            at.planar_distance(other.position) < new.radius + other.radius
+                && at.z < other.position.z + other.height
+                && other.position.z < at.z + new.height
+        };
+        self.map.blocks_body(at, at, new.radius, new.height)
+            || self.bodies.iter().map(Body::neighbour).any(overlaps)
+    }
+
+    /// All bodies, and an index of them.
+    fn indexed(&self) -> (Vec<Neighbour>, Grid) {
+        let bodies: Vec<_> = self.bodies.iter().map(Body::neighbour).collect();
+        let mut grid = Grid::default();
+        grid.rebuild(&bodies, &[]);
+        (bodies, grid)
+    }
+
+    /// For each body the contact that stops it on its way to the predicted state.
+    fn impacts(&self, predicted: &[State]) -> Vec<Option<Impact>> {
+        let (bodies, grid) = self.indexed();
+        let next: Vec<_> = predicted.iter().map(|state| state.pose.position).collect();
+        let ways = bodies.iter().zip(&next);
+        let standing: Vec<u32> = (0..).take(self.map.obstacles().len()).collect();
+        let motions = Motions {
+            bodies: &bodies,
+            grid: &grid,
+            map: &self.map,
+            standing: &standing,
+            next: &next,
+            reach: ways
+                .map(|(body, next)| body.position.distance(*next))
+                .fold(0.0, f64::max),
+        };
+        let mut contacts: Vec<_> = (0..bodies.len() as u32)
+            .map(|body| motions.first_contact(RobotId(body), 0.0, |_| 1.0))
+            .collect();
+        contact::settle(&motions, &mut contacts);
+        let impacts = contacts.into_iter();
+        impacts.map(|contact| Some(contact?.impact)).collect()
     }
 
     fn disturbance(&self, index: u64) -> Disturbance {
