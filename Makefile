@@ -120,12 +120,13 @@ examples: $(STARL)
 
 # The emulated devices, driven by libraries that are not ours.
 FOREIGN = platforms/starl-emulate/tests/foreign
-devices:
-	cargo build --locked --profile test --workspace --features starl/zenoh --example devices --example drive
+devices: $(STARL)
 	$(VENV)/python $(FOREIGN)/create.py $(CARGO_TARGET_DIR)/debug/examples/devices
 	$(VENV)/python $(FOREIGN)/natnet_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
 	$(VENV)/python $(FOREIGN)/vrpn_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
 	$(VENV)/python $(FOREIGN)/mavlink_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
+	$(VENV)/python $(FOREIGN)/mavsdk_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
+	$(VENV)/python $(FOREIGN)/mavsdk_autopilot.py $(STARL)
 	$(VENV)/python $(FOREIGN)/crazyflie_client.py $(CARGO_TARGET_DIR)/debug/examples/devices
 	$(VENV)/python $(FOREIGN)/ros2_client.py $(CARGO_TARGET_DIR)/debug/examples/devices \
 		$(CARGO_TARGET_DIR)/debug/examples/drive

@@ -7,7 +7,7 @@ use mavlink::dialects::common::{
     MavResult,
 };
 use starl_core::Point;
-use starl_core::math::sincos;
+use starl_core::math::{sincos, wrap_angle};
 use starl_node::Reading;
 use std::time::{Duration, Instant};
 
@@ -41,6 +41,8 @@ pub(crate) struct Vehicle {
     floor: Option<f32>,
     battery: Option<f64>,
     refused: Option<Refusal>,
+    /// Where it was when it was read last: north, east and yaw.
+    last: Option<[f64; 3]>,
     fresh: bool,
 }
 
@@ -57,6 +59,7 @@ impl Vehicle {
             floor: None,
             battery: None,
             refused: None,
+            last: None,
             fresh: false,
         }
     }
@@ -152,7 +155,16 @@ impl Vehicle {
         if !std::mem::take(&mut self.fresh) {
             return None;
         }
+        let place = self
+            .position
+            .as_ref()
+            .map(|position| [position.x, position.y, attitude.yaw].map(f64::from));
+        let place = place.filter(|place| place[0].is_finite() && place[1].is_finite());
+        let way = place.zip(self.last).and_then(|(now, last)| way(last, now));
+        self.last = place;
         Some(Reading {
+            moved: way.map(|way| way.0),
+            turned: way.map(|way| way.1),
             velocity: Some(self.velocity()),
             height: Some(self.height()),
             // The vehicle measures from north to the right.
@@ -160,5 +172,37 @@ impl Vehicle {
             battery: self.battery,
             ..Reading::default()
         })
+    }
+}
+
+/// The autopilot corrects its position by jumps, e.g. when its satellite fix changes. They are no motion, metres.
+const JUMP: f64 = 1.0;
+
+/// How far a vehicle has moved, in its own frame before the turn, and how far it has turned to the left, between two places
+/// given by north, east and yaw; none for a jump.
+fn way(last: [f64; 3], now: [f64; 3]) -> Option<(Point, f64)> {
+    let (north, east) = (now[0] - last[0], now[1] - last[1]);
+    let (sin, cos) = sincos(last[2]);
+    let moved = Point::planar(cos * north + sin * east, sin * north - cos * east);
+    let turned = wrap_angle(last[2] - now[2]);
+    (moved.planar_length() < JUMP).then_some((moved, turned))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_way_is_in_the_frame_of_the_vehicle() {
+        // It looks east, and moves 0.2 m east and 0.1 m north: ahead and to the left.
+        let east = std::f64::consts::FRAC_PI_2;
+        let (moved, turned) = way([1.0, 2.0, east], [1.1, 2.2, east - 0.3]).expect("no jump");
+        assert!(moved.distance(Point::planar(0.2, 0.1)) < 1e-12, "{moved:?}");
+        assert!((turned - 0.3).abs() < 1e-12, "{turned}");
+    }
+
+    #[test]
+    fn a_jump_of_the_position_is_no_way() {
+        assert_eq!(way([0.0, 0.0, 0.0], [3.0, 0.0, 0.0]), None);
     }
 }
