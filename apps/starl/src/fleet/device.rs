@@ -40,6 +40,21 @@ pub fn connect(
                 Some(Box::new(body.positions(period))),
             ));
         }
+        Device::Ros2 {
+            router,
+            domain,
+            namespace,
+        } => {
+            let place = ros2::Place::of(router.as_deref(), *domain, namespace.as_deref());
+            let (device, own) = ros2::connect(fleet, member, group, &place)?;
+            if own.is_some() {
+                return Ok((device, own));
+            }
+            device
+        }
+        _ if matches!(fleet.positions, Some(Positions::Ros2 { .. })) => {
+            return Err(ros2::no_localisation(member));
+        }
         Device::Create { port, baud, .. } => {
             let mut options = CreateOptions::new(generation(&member.device));
             options.baud = baud.unwrap_or(options.baud);
@@ -66,18 +81,6 @@ pub fn connect(
                 ..usual
             };
             Box::new(MavlinkVehicle::connect(&options).map_err(cannot)?)
-        }
-        Device::Ros2 {
-            router,
-            domain,
-            namespace,
-        } => {
-            let place = ros2::Place::of(router.as_deref(), *domain, namespace.as_deref());
-            let (device, own) = ros2::connect(fleet, member, group, &place)?;
-            if own.is_some() {
-                return Ok((device, own));
-            }
-            device
         }
     };
     let positions = fleet

@@ -106,7 +106,7 @@ pub struct Emulated {
 
 /// All devices that a fleet file names, in the world of its scenario.
 fn fleet(arguments: &EmulateFleet, registry: &Registry) -> Result<Vec<Emulated>, Failure> {
-    let fleet = Fleet::read(&arguments.fleet, None, registry)?;
+    let fleet = Fleet::read(&arguments.fleet, None, true, registry)?;
     let scenario = fleet.application.scenario();
     let obstacles = scenario.world.obstacles.iter();
     let noise = Noise {

@@ -262,8 +262,14 @@ pub struct Member {
 }
 
 impl Fleet {
-    /// Reads a fleet file, its scenario and its programs; `program` takes the place of the scenario's own.
-    pub fn read(path: &Path, program: Option<&str>, registry: &Registry) -> Result<Fleet, Failure> {
+    /// Reads a fleet file, its scenario and its programs; `program` takes the place of the scenario's own. Warnings about
+    /// programs are printed unless it is `quiet`.
+    pub fn read(
+        path: &Path,
+        program: Option<&str>,
+        quiet: bool,
+        registry: &Registry,
+    ) -> Result<Fleet, Failure> {
         let text = target::text(path)?;
         let written: Written =
             toml::from_str(&text).map_err(|error| malformed(path, &text, &error))?;
@@ -272,7 +278,7 @@ impl Fleet {
             Some(_) => written.scenario.clone(),
             None => folder.join(&written.scenario).display().to_string(),
         };
-        let arguments = arguments(scenario, program, &written.set);
+        let arguments = arguments(scenario, program, &written.set, quiet);
         let application = target::read(&arguments, registry)?.application;
         let network = network(path, &written.link)?;
         let stem = path.file_stem().unwrap_or_default().display().to_string();
@@ -343,14 +349,14 @@ impl Fleet {
     }
 }
 
-fn arguments(scenario: String, program: Option<&str>, set: &[String]) -> RunArguments {
+fn arguments(scenario: String, program: Option<&str>, set: &[String], quiet: bool) -> RunArguments {
     let changes = ChangeArguments {
         set: set.to_vec(),
         scenario: program.is_some().then(|| scenario.clone()),
         ..ChangeArguments::default()
     };
     let target = program.map_or(scenario, str::to_string);
-    changes.of(&target, None, false)
+    changes.of(&target, None, quiet)
 }
 
 /// All robots of the scenario, with what the fleet file says of them.

@@ -36,7 +36,7 @@ pub struct Follower {
 
 /// Connects to the fleet of a file, whether it runs or not.
 pub fn follow(path: &Path, registry: &Registry) -> Result<Follower, Failure> {
-    let fleet = Fleet::read(path, None, registry)?;
+    let fleet = Fleet::read(path, None, true, registry)?;
     let operator = connect(&fleet)?;
     Ok(Follower { fleet, operator })
 }

@@ -24,7 +24,10 @@ use starl_sim::scenario::{self, Group};
 
 /// Runs a robot.
 pub fn run(arguments: &RobotArguments, registry: &Registry) -> Result<bool, Failure> {
-    let fleet = Fleet::read(&arguments.fleet, arguments.program.as_deref(), registry)?;
+    let program = arguments.program.as_deref();
+    // The command that supervises the robots has printed the warnings.
+    let quiet = arguments.quiet || arguments.supervised;
+    let fleet = Fleet::read(&arguments.fleet, program, quiet, registry)?;
     let member = fleet.member(&arguments.id)?;
     let keys = fleet.keys()?;
     let folder = match &arguments.folder {

@@ -2,7 +2,7 @@
 //!
 //! How far the robots' clocks are apart is found in the traces themselves: a datagram is on record where it was sent and
 //! where it arrived. The shortest delays in both directions between two robots bound the difference of their clocks (as
-//! in RFC 5905). One difference stands for the whole run.
+//! in RFC 5905). In a long run the difference is a line through those of its parts, since clocks drift.
 
 use super::file::Fleet;
 use super::folder::Folder;
@@ -13,19 +13,19 @@ use crate::output::create_now;
 use crate::replay::{open, unreadable};
 use starl_catalog::programs::Registry;
 use starl_core::event::{Event, Fault};
-use starl_core::{RobotId, Time};
+use starl_core::{Duration, RobotId, Time};
 use starl_host::journal;
 use starl_properties::Setting;
 use starl_trace::{Header, Inputs, Item, Outcome, Reader, ViewOptions, Writer};
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap, HashMap};
+use std::collections::{BTreeMap, BinaryHeap, HashMap, HashSet};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 /// Merges what the last run of a fleet has left.
 pub fn run(arguments: &FleetMergeArguments, registry: &Registry) -> Result<bool, Failure> {
-    let fleet = Fleet::read(&arguments.fleet, None, registry)?;
+    let fleet = Fleet::read(&arguments.fleet, None, true, registry)?;
     let folder = match &arguments.folder {
         Some(folder) => Folder(folder.clone()),
         None => Folder::last(&arguments.fleet)?,
@@ -42,8 +42,7 @@ pub fn run(arguments: &FleetMergeArguments, registry: &Registry) -> Result<bool,
 /// The result of a merge.
 pub struct Merged {
     records: u64,
-    /// How far each robot's clock was ahead of the first one's, and how exact that is, seconds.
-    offsets: BTreeMap<RobotId, (f64, f64)>,
+    clocks: BTreeMap<RobotId, Clock>,
     /// Robots of which there is no trace.
     missing: Vec<RobotId>,
     /// Robots whose clocks could not be compared.
@@ -60,16 +59,18 @@ impl Merged {
             console::counted(self.records as usize, "record"),
             console::counted(fleet.robots.len() - self.missing.len(), "robot"),
         );
-        let (mut most, mut exact) = (0.0_f64, 0.0_f64);
-        for (offset, error) in self.offsets.values() {
-            (most, exact) = (most.max(offset.abs()), exact.max(*error));
-        }
-        if self.offsets.len() > 1 {
+        let most = |of: fn(&Clock) -> f64| self.clocks.values().map(of).fold(0.0, f64::max);
+        if self.clocks.len() > 1 {
             text += &format!(
-                "clocks: up to {:.3} ms apart, known to {:.3} ms\n",
-                most * 1e3,
-                exact * 1e3
+                "clocks: up to {:.3} ms apart, known to {:.3} ms",
+                most(|clock| clock.ahead.abs()) * 1e3,
+                most(|clock| clock.error) * 1e3
             );
+            let drift = most(|clock| clock.drift.abs());
+            text += &match drift > 0.0 {
+                true => format!(", drift up to {:.1} ppm\n", drift * 1e6),
+                false => "\n".to_string(),
+            };
         }
         for robot in &self.missing {
             text += &format!("{}: there is no trace of it\n", name(robot));
@@ -97,21 +98,21 @@ pub fn merge(fleet: &Fleet, folder: &Folder, out: &Path) -> Result<Merged, Failu
         return Err(Failure::file(&folder.0, "holds no traces of robots"));
     };
     let header = header(first)?;
-    let delays = Delays::read(&lives, &header)?;
+    let exchanges = Exchanges::read(&lives, &header)?;
     let recorded: Vec<RobotId> = lives
         .keys()
         .copied()
         .filter(|robot| !missing.contains(robot))
         .collect();
-    let offsets = delays.offsets(&recorded);
+    let clocks = exchanges.clocks(&recorded);
     let apart = lives
         .keys()
-        .filter(|robot| !offsets.contains_key(robot) && !missing.contains(robot));
+        .filter(|robot| !clocks.contains_key(robot) && !missing.contains(robot));
     let merged = Merged {
-        records: write(&lives, &offsets, &header, out)?,
+        records: write(&lives, &clocks, &exchanges.sent, &header, out)?,
         apart: apart.copied().collect(),
         missing,
-        offsets,
+        clocks,
     };
     Ok(merged)
 }
@@ -131,12 +132,79 @@ fn header(path: &Path) -> Result<Header, Failure> {
     Ok(header)
 }
 
-/// The shortest time from sending to arrival, by the clocks of either end, for each pair of robots.
-#[derive(Default)]
-struct Delays(BTreeMap<(RobotId, RobotId), f64>);
+/// How a robot's clock differs from the first robot's.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Clock {
+    /// How far it is ahead at time 0 of the first robot's clock, seconds.
+    ahead: f64,
+    /// How much farther it gets ahead in each second.
+    drift: f64,
+    /// How exact that is, seconds.
+    error: f64,
+}
 
-impl Delays {
-    fn read(lives: &BTreeMap<RobotId, Vec<PathBuf>>, header: &Header) -> Result<Delays, Failure> {
+impl Clock {
+    /// The first robot's time when this clock shows `shown`, seconds.
+    fn corrected(&self, shown: f64) -> f64 {
+        (shown - self.ahead) / (1.0 + self.drift)
+    }
+
+    /// The clock through what was found at some times: time, how far ahead, and how exact. Exact values count for more
+    /// (a regression line, weighted by the inverse square of the errors).
+    fn through(found: &[(f64, f64, f64)]) -> Clock {
+        let weighted: Vec<_> = (found.iter())
+            .map(|&(at, ahead, error)| (at, ahead, (error + 1e-6).powi(-2)))
+            .collect();
+        let sum = |of: &dyn Fn(f64, f64) -> f64| -> f64 {
+            let parts = weighted.iter();
+            parts
+                .map(|&(at, ahead, weight)| weight * of(at, ahead))
+                .sum()
+        };
+        let total = sum(&|_, _| 1.0);
+        let (middle, mean) = (sum(&|at, _| at) / total, sum(&|_, ahead| ahead) / total);
+        let spread = sum(&|at, _| (at - middle).powi(2));
+        let drift = match spread > 0.0 {
+            true => sum(&|at, ahead| (at - middle) * (ahead - mean)) / spread,
+            false => 0.0,
+        };
+        let ahead = mean - drift * middle;
+        let misses = |&(at, found, error): &(f64, f64, f64)| {
+            ((ahead + drift * at - found).abs() - error).max(0.0)
+        };
+        Clock {
+            ahead,
+            drift,
+            error: found.iter().map(misses).fold(1.0 / total.sqrt(), f64::max),
+        }
+    }
+}
+
+/// Clocks that drift by 100 ppm, more than most, get 3 ms farther apart in a part of a run of this length, seconds.
+const PART: f64 = 30.0;
+
+/// The datagrams that were sent by one robot and have arrived at another.
+struct Exchanges {
+    /// When each was sent, by its sender's clock.
+    sent: HashMap<(RobotId, u32), Time>,
+    arrived: Vec<Exchange>,
+}
+
+/// A datagram: its sender, its receiver, when it arrived by the receiver's clock, and how long it took by the clocks of
+/// either end, seconds.
+#[derive(Clone, Copy, Debug)]
+struct Exchange {
+    from: RobotId,
+    to: RobotId,
+    at: f64,
+    delay: f64,
+}
+
+impl Exchanges {
+    fn read(
+        lives: &BTreeMap<RobotId, Vec<PathBuf>>,
+        header: &Header,
+    ) -> Result<Exchanges, Failure> {
         let mut sent: HashMap<(RobotId, u32), Time> = HashMap::new();
         let mut arrived: Vec<(RobotId, RobotId, u32, Time)> = Vec::new();
         for (&robot, path) in lives
@@ -162,15 +230,67 @@ impl Delays {
                 }
             }
         }
-        let mut delays = Delays::default();
-        for (from, to, sequence, at) in arrived {
-            if let Some(sent) = sent.get(&(from, sequence)) {
-                let delay = at.0 as f64 * 1e-9 - sent.0 as f64 * 1e-9;
-                let shortest = delays.0.entry((from, to)).or_insert(delay);
-                *shortest = shortest.min(delay);
+        let arrived = arrived.into_iter().filter_map(|(from, to, sequence, at)| {
+            let sent = sent.get(&(from, sequence))?;
+            Some(Exchange {
+                from,
+                to,
+                at: at.seconds(),
+                delay: at.seconds() - sent.seconds(),
+            })
+        });
+        let arrived = arrived.collect();
+        Ok(Exchanges { sent, arrived })
+    }
+
+    /// The robots' clocks; none for robots that cannot be compared with the first one.
+    fn clocks(&self, robots: &[RobotId]) -> BTreeMap<RobotId, Clock> {
+        let whole = Delays::of(&self.arrived).offsets(robots);
+        let corrected = |exchange: &Exchange| {
+            let ahead = whole.get(&exchange.to).map_or(0.0, |offset| offset.0);
+            exchange.at - ahead
+        };
+        let mut parts: BTreeMap<i64, Vec<Exchange>> = BTreeMap::new();
+        for exchange in &self.arrived {
+            let part = (corrected(exchange) / PART).floor() as i64;
+            parts.entry(part).or_default().push(*exchange);
+        }
+        let mut found: BTreeMap<RobotId, Vec<(f64, f64, f64)>> = BTreeMap::new();
+        for (part, exchanges) in &parts {
+            let middle = (*part as f64 + 0.5) * PART;
+            for (robot, (ahead, error)) in Delays::of(exchanges).offsets(robots) {
+                found.entry(robot).or_default().push((middle, ahead, error));
             }
         }
-        Ok(delays)
+        let clocks = whole.into_iter().map(|(robot, (ahead, error))| {
+            let constant = Clock {
+                ahead,
+                drift: 0.0,
+                error,
+            };
+            // A line through a few parts of a short run would follow their errors.
+            let found = found.get(&robot).filter(|found| found.len() >= 4);
+            (robot, found.map_or(constant, |found| Clock::through(found)))
+        });
+        clocks.collect()
+    }
+}
+
+/// The shortest time from sending to arrival, by the clocks of either end, for each pair of robots.
+#[derive(Default)]
+struct Delays(BTreeMap<(RobotId, RobotId), f64>);
+
+impl Delays {
+    fn of(exchanges: &[Exchange]) -> Delays {
+        let mut delays = Delays::default();
+        for &Exchange {
+            from, to, delay, ..
+        } in exchanges
+        {
+            let shortest = delays.0.entry((from, to)).or_insert(delay);
+            *shortest = shortest.min(delay);
+        }
+        delays
     }
 
     /// How far each robot's clock is ahead of the first one's, and how exact that is; none for robots that cannot be
@@ -247,10 +367,14 @@ impl Life {
     }
 }
 
+/// An arrival waits for a sending that is at most so much later.
+const MOST_EARLY: Duration = Duration::from_millis(100);
+
 /// Writes all lives in the order of time; gives how many records there are.
 fn write(
     lives: &BTreeMap<RobotId, Vec<PathBuf>>,
-    offsets: &BTreeMap<RobotId, (f64, f64)>,
+    clocks: &BTreeMap<RobotId, Clock>,
+    sent: &HashMap<(RobotId, u32), Time>,
     header: &Header,
     out: &Path,
 ) -> Result<u64, Failure> {
@@ -258,9 +382,20 @@ fn write(
     let mut writer =
         Writer::new(create_now(out)?, header, &ViewOptions::default()).map_err(cannot)?;
     writer.expect_inputs(journal::VERSION).map_err(cannot)?;
-    let shift = |robot: RobotId, at: Time| {
-        let ahead = offsets.get(&robot).map_or(0.0, |offset| offset.0);
-        Time(at.0.saturating_add_signed(-(ahead * 1e9) as i64))
+    let shift = |robot: RobotId, at: Time| match clocks.get(&robot) {
+        Some(clock) => Time((clock.corrected(at.seconds()) * 1e9).max(0.0) as u64),
+        None => at,
+    };
+    // What a line through the clocks' differences leaves is made good here: an arrival waits for its sending.
+    let mut written: HashSet<(RobotId, u32)> = HashSet::new();
+    let waits_until = |piece: &Option<Piece>, at: Time, written: &HashSet<_>| match piece {
+        Some(Piece::Record(Event::Delivered { from, sequence })) => {
+            let datagram = (*from, *sequence);
+            let sent = shift(*from, *sent.get(&datagram)?);
+            let later = sent.max(at + Duration(1_000));
+            (!written.contains(&datagram) && sent < at + MOST_EARLY).then_some(later)
+        }
+        _ => None,
     };
     let mut open: Vec<Life> = Vec::new();
     for (&robot, paths) in lives {
@@ -279,6 +414,10 @@ fn write(
     }
     let (mut end, mut finished) = (Time::ZERO, BTreeMap::new());
     while let Some(Reverse((at, index))) = queue.pop() {
+        if let Some(later) = waits_until(&waiting[index], at, &written) {
+            queue.push(Reverse((later, index)));
+            continue;
+        }
         let life = &mut open[index];
         let robot = life.robot;
         end = end.max(at);
@@ -290,8 +429,14 @@ fn write(
         }
         match waiting[index].take() {
             Some(Piece::Record(event)) => {
-                if event == Event::Finished {
-                    finished.insert(robot, at);
+                match event {
+                    Event::Finished => {
+                        finished.insert(robot, at);
+                    }
+                    Event::Sent { sequence, .. } => {
+                        written.insert((robot, sequence));
+                    }
+                    _ => {}
                 }
                 writer.event(at, Some(robot), &event).map_err(cannot)?;
             }
@@ -355,6 +500,51 @@ mod tests {
                     (offset - truth).abs() <= error + 1e-9,
                     "seed {seed}: {robot}"
                 );
+            }
+        }
+    }
+
+    #[test]
+    fn clocks_that_drift_are_joined_in_a_long_run() {
+        for seed in 0..20 {
+            let mut random = Random::keyed(seed, &[]);
+            let robots: Vec<RobotId> = (0..4).map(RobotId).collect();
+            let clocks: Vec<Clock> = robots
+                .iter()
+                .map(|robot| Clock {
+                    ahead: f64::from(robot.0) * random.between(-5.0, 5.0),
+                    drift: f64::from(robot.0) * random.between(-50e-6, 50e-6),
+                    error: 0.0,
+                })
+                .collect();
+            let shown = |robot: RobotId, time: f64| {
+                let clock = clocks[robot.index()];
+                time + clock.ahead + clock.drift * time
+            };
+            let mut arrived = Vec::new();
+            for second in 0..1800 {
+                for &from in &robots {
+                    let to = RobotId((from.0 + 1 + second % 3) % 4);
+                    let time = f64::from(second) + random.between(0.0, 1.0);
+                    let arrival = time + 0.001 + random.between(0.0, 0.02);
+                    let at = shown(to, arrival);
+                    let delay = at - shown(from, time);
+                    arrived.push(Exchange {
+                        from,
+                        to,
+                        at,
+                        delay,
+                    });
+                }
+            }
+            let sent = HashMap::new();
+            let found = Exchanges { sent, arrived }.clocks(&robots);
+            assert_eq!(found.len(), robots.len());
+            for (robot, clock) in &found {
+                for time in [0.0, 900.0, 1800.0] {
+                    let error = clock.corrected(shown(*robot, time)) - time;
+                    assert!(error.abs() < 0.002, "seed {seed}: {robot}: {error} s");
+                }
             }
         }
     }

@@ -48,7 +48,7 @@ struct LinkLine {
 
 /// Shows how a fleet is; whether all robots answer.
 pub fn show(arguments: &FleetStatusArguments, registry: &Registry) -> Result<bool, Failure> {
-    let fleet = Fleet::read(&arguments.fleet, None, registry)?;
+    let fleet = Fleet::read(&arguments.fleet, None, true, registry)?;
     let mut operator = connect(&fleet)?;
     let statuses = operator.statuses(PATIENCE);
     let lines: Vec<Line> = fleet

@@ -14,7 +14,7 @@ const PATIENCE: Duration = Duration::from_secs(4);
 
 /// Stops a fleet; whether all robots have confirmed it.
 pub fn stop(arguments: &FleetStopArguments, registry: &Registry) -> Result<bool, Failure> {
-    let fleet = Fleet::read(&arguments.fleet, None, registry)?;
+    let fleet = Fleet::read(&arguments.fleet, None, true, registry)?;
     let mut operator = connect(&fleet)?;
     let silent = halt(&fleet, &mut operator);
     let stopped = fleet.robots.len() - silent.len();

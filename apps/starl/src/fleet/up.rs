@@ -30,7 +30,8 @@ const PATIENCE: Duration = Duration::from_secs(15);
 
 /// Starts a fleet, waits for its end, and judges it; whether its goal was reached and no property violated.
 pub fn up(arguments: &FleetUpArguments, registry: &Registry) -> Result<bool, Failure> {
-    let fleet = Fleet::read(&arguments.fleet, arguments.program.as_deref(), registry)?;
+    let program = arguments.program.as_deref();
+    let fleet = Fleet::read(&arguments.fleet, program, arguments.quiet, registry)?;
     if arguments.print {
         return print(arguments, &fleet);
     }
