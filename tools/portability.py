@@ -1,6 +1,6 @@
 """Runs each example on each platform from the same files, and writes the table of docs/reference/portability.md.
 
-    python3 tools/portability.py STARL FOLDER [EXAMPLE...]
+    target/venv/bin/python tools/portability.py STARL FOLDER [EXAMPLE...]
 
 STARL must be built with the feature `zenoh`. FOLDER receives the fleets' files and traces. Real time passes: all examples
 take about a quarter of an hour, several of them at once. Traffic stays on this machine.
@@ -14,6 +14,9 @@ import subprocess
 import sys
 import threading
 
+import numpy
+from mcap.reader import make_reader
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/reference/portability.md"
 MARK = "<!-- tools/portability.py writes what follows -->\n"
@@ -24,6 +27,17 @@ AT_ONCE = 2
 PATIENCE = 200
 # Programs without an end of their own run for so long.
 LONGEST = "100s"
+# Where the ways of robots are compared with those in the simulator.
+COMPARED = ["UDP", "Create and AR.Drone", "Crazyflie", "MAVLink", "ROS 2"]
+DIFFERENCES = """
+## How far paths differ
+
+The distance between the path of a robot on each platform and its path in the simulator: the largest over all robots and
+all positions, in both directions (the Hausdorff distance). Poses are recorded every 100 ms, and on real platforms they are the
+robot's own estimates. Robots choose other paths where the order of messages decides what each of them does, as in
+`auction` and `flocking`.
+
+"""
 PLATFORMS = ["simulator", "UDP", "Zenoh", "Create and AR.Drone", "Crazyflie", "MAVLink", "ROS 2"]
 
 
@@ -113,6 +127,51 @@ def run_real(starl, folder, example, robots, platform, ports):
     return "refused: " + done.stderr.strip().splitlines()[-1]
 
 
+def poses(trace):
+    """The way of each robot in a trace, as an array of positions and the times of these, seconds."""
+    ways = {}
+    with open(trace, "rb") as file:
+        for _, _, message in make_reader(file).iter_messages(["/starl/pose"]):
+            record = json.loads(message.data)
+            way = ways.setdefault(record["robot"], [])
+            way.append((message.log_time * 1e-9, record["x"], record["y"], record["z"]))
+    return {robot: numpy.array(way) for robot, way in ways.items()}
+
+
+def along(way, spacing=0.02):
+    """Points on the lines between the positions of a way, at most `spacing` metres apart."""
+    points = [way[0]]
+    for start, end in zip(way, way[1:]):
+        steps = max(1, int(numpy.ceil(numpy.linalg.norm(end - start) / spacing)))
+        points.extend(start + (end - start) * step / steps for step in range(1, steps + 1))
+    return numpy.array(points)
+
+
+def farthest(way, other):
+    """The largest distance of a position on `way` from the nearest one on `other`, metres."""
+    line = along(other)
+    return max(numpy.linalg.norm(line - position, axis=1).min() for position in way)
+
+
+def deviation(simulated, real):
+    """How far the ways of the robots of two traces differ, metres: the largest over the robots, in both directions."""
+    first, second = poses(simulated), poses(real)
+    both = [(first[robot][:, 1:], second[robot][:, 1:]) for robot in first if robot in second]
+    return max(max(farthest(one, other), farthest(other, one)) for one, other in both)
+
+
+def compared(folder, name, platform):
+    """How far the ways of an example's robots on a platform are from those in the simulator."""
+    merged = folder / name / platform.replace(" ", "-") / "fleet.runs/0001/merged.mcap"
+    return f"{deviation(folder / name / 'simulated.mcap', merged):.2f} m" if merged.exists() else ""
+
+
+def table(rows):
+    lines = [" | ".join(row) for row in rows]
+    lines.insert(1, " | ".join(["---"] * len(rows[0])))
+    return "".join(f"| {line} |\n" for line in lines)
+
+
 def main():
     starl, folder = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]).resolve()
     listed = json.loads(subprocess.run([starl, "list", "--json"], capture_output=True, text=True, check=True).stdout)
@@ -121,7 +180,8 @@ def main():
     with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
         waiting = {}
         for name in names:
-            command = [starl, "run", name, "--json"]
+            (folder / name).mkdir(parents=True, exist_ok=True)
+            command = [starl, "run", name, "--json", "--trace", folder / name / "simulated.mcap"]
             report = json.loads(subprocess.run(command, capture_output=True, text=True).stdout)
             results[name, "simulator"] = "passes" if report["outcome"] == "reached" else report["outcome"]
             robots = [(robot["name"], robot["model"]) for robot in report["robots"]]
@@ -131,10 +191,13 @@ def main():
         for job in concurrent.futures.as_completed(waiting):
             results[waiting[job]] = job.result()
             print(*waiting[job], job.result(), flush=True)
-    rows = [" | ".join(["example", *PLATFORMS]), " | ".join(["---"] * (len(PLATFORMS) + 1))]
-    rows += [" | ".join([f"`{name}`", *(results[name, platform] for platform in PLATFORMS)]) for name in names]
+    rows = [["example", *PLATFORMS]]
+    rows += [[f"`{name}`", *(results[name, platform] for platform in PLATFORMS)] for name in names]
+    compare = [["example", *COMPARED]]
+    compare += [[f"`{name}`", *(compared(folder, name, platform) for platform in COMPARED)] for name in names]
+    compare = [row for row in compare if any(row[1:])]
     head, _, _ = PAGE.read_text().partition(MARK)
-    PAGE.write_text(head + MARK + "\n" + "".join(f"| {row} |\n" for row in rows))
+    PAGE.write_text(head + MARK + "\n" + table(rows) + DIFFERENCES + table(compare))
 
 
 if __name__ == "__main__":
