@@ -238,7 +238,9 @@ fn names_state(expression: &Expression, variable: VariableId, value: u16) -> boo
                 || names_state(left, variable, value)
                 || names_state(right, variable, value)
         }
-        ExpressionKind::Quantifier { condition, .. } => names_state(condition, variable, value),
+        ExpressionKind::Quantifier { condition, .. } | ExpressionKind::Over { condition, .. } => {
+            names_state(condition, variable, value)
+        }
         ExpressionKind::In { item, collection } => match &collection.kind {
             ExpressionKind::List(elements) | ExpressionKind::Set(elements) => {
                 is_variable(item) && elements.iter().any(is_value)

@@ -26,6 +26,20 @@ impl Checker {
         let span = expression.span();
         // An error that was reported says nothing of what is expected.
         let expected = expected.filter(|ty| !matches!(ty, Type::Error));
+        let mark = (expression.is_closed_conjunction()).then(|| self.body.enter());
+        let checked = self.infer_here(expression, span, expected);
+        if let Some(mark) = mark {
+            self.body.leave(mark);
+        }
+        checked
+    }
+
+    fn infer_here(
+        &mut self,
+        expression: ast::Expression,
+        span: Span,
+        expected: Option<&Type>,
+    ) -> Expression {
         match expression {
             ast::Expression::Literal(node) => self.literal(node.value(), span, expected),
             ast::Expression::Name(node) => self.name(&node.text(), span, expected),
@@ -245,6 +259,9 @@ impl Checker {
     }
 
     fn quantifier(&mut self, node: &ast::QuantifierExpression, span: Span) -> Expression {
+        if let Some(variables) = node.loop_variables() {
+            return self.quantifier_over(node, &variables, span);
+        }
         if self.body.place != Where::Property {
             let word = if node.is_universal() {
                 "forall"
@@ -253,7 +270,9 @@ impl Checker {
             };
             let message = format!("`{word}` cannot stand here");
             let problem = Diagnostic::new(Code::MisplacedQuantifier, span, message);
-            let note = "it stands in properties: a robot knows of others only what they tell it";
+            let note = format!(
+                "in properties it is about all robots; here name a collection, as in `{word} r in peers: ...`"
+            );
             self.report(problem.note(note));
             return broken(span);
         }
@@ -270,6 +289,26 @@ impl Checker {
         let kind = ExpressionKind::Quantifier {
             is_universal: node.is_universal(),
             robots,
+            condition: Box::new(condition),
+        };
+        made(kind, Type::Bool, span)
+    }
+
+    fn quantifier_over(
+        &mut self,
+        node: &ast::QuantifierExpression,
+        variables: &ast::LoopVariables,
+        span: Span,
+    ) -> Expression {
+        let mark = self.body.enter();
+        let collection = self.infer(node.collection(), None);
+        let variables = self.loop_variables(variables.names(), &collection);
+        let condition = self.expect(node.condition(), &Type::Bool, "the condition");
+        self.body.leave(mark);
+        let kind = ExpressionKind::Over {
+            is_universal: node.is_universal(),
+            variables,
+            collection: Box::new(collection),
             condition: Box::new(condition),
         };
         made(kind, Type::Bool, span)

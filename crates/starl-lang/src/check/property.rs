@@ -144,10 +144,11 @@ fn of_each_robot(condition: Expression, robots: &mut Vec<LocalId>) -> Expression
     }
 }
 
-/// Whether there is a quantifier in the expression.
+/// Whether there is a quantifier over all robots in the expression.
 fn mentions_robots(expression: Option<&ast::Expression>) -> bool {
     expression.is_some_and(|expression| {
-        let mut nodes = expression.syntax().descendants();
-        nodes.any(|node| node.kind() == crate::syntax::SyntaxKind::QuantifierExpression)
+        let nodes = expression.syntax().descendants();
+        let mut quantifiers = nodes.filter_map(ast::QuantifierExpression::cast);
+        quantifiers.any(|quantifier| quantifier.loop_variables().is_none())
     })
 }

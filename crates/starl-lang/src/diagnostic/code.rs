@@ -92,8 +92,6 @@ codes! {
     UnitApart = "E0121",
     /// An assignment to something that is not a variable or a part of one.
     InvalidTarget = "E0122",
-    /// `some` where nothing is decided.
-    MisplacedSome = "E0123",
     /// A comment as other languages write it.
     ForeignComment = "E0124",
     /// A statement of other languages that StarL does without.
@@ -184,7 +182,7 @@ codes! {
     UnknownEvent = "E0246",
     /// A handler with other parameters than what it handles.
     HandlerParameters = "E0247",
-    /// A quantifier outside of a property.
+    /// A quantifier over all robots outside of a property.
     MisplacedQuantifier = "E0248",
     /// Another robot's variable, outside of a property.
     ForeignVariable = "E0249",

@@ -197,20 +197,20 @@ pub(super) const EXPRESSIONS: &[Word] = &[
         "if condition then a else b",
         "What comes if the condition holds.",
     ),
+    word(
+        "forall",
+        "forall x in xs: condition",
+        "Whether the condition holds for all elements; in a property, `forall r, s: ...` is about all robots.",
+    ),
+    word(
+        "exists",
+        "exists x in xs: condition",
+        "Whether the condition holds for an element; in a property, `exists r: ...` is about all robots.",
+    ),
 ];
 
 /// Words in properties.
 pub(super) const QUANTIFIERS: &[Word] = &[
-    word(
-        "forall",
-        "forall r, s: condition",
-        "Holds if the condition does for all robots.",
-    ),
-    word(
-        "exists",
-        "exists r: condition",
-        "Holds if the condition does for some robot.",
-    ),
     word(
         "within",
         "within 120s",

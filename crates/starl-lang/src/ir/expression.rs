@@ -207,6 +207,17 @@ pub enum ExpressionKind {
         /// What is said of them.
         condition: Box<Expression>,
     },
+    /// `forall` or `exists` over a collection.
+    Over {
+        /// Whether it is `forall`.
+        is_universal: bool,
+        /// The locals for what is in the collection.
+        variables: LoopVariables,
+        /// The collection.
+        collection: Box<Expression>,
+        /// The condition on each element.
+        condition: Box<Expression>,
+    },
     /// What another robot knows or is, in properties.
     OfRobot {
         /// The robot.

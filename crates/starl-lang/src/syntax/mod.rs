@@ -71,7 +71,6 @@ pub fn parse(text: &str) -> Parse {
     let (lexemes, problems) = layout::arrange(text, &tokens);
     diagnostics.extend(problems);
     let green = parser::parse(text, &tokens, &lexemes, &mut diagnostics);
-    validation::validate(&SyntaxNode::new_root(green.clone()), &mut diagnostics);
     validation::forget_swallowed(text, &mut diagnostics);
     diagnostics.sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
     Parse { green, diagnostics }

@@ -1,48 +1,8 @@
-//! What is wrong with a tree that its parts do not show: where `some` stands, and which problems are
-//! the consequences of others.
+//! Problems that are the consequences of others.
 
 use alloc::vec::Vec;
 
-use super::SyntaxKind::*;
-use super::SyntaxNode;
 use crate::diagnostic::{Code, Diagnostic, Span};
-
-/// Adds what is wrong with the tree.
-pub(super) fn validate(root: &SyntaxNode, diagnostics: &mut Vec<Diagnostic>) {
-    for node in root
-        .descendants()
-        .filter(|node| node.kind() == SomeExpression)
-    {
-        if !decides(&node) {
-            let problem = Diagnostic::new(
-                Code::MisplacedSome,
-                node.text_range().into(),
-                "`some` cannot stand here",
-            );
-            let note = "it stands in the condition of `if`, `elif` or `pre`, alone or joined to others by `and`";
-            diagnostics.push(problem.note(note));
-        }
-    }
-}
-
-/// Whether the node is a whole condition, or a part of one that must hold for it to hold.
-fn decides(node: &SyntaxNode) -> bool {
-    let Some(parent) = node.parent() else {
-        return false;
-    };
-    match parent.kind() {
-        IfBranch | PreClause | ComprehensionClause => true,
-        ConditionalExpression => parent.first_child().as_ref() == Some(node),
-        ParenthesizedExpression => decides(&parent),
-        BinaryExpression => {
-            let joins = parent
-                .children_with_tokens()
-                .any(|child| child.kind() == AndKeyword);
-            joins && decides(&parent)
-        }
-        _ => false,
-    }
-}
 
 /// Forgets the brackets that are not closed on a line whose end is a string that does not end: it has
 /// swallowed what closes them.

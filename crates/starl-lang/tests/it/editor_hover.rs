@@ -189,7 +189,7 @@ fn of_what_every_program_has_what_the_tables_say() {
     assert_eq!(told("p.x", ".x"), "Point.x: Float");
     assert_eq!(told("r.up", "up"), "up: Bool");
     assert_eq!(told("pre loc", "pre"), "pre condition for 2s");
-    assert_eq!(told("forall", "forall"), "forall r, s: condition");
+    assert_eq!(told("forall", "forall"), "forall x in xs: condition");
 }
 
 #[test]

@@ -92,6 +92,19 @@ impl<'p> Body<'_, 'p> {
                 robots,
                 condition,
             } => self.branch_quantifier(*is_universal, robots, condition, when, label)?,
+            ExpressionKind::Over {
+                is_universal,
+                variables,
+                collection,
+                condition,
+            } => {
+                let (is_universal, variables) = (*is_universal, *variables);
+                self.branch_decided(is_universal, when, label, |body, decided| {
+                    body.for_each(collection, variables, false, |body| {
+                        body.branch(condition, !is_universal, decided)
+                    })
+                })?;
+            }
             _ => self.branch_flag(condition, when, label)?,
         }
         self.release(mark);
@@ -242,6 +255,7 @@ impl<'p> Body<'_, 'p> {
             | ExpressionKind::IsNone(_)
             | ExpressionKind::Conditional { .. }
             | ExpressionKind::Quantifier { .. }
+            | ExpressionKind::Over { .. }
             | ExpressionKind::Bind { .. } => false,
             _ => true,
         }

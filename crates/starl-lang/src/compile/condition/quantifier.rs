@@ -1,4 +1,4 @@
-//! `forall` and `exists`: loops over the robots.
+//! `forall` and `exists`: loops over all robots or over a collection.
 
 use crate::compile::body::{Body, Slot};
 use crate::compile::code::Label;
@@ -16,21 +16,32 @@ impl<'p> Body<'_, 'p> {
         when: bool,
         label: Label,
     ) -> Compiled {
-        // The loop is left as soon as one decides: that is what `decided` is for.
-        let decided = if is_universal == when {
-            self.label()
-        } else {
-            label
-        };
-        let mark = self.mark();
-        let all = self.take(Size::OBJECT)?;
-        self.all_robots(all)?;
-        self.for_robots(all, robots, condition, !is_universal, decided)?;
-        self.release(mark);
-        if is_universal == when {
-            self.jump(label);
-            self.place(decided);
+        self.branch_decided(is_universal, when, label, |body, decided| {
+            let mark = body.mark();
+            let all = body.take(Size::OBJECT)?;
+            body.all_robots(all)?;
+            body.for_robots(all, robots, condition, !is_universal, decided)?;
+            body.release(mark);
+            Ok(())
+        })
+    }
+
+    /// Goes to the label if a quantifier is `when`. `search` is its loop, which goes to the label that it is given as soon as
+    /// an element decides.
+    pub fn branch_decided(
+        &mut self,
+        is_universal: bool,
+        when: bool,
+        label: Label,
+        search: impl FnOnce(&mut Self, Label) -> Compiled,
+    ) -> Compiled {
+        if is_universal != when {
+            return search(self, label);
         }
+        let decided = self.label();
+        search(self, decided)?;
+        self.jump(label);
+        self.place(decided);
         Ok(())
     }
 

@@ -172,6 +172,7 @@ impl<'p> Body<'_, 'p> {
             | ExpressionKind::In { .. }
             | ExpressionKind::Bind { .. }
             | ExpressionKind::Quantifier { .. }
+            | ExpressionKind::Over { .. }
             | ExpressionKind::Binary { .. } => self.truth(expression, to),
             _ => self.compute_call(expression, to, is_fresh),
         }

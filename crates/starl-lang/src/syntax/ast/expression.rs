@@ -2,10 +2,11 @@
 
 use alloc::string::String;
 
-use super::super::{SyntaxKind, SyntaxToken};
+use super::super::{SyntaxKind, SyntaxNode, SyntaxToken};
 use super::node::{after, before, child, children, choice, nodes, token, tokens};
 use super::{
-    BinaryOperator, BraceExpression, ListExpression, LiteralExpression, Name, PrefixOperator,
+    AstNode, BinaryOperator, BraceExpression, ListExpression, LiteralExpression, LoopVariables,
+    Name, PrefixOperator,
 };
 
 nodes! {
@@ -33,7 +34,7 @@ nodes! {
     SomeExpression
     /// `if condition then a else b`
     ConditionalExpression
-    /// `forall r, s: condition` or `exists r: condition`
+    /// `forall r, s: condition` or `exists x in xs: condition`
     QuantifierExpression
 }
 
@@ -69,6 +70,35 @@ choice! {
         /// `{a, b}` or `{k: v}`
         Brace(BraceExpression),
     }
+}
+
+impl Expression {
+    /// Whether this is a `some`, or a conjunction, whose names are known in it alone: nothing that follows depends on it.
+    #[must_use]
+    pub fn is_closed_conjunction(&self) -> bool {
+        let is_conjunction = match self {
+            Expression::Some(_) => true,
+            Expression::Binary(node) => joins(node.syntax()),
+            _ => false,
+        };
+        is_conjunction && !decides(self.syntax())
+    }
+}
+
+/// Whether a node is `a and b`.
+fn joins(node: &SyntaxNode) -> bool {
+    node.kind() == SyntaxKind::BinaryExpression && token(node, SyntaxKind::AndKeyword).is_some()
+}
+
+/// Whether a node is a whole condition, or a part of a conjunction.
+fn decides(node: &SyntaxNode) -> bool {
+    use SyntaxKind::*;
+    node.parent().is_some_and(|parent| match parent.kind() {
+        IfBranch | PreClause | ComprehensionClause => true,
+        ConditionalExpression => parent.first_child().as_ref() == Some(node),
+        ParenthesizedExpression => decides(&parent),
+        _ => joins(&parent),
+    })
 }
 
 impl NameExpression {
@@ -253,14 +283,26 @@ impl QuantifierExpression {
             .is_some_and(|word| word.text() == "forall")
     }
 
-    /// The names of the robots.
+    /// The names of the robots, where no collection is given.
     pub fn variables(&self) -> impl Iterator<Item = Name> + use<> {
         children(&self.0)
     }
 
-    /// What is said of them.
+    /// The names for what is in the collection, if one is given.
+    #[must_use]
+    pub fn loop_variables(&self) -> Option<LoopVariables> {
+        child(&self.0)
+    }
+
+    /// The collection, if one is given.
+    #[must_use]
+    pub fn collection(&self) -> Option<Expression> {
+        after(&token(&self.0, SyntaxKind::InKeyword)?)
+    }
+
+    /// The condition on each robot or element.
     #[must_use]
     pub fn condition(&self) -> Option<Expression> {
-        child(&self.0)
+        after(&token(&self.0, SyntaxKind::Colon)?)
     }
 }

@@ -5,9 +5,10 @@ use alloc::format;
 
 use rowan::Checkpoint;
 
+use super::collection::{self, iteration};
 use super::expression::{self, Parsed, Shape, binary, condition, expression_parsed, power};
 use super::item::name;
-use super::{Code, Diagnostic, MAX_DEPTH, Parser, Span, SyntaxKind, SyntaxKind::*, collection};
+use super::{Code, Diagnostic, MAX_DEPTH, Parser, Span, SyntaxKind, SyntaxKind::*};
 use crate::syntax::literal;
 
 /// Whether an operand other than a literal can begin so.
@@ -187,19 +188,25 @@ fn conditional(parser: &mut Parser<'_>) -> Parsed {
 fn is_quantifier(parser: &Parser<'_>) -> bool {
     matches!(parser.word(), "forall" | "exists")
         && parser.nth(1) == Identifier
-        && matches!(parser.nth(2), Comma | Colon)
+        && matches!(parser.nth(2), Comma | Colon | InKeyword)
 }
 
-/// `forall r, s: condition`.
+/// `forall r, s: condition` or `forall x in xs: condition`.
 fn quantifier(parser: &mut Parser<'_>) -> Parsed {
     parser.start(QuantifierExpression);
     parser.bump();
-    name(parser);
-    while parser.eat(Comma) {
+    let has_two = parser.nth(1) == Comma && parser.nth(3) == InKeyword;
+    let mut height = 0;
+    if parser.nth(1) == InKeyword || has_two {
+        height = iteration(parser);
+    } else {
         name(parser);
+        while parser.eat(Comma) {
+            name(parser);
+        }
     }
     parser.expect(Colon);
-    let parsed = expression::condition(parser);
+    height = height.max(expression::condition(parser).height);
     parser.finish();
-    Parsed::new(Shape::Other, parsed.height + 1)
+    Parsed::new(Shape::Other, height + 1)
 }

@@ -103,3 +103,67 @@ fn a_condition_that_is_known() {
     let told = effect(DECLARATIONS, body).unwrap();
     assert_eq!(told, ["log(\"a\")", "log(\"b\")", "log(\"e\")"]);
 }
+
+#[test]
+fn quantifiers_over_collections() {
+    let declarations =
+        "xs: List[Int] = [1, 2, 3]\nempty: Set[Int]\nm: Map[String, Int] = {\"a\": 1, \"b\": 2}";
+    values(
+        declarations,
+        &[
+            ("forall x in xs: x > 0", "true"),
+            ("forall x in xs: x > 1", "false"),
+            ("exists x in xs: x == 2", "true"),
+            ("exists x in xs: x > 3", "false"),
+            ("forall x in empty: false", "true"),
+            ("exists x in empty: true", "false"),
+            ("forall i in 0..3: xs[i] == i + 1", "true"),
+            (
+                "exists key, value in m: key == \"b\" and value == 2",
+                "true",
+            ),
+            ("forall key in m: m[key] < 2", "false"),
+            ("not (exists x in xs: x > 3) and xs.size() == 3", "true"),
+            (
+                "xs == [] or forall x in xs: exists y in xs: x + y == 4",
+                "true",
+            ),
+            ("if exists x in xs: x == 3 then 1 else 2", "1"),
+            ("[x for x in xs if forall y in xs: y <= x]", "[3]"),
+        ],
+    );
+}
+
+#[test]
+fn a_quantifier_stops_at_the_element_that_decides() {
+    values(
+        "xs: List[Int] = [1, 0, 2]",
+        &[
+            ("exists x in xs: 2 / x == 2", "true"),
+            ("forall x in xs: 2 / x == 1", "false"),
+        ],
+    );
+}
+
+#[test]
+fn some_stands_anywhere_in_an_expression() {
+    let declarations = "t: Bool = true\nf: Bool = false\no: Int? = 3\nn: Int?";
+    values(
+        declarations,
+        &[
+            ("some x = o and x > 2", "true"),
+            ("some x = o and x > 3", "false"),
+            ("some x = n and x > 2", "false"),
+            ("f or some x = o and x == 3", "true"),
+            ("some x = n and x > 0 or some x = o and x == 3", "true"),
+            ("(some x = n and x > 0) or t", "true"),
+            ("not (some x = o and x > 3)", "true"),
+            ("not (some x = n)", "true"),
+            ("(some x = o and x > 2) == (some y = o and y < 9)", "true"),
+            ("[some x = o and x == y for y in [2, 3]]", "[false, true]"),
+            ("exists y in [2, 3]: some x = o and x == y", "true"),
+        ],
+    );
+    let body = "let is_large = some x = o and x > 2\nif is_large or some x = n and x > 1 then log(\"yes\")";
+    assert_eq!(effect(declarations, body).unwrap(), ["log(\"yes\")"]);
+}

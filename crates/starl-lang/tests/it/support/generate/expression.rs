@@ -97,6 +97,7 @@ impl Generator<'_> {
             5 => self.unwrap(ty, context, depth - 1),
             6 => self.part(ty, context, depth - 1),
             7 => self.call(ty, context, depth - 1),
+            8 if *ty == Type::Bool => self.closed_condition(depth - 1),
             _ => self.operation(ty, context, depth - 1),
         }
     }
@@ -126,6 +127,22 @@ impl Generator<'_> {
             });
         }
         parts.join(" and ")
+    }
+
+    /// A condition or a quantifier over a collection, whose locals are known in it alone.
+    fn closed_condition(&mut self, depth: u32) -> Text {
+        let mark = self.locals.len();
+        let text = match self.choices.below(3) {
+            0 => format!("(not ({}))", self.condition(depth)),
+            kind => {
+                let word = ["forall", "exists"][kind - 1];
+                let iteration = self.iteration(depth);
+                let condition = self.condition(depth);
+                format!("({word}{}: {condition})", &iteration["for".len()..])
+            }
+        };
+        self.locals.truncate(mark);
+        Text::atom(text)
     }
 
     /// `some x = optional`; the local stays.

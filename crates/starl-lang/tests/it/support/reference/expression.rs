@@ -221,6 +221,23 @@ impl<'a> Reference<'a> {
                 let found = self.quantifier(robots, &all, !is_universal, condition)?;
                 Value::Bool(found != *is_universal)
             }
+            Kind::Over {
+                is_universal,
+                variables,
+                collection,
+                condition,
+            } => {
+                let mut found = false;
+                for item in self.items(collection)? {
+                    self.step()?;
+                    self.bind_loop(*variables, item);
+                    if self.holds(condition)? != *is_universal {
+                        found = true;
+                        break;
+                    }
+                }
+                Value::Bool(found != *is_universal)
+            }
             Kind::OfRobot { robot, member } => {
                 let robot = self.evaluate(robot)?;
                 self.of_robot(robot, *member, ty)?
