@@ -37,6 +37,81 @@ function list(turns: Int) -> Int
             s += number
             numbers[i] = number
     return s
+
+function map_int(turns: Int) -> Int
+    let counts: Map[Int, Int] = {:}
+    for turn in 0..turns
+        for i in 0..1000
+            let key = i * 7919 % 1000
+            counts[key] = (counts.get(key) ?? 0) + 1
+    return counts.get(999) ?? 0
+
+function map_string(turns: Int) -> Int
+    let keys = [\"key \" + String(i * 7919 % 1000) for i in 0..1000]
+    let counts: Map[String, Int] = {:}
+    for turn in 0..turns
+        for key in keys
+            counts[key] = (counts.get(key) ?? 0) + 1
+    return counts.get(\"key 999\") ?? 0
+
+function strings(turns: Int) -> Int
+    let found = 0
+    for turn in 0..turns
+        let line = \"\"
+        for i in 0..20
+            line += \"word\" + String(i) + \",\"
+        for word in line.split(\",\")
+            if word == \"word7\" then found += 1
+    return found
+
+record Particle {x: Float, v: Float, hits: Int}
+
+function records(turns: Int) -> Int
+    let particles = [Particle(Float(i), 1.0, 0) for i in 0..100]
+    let hits = 0
+    for turn in 0..turns
+        for i in 0..100
+            let p = particles[i]
+            p.x += p.v
+            if p.x > 50.0
+                p.v = -1.0
+                p.hits += 1
+            elif p.x < 0.0
+                p.v = 1.0
+            particles[i] = p
+            hits += 1
+    return hits
+
+function sort(turns: Int) -> Int
+    let size = 0
+    for turn in 0..turns
+        let x = 42
+        let numbers: List[Int] = []
+        for i in 0..1000
+            x = (x * 1103515245 + 12345) % 2147483648
+            numbers.add(x)
+        let sorted = numbers.sorted()
+        if sorted[0] <= sorted[999] then size += sorted.size()
+    return size
+
+function escapes(cr: Float, ci: Float) -> Bool
+    let x = 0.0
+    let y = 0.0
+    for i in 0..50
+        let next = x * x - y * y + cr
+        y = 2.0 * x * y + ci
+        x = next
+        if x * x + y * y > 4.0
+            return true
+    return false
+
+function mandelbrot(size: Int) -> Int
+    let inside = 0
+    for row in 0..size
+        for column in 0..size
+            if not escapes(3.0 * Float(column) / Float(size) - 2.0, 2.0 * Float(row) / Float(size) - 1.0)
+                inside += 1
+    return inside
 ";
 
 const RACE: &str = include_str!("../tests/listings/race.starl");
@@ -79,5 +154,21 @@ fn main() {
         1000,
         499_500_000,
     );
+    let others = [
+        ("map by Int of 1,000, 100 times", "map_int", 100, 100),
+        ("map by String of 1,000, 100 times", "map_string", 100, 100),
+        (
+            "strings joined and split, 1,000 times",
+            "strings",
+            1000,
+            1000,
+        ),
+        ("records of 100, 1,000 times", "records", 1000, 100_000),
+        ("sort of 1,000, 50 times", "sort", 50, 50_000),
+        ("mandelbrot of 100 by 100", "mandelbrot", 100, 2662),
+    ];
+    for (name, function, argument, expected) in others {
+        measure(&program, name, numbered(function), argument, expected);
+    }
     measure_compiler("Race", RACE);
 }

@@ -1,8 +1,8 @@
 //! The causal past of a failure: the faults, lost messages and actions that it can depend on.
 //!
 //! An event happened before another if it came earlier on the same robot, or if it came before the sending of a message
-//! that was delivered there (Lamport 1978, "Time, Clocks, and the Ordering of Events in a Distributed System"). What
-//! robots sense of each other is left out.
+//! that was delivered there (Lamport 1978, "Time, Clocks, and the Ordering of Events in a Distributed System"). Robots
+//! also sense each other, which is left out.
 
 use crate::Run;
 use crate::trial::Finding;
@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Cause(BTreeSet<Kind>);
 
-/// What can be the cause of a failure.
+/// A kind of event that can cause a failure.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
     /// A fault, or its end.

@@ -386,7 +386,7 @@ fn write(
         Some(clock) => Time((clock.corrected(at.seconds()) * 1e9).max(0.0) as u64),
         None => at,
     };
-    // What a line through the clocks' differences leaves is made good here: an arrival waits for its sending.
+    // A line through the differences of clocks is not exact, so an arrival waits for its sending.
     let mut written: HashSet<(RobotId, u32)> = HashSet::new();
     let waits_until = |piece: &Option<Piece>, at: Time, written: &HashSet<_>| match piece {
         Some(Piece::Record(Event::Delivered { from, sequence })) => {

@@ -106,20 +106,32 @@ pub struct Parts {
     pub element: Layout,
     /// A value.
     pub value: Layout,
+    /// Whether it is a map whose keys are one whole number or one text each.
+    pub has_hashed_keys: bool,
 }
 
 impl Parts {
-    /// The parts of an object type; nothing for types without parts.
-    pub fn of(object: &ObjectType) -> Parts {
+    /// The parts of an object type among all; nothing for types without parts.
+    pub fn of(object: &ObjectType, all: &[ObjectType]) -> Parts {
         match object {
             ObjectType::List(element) | ObjectType::Set(element) => Parts {
                 element: Layout::of([element]),
-                value: Layout::default(),
+                ..Parts::default()
             },
-            ObjectType::Map(key, value) => Parts {
-                element: Layout::of([key]),
-                value: Layout::of([value]),
-            },
+            ObjectType::Map(key, value) => {
+                let element = Layout::of([key]);
+                let is_text =
+                    |object: &u16| all.get(usize::from(*object)) == Some(&ObjectType::Text);
+                Parts {
+                    has_hashed_keys: match (&element.scalars[..], &element.objects[..]) {
+                        ([order], []) => *order == Order::Integer,
+                        ([], [object]) => is_text(object),
+                        _ => false,
+                    },
+                    element,
+                    value: Layout::of([value]),
+                }
+            }
             ObjectType::Text | ObjectType::Area | ObjectType::Obstacles => Parts::default(),
         }
     }

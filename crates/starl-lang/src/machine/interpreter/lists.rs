@@ -2,7 +2,9 @@
 
 use crate::machine::error::Fault;
 use crate::machine::interpreter::view::{View, object_at, shift};
-use crate::machine::operand::{Block, In, ObjectBlock, ObjectIn, ObjectInOut, Out, PairOut, Type};
+use crate::machine::operand::{
+    Block, In, ObjectBlock, ObjectIn, ObjectInOut, ObjectOut, Out, PairOut, Type,
+};
 use crate::machine::value::list::{self, List};
 use crate::machine::value::object::Object;
 
@@ -63,14 +65,20 @@ impl View<'_> {
         let Some(element) = object.list().and_then(|list| list.get(at)) else {
             return Err(out_of_range(index, object));
         };
-        // An element of scalars alone is copied at once; objects need the list to be held.
-        if element.objects.is_empty() {
+        // An element with one object at most is copied at once; more need the list to be held.
+        if element.objects.len() < 2 {
             let start = scalars.place();
-            let place = self.registers.get_mut(start..start + element.scalars.len());
-            place
-                .ok_or(Fault::Malformed)?
-                .copy_from_slice(element.scalars);
-            return Ok(element.scalars.len() as u64 / 8);
+            let width = element.scalars.len();
+            let place = self.registers.get_mut(start..start + width);
+            let place = place.ok_or(Fault::Malformed)?;
+            place.copy_from_slice(element.scalars);
+            return match element.objects.first().cloned() {
+                None => Ok(width as u64 / 8),
+                Some(object) => {
+                    let to = ObjectOut(objects.0);
+                    Ok(self.share(to, object)? + (width as u64 + 1) / 8)
+                }
+            };
         }
         let held = object.clone();
         match held.list().and_then(|list| list.get(at)) {

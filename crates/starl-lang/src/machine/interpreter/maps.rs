@@ -2,10 +2,10 @@
 
 use crate::machine::error::Fault;
 use crate::machine::interpreter::lists::insert;
-use crate::machine::interpreter::view::{View, shift};
+use crate::machine::interpreter::view::{View, object_at, object_at_mut, shift};
 use crate::machine::operand::{Block, In, ObjectBlock, ObjectIn, ObjectInOut, Out, Type};
-use crate::machine::types::Layout;
-use crate::machine::value::object::Object;
+use crate::machine::types::Parts;
+use crate::machine::value::object::{Map, Object};
 
 /// Where a value stands in registers: its first scalar and its first object.
 type Place = (Block, ObjectBlock);
@@ -20,6 +20,21 @@ impl View<'_> {
     ) -> Result<u64, Fault> {
         let parts = self.parts(kind)?;
         let (key, value) = (&parts.element, &parts.value);
+        let found = self.map_search(ObjectIn(map.0), (scalars, objects), parts)?;
+        let value_start = scalars.place() + key.scalars.len();
+        // A value of scalars alone that takes the place of another changes nothing else.
+        if let Some(at) = found
+            && value.objects.is_empty()
+            && let Some(new) = (self.registers).get(value_start..value_start + value.scalars.len())
+            && let Some(map) =
+                object_at_mut(self.objects, self.object_base, self.state, map.0)?.own_map_mut()
+            && let Some(values) = map.values_mut().own_list_mut()
+            && let Some(old) = values.scalars_at_mut(at as u64)
+            && old.len() == new.len()
+        {
+            old.copy_from_slice(new);
+            return Ok(3);
+        }
         self.change(map, |object, view| {
             let key_block = view.block(scalars, objects, key)?;
             let value_block = view.block_of(
@@ -29,23 +44,22 @@ impl View<'_> {
                 value.objects.len(),
             )?;
             let map = object.map_mut().ok_or(Fault::Malformed)?;
-            let place = match map.keys.list() {
-                Some(keys) => keys.search(key_block, key, &view.program.parts),
-                None => Err(0),
-            };
-            let values = map.values.list_mut(value).ok_or(Fault::Malformed)?;
-            match place {
-                Ok(at) => {
-                    let cost = shift(value_block.objects.iter().map(Object::bytes).sum());
-                    let set = values.set(at, value_block);
-                    set.then_some(3 + cost).ok_or(Fault::Malformed)
-                }
-                Err(at) => {
-                    let keys = map.keys.list_mut(key).ok_or(Fault::Malformed)?;
-                    let cost = insert(keys, at, key_block)?;
-                    Ok(3 + cost + insert(values, at, value_block)?)
-                }
+            if let Some(at) = found {
+                let values = map.values_mut().list_mut(value).ok_or(Fault::Malformed)?;
+                let cost = shift(value_block.objects.iter().map(Object::bytes).sum());
+                let set = values.set(at, value_block);
+                return set.then_some(3 + cost).ok_or(Fault::Malformed);
             }
+            let place = map
+                .keys()
+                .list()
+                .map(|keys| keys.search(key_block, key, &view.program.parts));
+            let (Err(at) | Ok(at)) = place.unwrap_or(Err(0));
+            let (keys, values) = map.parts_mut();
+            let keys = keys.list_mut(key).ok_or(Fault::Malformed)?;
+            let cost = insert(keys, at, key_block)?;
+            let values = values.list_mut(value).ok_or(Fault::Malformed)?;
+            Ok(3 + cost + insert(values, at, value_block)?)
         })
     }
 
@@ -54,16 +68,28 @@ impl View<'_> {
         &self,
         map: ObjectIn,
         (scalars, objects): Place,
-        key: &Layout,
+        parts: &Parts,
     ) -> Result<Option<usize>, Fault> {
-        let block = self.block(scalars, objects, key)?;
-        let keys = self.read(map)?.map().and_then(|map| map.keys.list());
-        Ok(keys.and_then(|keys| keys.search(block, key, &self.program.parts).ok()))
+        let block = self.block(scalars, objects, &parts.element)?;
+        let map = self.read(map)?.map();
+        Ok(map.and_then(|map| map.find(block, parts, &self.program.parts)))
     }
 
     /// Writes the value at an index to registers.
     fn map_value(&mut self, map: ObjectIn, at: usize, to: (usize, usize)) -> Result<u64, Fault> {
-        let values = self.read(map)?.map().map(|map| map.values.clone());
+        let object = object_at(self.objects, self.object_base, self.state, map.0)?;
+        let values = object.map().map(Map::values);
+        // A value of scalars alone is copied at once; objects need the list to be held.
+        if let Some(value) = values.and_then(Object::list).and_then(|v| v.get(at))
+            && value.objects.is_empty()
+        {
+            let place = self.registers.get_mut(to.0..to.0 + value.scalars.len());
+            place
+                .ok_or(Fault::Malformed)?
+                .copy_from_slice(value.scalars);
+            return Ok(value.scalars.len() as u64 / 8);
+        }
+        let values = values.cloned();
         match values
             .as_ref()
             .and_then(Object::list)
@@ -82,7 +108,7 @@ impl View<'_> {
         kind: Type,
     ) -> Result<u64, Fault> {
         let parts = self.parts(kind)?;
-        let found = self.map_search(map, key, &parts.element)?;
+        let found = self.map_search(map, key, parts)?;
         let start = to.place() + 1;
         let cost = match found {
             Some(at) => self.map_value(map, at, (start, to_objects.place()))?,
@@ -109,7 +135,7 @@ impl View<'_> {
         (to, to_objects): Place,
         kind: Type,
     ) -> Result<u64, Fault> {
-        let found = self.map_search(map, key, &self.parts(kind)?.element)?;
+        let found = self.map_search(map, key, self.parts(kind)?)?;
         let at = found.ok_or(Fault::KeyMissing)?;
         Ok(3 + self.map_value(map, at, (to.place(), to_objects.place()))?)
     }
@@ -122,7 +148,7 @@ impl View<'_> {
         objects: ObjectBlock,
         kind: Type,
     ) -> Result<u64, Fault> {
-        let found = self.map_search(map, (scalars, objects), &self.parts(kind)?.element)?;
+        let found = self.map_search(map, (scalars, objects), self.parts(kind)?)?;
         self.set_bool(to, found.is_some());
         Ok(3)
     }
@@ -134,15 +160,16 @@ impl View<'_> {
         objects: ObjectBlock,
         kind: Type,
     ) -> Result<u64, Fault> {
-        let key = &self.parts(kind)?.element;
-        let found = self.map_search(ObjectIn(map.0), (scalars, objects), key)?;
+        let parts = self.parts(kind)?;
+        let found = self.map_search(ObjectIn(map.0), (scalars, objects), parts)?;
         let Some(at) = found else {
             return Ok(3);
         };
         self.change(map, |object, _| {
             let map = object.map_mut().ok_or(Fault::Malformed)?;
             let mut cost = 3;
-            for half in [&mut map.keys, &mut map.values] {
+            let (keys, values) = map.parts_mut();
+            for half in [keys, values] {
                 let list = half.existing_list_mut().ok_or(Fault::Malformed)?;
                 cost += shift(list.bytes_from(at));
                 list.remove(at);
@@ -161,7 +188,7 @@ impl View<'_> {
         let index = self.scalar(index) as i64;
         let at = usize::try_from(index).unwrap_or(usize::MAX);
         let object = self.read(map)?;
-        let keys = object.map().map(|map| map.keys.clone());
+        let keys = object.map().map(|map| map.keys().clone());
         let Some(key) = keys.as_ref().and_then(Object::list).and_then(|k| k.get(at)) else {
             let length = object.size() as u32;
             return Err(Fault::IndexOutOfRange { index, length });

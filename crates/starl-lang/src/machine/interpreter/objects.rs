@@ -193,11 +193,11 @@ impl View<'_> {
                 objects,
             } => self.map_entry(map, index, scalars, objects),
             MapKeys { to, map, .. } => {
-                let keys = self.read(map)?.map().map(|map| map.keys.clone());
+                let keys = self.read(map)?.map().map(|map| map.keys().clone());
                 self.share(to, keys.unwrap_or_default())
             }
             MapValues { to, map, .. } => {
-                let values = self.read(map)?.map().map(|map| map.values.clone());
+                let values = self.read(map)?.map().map(|map| map.values().clone());
                 self.share(to, values.unwrap_or_default())
             }
 

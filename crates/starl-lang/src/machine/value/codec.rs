@@ -120,8 +120,8 @@ impl Writer<'_> {
             ObjectType::Map(key, value) => {
                 let empty = Map::default();
                 let map = object.map().unwrap_or(&empty);
-                self.number(map.keys.size() as u64);
-                if let (Some(keys), Some(values)) = (map.keys.list(), map.values.list()) {
+                self.number(map.keys().size() as u64);
+                if let (Some(keys), Some(values)) = (map.keys().list(), map.values().list()) {
                     return keys.iter().zip(values.iter()).try_for_each(|(k, v)| {
                         self.block(key, k)?;
                         self.block(value, v)
@@ -265,11 +265,10 @@ impl<'a> Reader<'a> {
                     self.element(key, &mut keys)?;
                     self.element(value, &mut values)?;
                 }
-                let (keys, values) = match ascending(&keys, parts, &program.parts) {
-                    true => (keys.into(), values.into()),
-                    false => return None,
-                };
-                Body::Map(Box::new(Map { keys, values })).into()
+                if !ascending(&keys, parts, &program.parts) {
+                    return None;
+                }
+                Body::Map(Box::new(Map::new(keys, values))).into()
             }
         };
         Some(object)

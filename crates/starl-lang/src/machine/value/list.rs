@@ -276,6 +276,16 @@ impl List {
         self.arranged((0..self.len()).filter(first))
     }
 
+    /// Whether the element at an index is this one, where each is one Integer or one text.
+    #[inline]
+    pub fn is_at(&self, index: usize, block: Block<'_>) -> bool {
+        match (block.scalars, block.objects) {
+            ([scalar], []) => self.scalars.get(index) == Some(scalar),
+            ([], [text]) => self.objects.get(index).is_some_and(|o| o.is_text(text)),
+            _ => false,
+        }
+    }
+
     /// Where a block stands in a sorted list, or where it would have to.
     pub fn search(
         &self,
@@ -283,6 +293,14 @@ impl List {
         layout: &Layout,
         types: &[Parts],
     ) -> Result<usize, usize> {
+        if let ([Order::Integer], [], [scalar]) =
+            (&layout.scalars[..], &layout.objects[..], block.scalars)
+        {
+            let scalar = *scalar as i64;
+            return self
+                .scalars
+                .binary_search_by(|other| (*other as i64).cmp(&scalar));
+        }
         let (mut low, mut high) = (0, self.len());
         while low < high {
             let middle = low + (high - low) / 2;

@@ -5,7 +5,8 @@
 //! empty collections needs no memory but its own.
 
 use crate::machine::types::{Layout, Parts};
-use crate::machine::value::list::List;
+use crate::machine::value::index::{Found, Index};
+use crate::machine::value::list::{Block, List};
 use alloc::boxed::Box;
 use alloc::string::String;
 use core::cmp::Ordering;
@@ -44,9 +45,61 @@ pub enum Body {
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Map {
     /// The keys.
-    pub keys: Object,
+    keys: Object,
     /// The values.
-    pub values: Object,
+    values: Object,
+    #[serde(skip)]
+    pub(super) index: Index,
+}
+
+impl Map {
+    /// A map of these keys, which are in ascending order without repetitions, and the values at the same indices.
+    pub fn new(keys: impl Into<Object>, values: impl Into<Object>) -> Map {
+        Map {
+            keys: keys.into(),
+            values: values.into(),
+            index: Index::default(),
+        }
+    }
+
+    /// The keys, a list.
+    #[inline]
+    pub fn keys(&self) -> &Object {
+        &self.keys
+    }
+
+    /// The values, a list.
+    #[inline]
+    pub fn values(&self) -> &Object {
+        &self.values
+    }
+
+    /// The values, to be changed: there must be one for each key afterwards.
+    #[inline]
+    pub fn values_mut(&mut self) -> &mut Object {
+        &mut self.values
+    }
+
+    /// Both, to be changed in the same way.
+    pub fn parts_mut(&mut self) -> (&mut Object, &mut Object) {
+        self.index.forget();
+        (&mut self.keys, &mut self.values)
+    }
+
+    /// The index of a key.
+    #[inline]
+    pub fn find(&self, key: Block<'_>, parts: &Parts, types: &[Parts]) -> Option<usize> {
+        let keys = self.keys.list()?;
+        let found = match parts.has_hashed_keys {
+            true => self.index.find(keys, key),
+            false => Found::Unknown,
+        };
+        match found {
+            Found::At(at) => Some(at),
+            Found::Nowhere => None,
+            Found::Unknown => keys.search(key, &parts.element, types).ok(),
+        }
+    }
 }
 
 impl Object {
@@ -64,6 +117,15 @@ impl Object {
         match self.body() {
             Some(Body::Text(text)) => text,
             _ => "",
+        }
+    }
+
+    /// Whether both are the same text. Texts that share a body are not looked at.
+    #[inline]
+    pub fn is_text(&self, other: &Object) -> bool {
+        match (&self.0, &other.0) {
+            (Some(left), Some(right)) if Arc::ptr_eq(left, right) => true,
+            _ => self.text() == other.text(),
         }
     }
 
@@ -123,6 +185,15 @@ impl Object {
     pub fn map_mut(&mut self) -> Option<&mut Map> {
         let new = || Arc::new(Body::Map(Box::default()));
         match Arc::make_mut(self.0.get_or_insert_with(new)) {
+            Body::Map(map) => Some(map),
+            _ => None,
+        }
+    }
+
+    /// A map to be changed if there is one that nobody else holds.
+    #[inline]
+    pub fn own_map_mut(&mut self) -> Option<&mut Map> {
+        match Arc::get_mut(self.0.as_mut()?)? {
             Body::Map(map) => Some(map),
             _ => None,
         }

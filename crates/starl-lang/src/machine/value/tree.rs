@@ -173,15 +173,12 @@ impl Value {
                 let unsorted = list(program, entries.iter().map(|(key, _)| key), key)?;
                 let values = list(program, entries.iter().map(|(_, value)| value), value)?;
                 let order = unsorted.order(keys, types);
-                let map = Map {
-                    keys: unsorted.arranged(order.iter().copied()).into(),
-                    values: values.arranged(order.into_iter()).into(),
-                };
-                let sorted = map.keys.list()?;
+                let sorted = unsorted.arranged(order.iter().copied());
                 if sorted.deduplicated(keys, types).len() < sorted.len() {
                     return None; // a key is there twice
                 }
-                Body::Map(Box::new(map)).into()
+                let values = values.arranged(order.into_iter());
+                Body::Map(Box::new(Map::new(sorted, values))).into()
             }
             _ => return None,
         })
@@ -268,8 +265,8 @@ impl Reader<'_> {
             ObjectType::Map(key, value) => {
                 let empty = Map::default();
                 let map = object.map().unwrap_or(&empty);
-                let keys = self.elements(&map.keys, key)?;
-                let values = self.elements(&map.values, value)?;
+                let keys = self.elements(map.keys(), key)?;
+                let values = self.elements(map.values(), value)?;
                 Value::Map(keys.into_iter().zip(values).collect())
             }
         })

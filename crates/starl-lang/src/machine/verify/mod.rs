@@ -64,7 +64,9 @@ pub(in crate::machine) fn verify(bytecode: &Bytecode) -> Result<Tables, LoadErro
         value_type(bytecode, &variable.kind, bytecode.types.len(), 0)?;
     }
     let tables = Tables {
-        parts: bytecode.types.iter().map(Parts::of).collect(),
+        parts: (bytecode.types.iter())
+            .map(|object| Parts::of(object, &bytecode.types))
+            .collect(),
         state: Layout::of(bytecode.variables.iter().map(|v| &v.kind)),
         arguments: layouts(bytecode, bytecode.functions.iter().map(|f| &f.arguments))?,
         results: layouts(bytecode, bytecode.functions.iter().map(|f| &f.results))?,

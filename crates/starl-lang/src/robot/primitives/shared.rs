@@ -132,11 +132,7 @@ fn give_all(context: &mut Context<'_, '_>, call: &mut HostCall<'_>) -> Called {
     let cost = 10 * owners.len() as u64;
     let map = match owners.is_empty() {
         true => Object::EMPTY,
-        false => Body::Map(Box::new(Map {
-            keys: robots(owners),
-            values: values.into(),
-        }))
-        .into(),
+        false => Body::Map(Box::new(Map::new(robots(owners), values))).into(),
     };
     call.set_object(0, map);
     Ok(cost)

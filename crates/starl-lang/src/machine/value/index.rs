@@ -1,0 +1,249 @@
+//! A hash index of the keys of a map, so that looking up does not depend on how many there are.
+//!
+//! A map stays a row of keys in ascending order, which is what it means: how it is compared, recorded and run over. The
+//! index is no part of its value. It is made when a map has been asked as often as it has keys without getting new ones,
+//! and forgotten when it gets or loses one. Open addressing with linear probing (Knuth, "The Art of Computer
+//! Programming", volume 3, section 6.4). Keys that hash to one place are searched by bisection after [`LONGEST`] of them,
+//! so that no keys make it slower than that.
+
+use crate::machine::value::list::{Block, List};
+use alloc::boxed::Box;
+use alloc::vec;
+use core::sync::atomic::{AtomicU32, Ordering};
+use once_cell::race::OnceBox;
+
+/// Fewer keys are found as fast by bisection.
+const FEWEST: usize = 8;
+
+/// The most places that are looked at for a key.
+const LONGEST: usize = 16;
+
+/// The index of one map.
+#[derive(Default)]
+pub struct Index {
+    /// How often the map was asked since its keys changed.
+    asked: AtomicU32,
+    table: OnceBox<Table>,
+}
+
+/// Where keys are, by their hashes.
+struct Table {
+    /// The index of a key plus one; 0 where there is none. Its length is a power of two.
+    places: Box<[u32]>,
+    /// How many bits of a hash are left out: its high bits depend on all bits of the key.
+    shift: u32,
+}
+
+/// What the index says of a key.
+pub enum Found {
+    /// It is at this index.
+    At(usize),
+    /// It is not in the map.
+    Nowhere,
+    /// The index does not know.
+    Unknown,
+}
+
+impl Index {
+    /// Where a key is. `keys` are the keys of the map.
+    #[inline]
+    pub fn find(&self, keys: &List, key: Block<'_>) -> Found {
+        match self.table.get() {
+            Some(table) => table.find(keys, key),
+            None => {
+                self.ask(keys);
+                Found::Unknown
+            }
+        }
+    }
+
+    /// Forgets the index, because the keys change.
+    #[inline]
+    pub fn forget(&mut self) {
+        if *self.asked.get_mut() > 0 {
+            *self = Index::default();
+        }
+    }
+
+    fn ask(&self, keys: &List) {
+        // Counts that are lost where two threads ask at once do not matter.
+        let asked = self.asked.load(Ordering::Relaxed).saturating_add(1);
+        self.asked.store(asked, Ordering::Relaxed);
+        if asked as usize >= keys.len() && keys.len() >= FEWEST && keys.len() < 1 << 30 {
+            self.table.get_or_init(|| Box::new(Table::of(keys)));
+        }
+    }
+}
+
+/// A copy of a map gets an index of its own when it is asked often.
+impl Clone for Index {
+    fn clone(&self) -> Index {
+        Index::default()
+    }
+}
+
+impl core::fmt::Debug for Index {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str("Index")
+    }
+}
+
+impl Table {
+    fn of(keys: &List) -> Table {
+        let length = (2 * keys.len()).next_power_of_two();
+        let mut table = Table {
+            places: vec![0; length].into(),
+            shift: u64::BITS - length.trailing_zeros(),
+        };
+        for (number, key) in keys.iter().enumerate() {
+            let mut places = table.places_of(key);
+            if let Some(place) = places.find(|&place| table.places[place] == 0) {
+                table.places[place] = number as u32 + 1;
+            }
+        }
+        table
+    }
+
+    /// The places where a key may be, in order.
+    #[inline]
+    fn places_of(&self, key: Block<'_>) -> impl Iterator<Item = usize> + use<> {
+        let mask = self.places.len() - 1;
+        let first = (hash(key) >> self.shift) as usize;
+        (first..first + LONGEST).map(move |place| place & mask)
+    }
+
+    #[inline]
+    fn find(&self, keys: &List, key: Block<'_>) -> Found {
+        for place in self.places_of(key) {
+            let Some(number) = self.places[place].checked_sub(1) else {
+                return Found::Nowhere;
+            };
+            if keys.is_at(number as usize, key) {
+                return Found::At(number as usize);
+            }
+        }
+        Found::Unknown
+    }
+}
+
+/// Multiplicative hashing: 2^64 divided by the golden ratio.
+const FACTOR: u64 = 0x9E37_79B9_7F4A_7C15;
+
+#[inline]
+fn hash(key: Block<'_>) -> u64 {
+    let mut hash = 0u64;
+    for &word in key.scalars {
+        hash = mixed(hash, word);
+    }
+    for object in key.objects {
+        let mut words = object.text().as_bytes().chunks_exact(8);
+        for word in &mut words {
+            hash = mixed(
+                hash,
+                u64::from_le_bytes(word.try_into().unwrap_or_default()),
+            );
+        }
+        let rest = words.remainder();
+        let mut last = [0; 8];
+        last[..rest.len()].copy_from_slice(rest);
+        hash = mixed(hash, u64::from_le_bytes(last));
+    }
+    hash
+}
+
+#[inline]
+fn mixed(hash: u64, word: u64) -> u64 {
+    (hash.rotate_left(5) ^ word).wrapping_mul(FACTOR)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::machine::types::{ObjectType, Parts, Type};
+    use crate::machine::value::list::Block;
+    use crate::machine::value::object::{Map, Object};
+    use alloc::collections::BTreeMap;
+    use alloc::format;
+    use starl_core::Random;
+
+    /// Puts, removes and looks up keys at random, and compares the map with one of the standard library.
+    fn same_as_a_tree(key_type: Type, key: impl Fn(u32) -> (Option<u64>, Object)) {
+        let types = [ObjectType::Text, ObjectType::Map(key_type, Type::Int)];
+        let parts: [Parts; 2] = [0, 1].map(|index| Parts::of(&types[index], &types));
+        assert!(parts[1].has_hashed_keys);
+        let mut random = Random::keyed(1, &[]);
+        let (mut map, mut tree) = (Map::default(), BTreeMap::new());
+        let mut indexed = 0;
+        for turn in 0..20_000u64 {
+            let number = random.below(300);
+            let (scalar, object) = key(number);
+            let block = Block {
+                scalars: scalar.as_slice(),
+                objects: match scalar {
+                    Some(_) => &[],
+                    None => core::slice::from_ref(&object),
+                },
+            };
+            let found = map.find(block, &parts[1], &parts);
+            indexed += u32::from(map.index.table.get().is_some());
+            assert_eq!(found.is_some(), tree.contains_key(&number), "turn {turn}");
+            let value = [turn];
+            let value = Block {
+                scalars: &value,
+                objects: &[],
+            };
+            // Changes become rare, so that the index is made, used and forgotten.
+            match (found, random.chance(20.0 / (20.0 + turn as f64))) {
+                (Some(at), false) => {
+                    let values = map.values().list().expect("it has values");
+                    let value = values.get(at).expect("as many as keys").scalars[0];
+                    assert_eq!(tree.get(&number), Some(&value), "turn {turn}");
+                }
+                (Some(at), true) => {
+                    let (keys, values) = map.parts_mut();
+                    for half in [keys, values] {
+                        assert!(half.existing_list_mut().expect("it is there").remove(at));
+                    }
+                    tree.remove(&number);
+                }
+                (None, _) => {
+                    let keys = map.keys().list();
+                    let place = keys.map(|keys| keys.search(block, &parts[1].element, &parts));
+                    let (Ok(at) | Err(at)) = place.unwrap_or(Err(0));
+                    let (keys, values) = map.parts_mut();
+                    let keys = keys.list_mut(&parts[1].element).expect("a list");
+                    assert!(keys.insert(at, block));
+                    let values = values.list_mut(&parts[1].value).expect("a list");
+                    assert!(values.insert(at, value));
+                    tree.insert(number, turn);
+                }
+            }
+        }
+        assert!(
+            (2_000..19_000).contains(&indexed),
+            "indexed {indexed} times"
+        );
+    }
+
+    #[test]
+    fn numbers_are_found_as_in_a_tree() {
+        same_as_a_tree(Type::Int, |number| {
+            (Some((i64::from(number) * 37 - 5000) as u64), Object::EMPTY)
+        });
+    }
+
+    #[test]
+    fn texts_are_found_as_in_a_tree() {
+        same_as_a_tree(Type::Object(0), |number| match number {
+            0 => (None, Object::EMPTY),
+            _ => (None, (&format!("the key number {number}")[..]).into()),
+        });
+    }
+
+    #[test]
+    fn keys_with_one_hash_are_found_too() {
+        // The lowest bits of a key do not reach the bits of the hash that count in a small table.
+        same_as_a_tree(Type::Int, |number| {
+            (Some(u64::from(number) << 54), Object::EMPTY)
+        });
+    }
+}
