@@ -75,7 +75,7 @@ fn worded(error: &WordingError) -> PyErr {
             "code": problem.code.number(),
             "field": null,
             "message": problem.message,
-            "help": problem.mend.as_ref().map(|mend| &mend.message),
+            "help": problem.fix.as_ref().map(|fix| &fix.message),
             "notes": problem.remarks().collect::<Vec<_>>(),
         })
     };

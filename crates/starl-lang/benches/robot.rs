@@ -46,7 +46,7 @@ struct Fleet {
     sink: Sink,
 }
 
-/// Where nodes leave what they ask for; nobody looks at it but for plans.
+/// Receives the outputs of nodes; only plans are read.
 #[derive(Default)]
 struct Sink {
     workspace: Workspace,
@@ -139,7 +139,7 @@ fn measure(name: &str, make: &dyn Fn() -> Box<dyn Program>) {
 /// The fleet as a judge of its properties sees it.
 struct Seen<'a> {
     fleet: &'a Fleet,
-    /// Whether the judge is told of whom nothing has changed.
+    /// Whether the fleet has versions, so that the judge can skip unchanged robots.
     tells_versions: bool,
 }
 

@@ -146,8 +146,8 @@ impl Ardrone {
         self.heard = Instant::now();
         self.fresh = true;
         self.latest = Some(navdata);
-        // The drone passes over numbers that it has had already. The first command of a driver begins anew; if that is
-        // lost, or a stranger has sent a greater number, the drone hears nothing although commands are sent.
+        // The drone ignores sequence numbers that it has received already. The first command of a driver resets the
+        // count. If that command is lost, or another sender has used a greater number, the drone ignores all commands.
         if navdata.state & state::WATCHDOG == 0 {
             self.counted = self.heard;
         } else if self.counted.elapsed() > UNHEARD {
@@ -167,7 +167,7 @@ impl Ardrone {
                     }
                 }
                 Err(error) => match error.kind() {
-                    // Nobody listens there: the same as silence.
+                    // No process listens there: treated as silence.
                     ErrorKind::WouldBlock | ErrorKind::ConnectionRefused => return Ok(()),
                     ErrorKind::Interrupted => {}
                     _ => return Err(error.into()),
@@ -263,7 +263,7 @@ impl Device for Ardrone {
             self.ask()?;
         }
         if self.heard.elapsed() > SILENCE {
-            // It may come back with its numbers and configuration begun anew.
+            // The drone may restart its sequence numbers and its configuration.
             self.latest = None;
             self.configuration.restart();
         }
@@ -275,7 +275,7 @@ impl Device for Ardrone {
             return Ok(None);
         }
         if !self.configuration.complete() {
-            // Until the first reading nobody drives it, so this is where it is configured.
+            // The drone is not driven before the first reading, so it is configured here.
             self.drive(&Command::Stop, &Estimate::default())?;
             return Ok(None);
         }
@@ -293,7 +293,7 @@ impl Device for Ardrone {
 }
 
 impl Drop for Ardrone {
-    /// Lands a drone in the air, and says so more than once, since nobody looks whether it is heard.
+    /// Lands a drone in the air. Sends the command several times, since there is no acknowledgement.
     fn drop(&mut self) {
         let landed = |latest: Navdata| {
             latest
@@ -322,7 +322,7 @@ fn socket(peer: SocketAddr) -> Result<UdpSocket, DeviceError> {
     Ok(socket)
 }
 
-/// Sends a datagram. That nobody listens shows as silence.
+/// Sends a datagram. If no process listens, there is no error, only silence.
 fn send(socket: &UdpSocket, datagram: &[u8]) -> Result<(), DeviceError> {
     match socket.send(datagram) {
         Err(error) if error.kind() != ErrorKind::ConnectionRefused => Err(error.into()),

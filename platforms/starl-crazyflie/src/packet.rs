@@ -33,7 +33,7 @@ pub struct Packet {
 }
 
 impl Packet {
-    /// A packet. What is longer than [`LONGEST`] is cut off.
+    /// A packet. Content beyond [`LONGEST`] bytes is cut off.
     pub fn new(port: u8, channel: u8, content: &[u8]) -> Packet {
         Packet {
             port: port & 15,

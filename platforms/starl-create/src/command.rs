@@ -5,7 +5,7 @@
 
 use std::collections::VecDeque;
 
-/// What the robot is told. Commands without influence on its motion and sensors are [`OpenInterface::Other`].
+/// A command to the robot. Commands without influence on its motion and sensors are [`OpenInterface::Other`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum OpenInterface {
     /// 7: restarts the robot, as if its battery had been taken out.
@@ -116,7 +116,7 @@ fn list(opcode: u8, packets: &[u8], out: &mut Vec<u8>) {
     out.extend(packets);
 }
 
-/// Finds commands in the bytes that arrive. Bytes that are no opcode are skipped.
+/// Finds commands in the bytes that arrive. Unknown bytes are skipped.
 #[derive(Clone, Debug, Default)]
 pub struct CommandDecoder {
     bytes: VecDeque<u8>,

@@ -31,14 +31,14 @@ pub mod bumps {
     pub const LEFT: u8 = 2;
     /// Either wheel has dropped: the robot is lifted. The older robot has a third wheel in front, bit 16.
     pub const WHEEL_DROP: u8 = 4 | 8 | 16;
-    /// What an emulated robot sets when it is lifted.
+    /// The bits that an emulated robot sets when it is lifted.
     pub const BOTH_WHEELS: u8 = 4 | 8;
 }
 
 /// The mode of the interface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
-    /// Nobody has opened the interface.
+    /// The interface has not been opened.
     #[default]
     Off,
     /// Sensors can be read; the robot does not drive.
@@ -63,7 +63,7 @@ impl Mode {
     }
 }
 
-/// The length of a packet that is no group, bytes.
+/// The length in bytes of a packet that is not a group.
 pub fn length(packet: u8) -> Option<usize> {
     match packet {
         7..=18 | 21 | 24 | 32 | 34..=38 | 45 | 52 | 53 | 58 => Some(1),

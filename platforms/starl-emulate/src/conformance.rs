@@ -58,7 +58,7 @@ pub const CHECKS: [(&str, Check); 7] = [
 const PERIOD: Duration = Duration::from_millis(50);
 /// The way that [`drives`] takes: ahead, then after a right angle to the left.
 const WAY: [Point; 2] = [Point::planar(1.0, 0.0), Point::planar(1.0, 0.6)];
-/// How near to its goal a robot comes to rest, metres.
+/// The greatest distance from its goal at which a robot stops, metres.
 const ARRIVAL: f64 = 0.12;
 /// Odometry errs by at most this part of the way.
 const ODOMETRY: f64 = 0.06;
@@ -303,7 +303,7 @@ fn stands(body: &BodyHandle) -> Result<(), String> {
     }
 }
 
-/// What a perfect localisation would say.
+/// The estimate of a perfect localisation.
 fn estimate(body: &BodyHandle, began: Instant) -> Estimate {
     let State { pose, twist, .. } = body.state();
     Estimate {

@@ -58,7 +58,7 @@ impl Link {
         self.peer = None;
     }
 
-    /// Sends a message. That nobody listens shows as silence.
+    /// Sends a message. If no process listens, there is no error, only silence.
     pub fn send(&mut self, message: &MavMessage) -> io::Result<()> {
         let known = self.peer.map(|(address, _)| address);
         let Some(address) = known.or(self.first) else {

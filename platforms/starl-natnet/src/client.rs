@@ -17,7 +17,7 @@ pub enum UpAxis {
     Y,
 }
 
-/// Whom to follow, and where.
+/// The server and the body to follow.
 #[derive(Clone, Debug)]
 pub struct NatNetOptions {
     /// The server's command port.
@@ -156,7 +156,7 @@ impl NatNet {
             match self.socket.recv(&mut buffer) {
                 Ok(length) => self.take(&buffer[..length])?,
                 Err(error) => match error.kind() {
-                    // Nobody listens there: the same as silence.
+                    // No process listens there: treated as silence.
                     ErrorKind::WouldBlock | ErrorKind::ConnectionRefused => break,
                     ErrorKind::Interrupted => {}
                     _ => return Err(error.into()),
@@ -165,7 +165,7 @@ impl NatNet {
         }
         if self.heard.elapsed() > SILENCE {
             self.heard = Instant::now();
-            // A server that comes back may number its frames and bodies anew.
+            // A server that restarts may renumber its frames and bodies.
             self.version = None;
             self.number = None;
             self.last_frame = None;

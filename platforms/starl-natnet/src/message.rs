@@ -22,7 +22,7 @@ pub enum Message {
     Unrecognized,
 }
 
-/// What a server says of itself.
+/// A server's description of itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ServerInfo {
     /// The program, e.g. `Motive`.
@@ -69,7 +69,7 @@ impl Message {
         datagram
     }
 
-    /// What a datagram says in a version of the protocol; `None` if that is no message, or one that is not known here.
+    /// The message of a datagram in a version of the protocol; `None` if it is unknown or malformed.
     pub fn decode(datagram: &[u8], version: Version) -> Option<Message> {
         let mut reader = Reader::new(datagram);
         let number = reader.u16()?;

@@ -24,14 +24,14 @@ pub trait Device: Send {
     /// Where the device cannot be reached.
     fn stop(&mut self) -> Result<(), DeviceError>;
 
-    /// What the device has measured since the last call; none if nothing has arrived. Does not block.
+    /// The measurements since the last call; none if there are no new ones. Does not block.
     ///
     /// # Errors
-    /// Where the device cannot be reached, or what it sends makes no sense.
+    /// The device cannot be reached, or sends malformed data.
     fn read(&mut self) -> Result<Option<Reading>, DeviceError>;
 }
 
-/// What a device measures itself. Whatever it does not measure is `None`.
+/// The measurements of a device. A quantity that it does not measure is `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reading {
     /// Motion since the last reading, in the robot's frame at the last reading: metres forward, left and up.

@@ -33,7 +33,7 @@ pub trait PositionSource: Send {
     }
 }
 
-/// What the device's thread tells the program's.
+/// A report from the device's thread to the program's.
 #[derive(Debug)]
 pub enum Report {
     /// The device has measured something.
@@ -46,7 +46,7 @@ pub enum Report {
     Trouble(Option<String>),
 }
 
-/// What the program wants of the motors.
+/// The program's request to the motors.
 #[derive(Clone, Debug)]
 struct Wish {
     command: Command,

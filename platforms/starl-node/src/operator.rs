@@ -15,7 +15,7 @@ const REPEAT: Duration = Duration::from_millis(200);
 /// Robots are told this often that they are watched.
 const REPEAT_WATCH: Duration = Duration::from_millis(500);
 
-/// A member of the fleet that is no robot.
+/// A member of the fleet that is an operator, not a robot.
 pub struct Operator {
     channel: Channel,
     transport: Box<dyn Transport>,
@@ -70,7 +70,7 @@ impl Operator {
         answers.into_keys().collect()
     }
 
-    /// Tells the program of a robot something. It is told again by nobody: a datagram can get lost.
+    /// Sends an order to the program of a robot. It is not retransmitted, so the datagram may be lost.
     pub fn order(&mut self, robot: Member, order: Order, patience: Duration) -> bool {
         // The session has to stand first.
         self.question(&[robot], &Frame::Ask, patience);

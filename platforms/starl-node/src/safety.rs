@@ -43,7 +43,8 @@ impl fmt::Display for Hazard {
 }
 
 impl Safety {
-    /// What forbids motion now, given when the position was measured and when another robot was heard.
+    /// The reason that forbids motion now, if any, given the times of the last position and of the last packet from
+    /// another robot.
     pub fn check(
         &self,
         now: Time,

@@ -32,7 +32,7 @@ pub struct Thing {
     pub position: Point,
 }
 
-/// What a robot knows of the bodies around it.
+/// The robot's knowledge of the bodies around it.
 #[derive(Debug)]
 pub(crate) struct Surroundings {
     me: RobotId,
@@ -106,7 +106,8 @@ impl Surroundings {
         others.filter_map(move |(_, other)| other.by(now))
     }
 
-    /// What the robot's sensors show at `now`, while it is at `pose`; for one without a sensor nothing.
+    /// Computes the readings of the robot's sensors at `now`, with the robot at `pose`; nothing for a robot without
+    /// sensors.
     pub fn sense(&mut self, now: Time, pose: &Pose) {
         let SensorSuite {
             proximity,
@@ -136,7 +137,7 @@ impl Surroundings {
             .read(&self.sensors, &scene, things, self.me, pose.yaw);
     }
 
-    /// What [`Surroundings::sense`] has measured last.
+    /// The last readings of [`Surroundings::sense`].
     pub fn readings(&self) -> &Readings {
         &self.readings
     }

@@ -32,7 +32,7 @@ struct Robots {
     now: Time,
 }
 
-/// What is under way, and what has happened.
+/// The pending inputs, and the record of events.
 #[derive(Default)]
 struct World {
     coming: Vec<(Time, RobotId, Coming)>,
@@ -171,7 +171,7 @@ impl Robots {
         self.lives[robot.index()] = Some(Core::new(self.now, setup, channel, equipment, notes));
     }
 
-    /// What is due at `now` for a robot; what is due for one that is down is lost.
+    /// The inputs due at `now` for a robot; those for a robot that is down are lost.
     fn due(&mut self, robot: RobotId) -> Vec<Incoming> {
         let now = self.now;
         let mut world = self.world.borrow_mut();

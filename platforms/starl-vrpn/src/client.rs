@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Whom to follow, and where.
+/// The server and the body to follow.
 #[derive(Clone, Debug)]
 pub struct VrpnOptions {
     /// The server.

@@ -32,7 +32,7 @@ pub struct Message {
     pub sender: i32,
     /// The number of the kind.
     pub kind: i32,
-    /// What it says.
+    /// Its content.
     pub body: Vec<u8>,
 }
 
@@ -84,7 +84,7 @@ impl Message {
         out.extend(self.time.1.to_be_bytes());
         out.extend(self.sender.to_be_bytes());
         out.extend(self.kind.to_be_bytes());
-        // A number that nobody reads.
+        // An unused number.
         out.extend([0; 4]);
         out.extend(&self.body);
         out.extend(std::iter::repeat_n(0, padding(self.body.len())));
@@ -118,7 +118,7 @@ impl Place {
         body
     }
 
-    /// What a body says; `None` if it is too short or a number is none.
+    /// The content of a body; `None` if it is too short or a number is NaN.
     pub fn decode(body: &[u8]) -> Option<Place> {
         let number = |index: usize| {
             let bytes = body.get(8 + 8 * index..16 + 8 * index)?;

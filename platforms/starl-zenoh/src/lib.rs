@@ -24,11 +24,11 @@ const QUEUE: usize = 4096;
 pub struct ZenohOptions {
     /// Where it listens, e.g. `tcp/0.0.0.0:7447`.
     pub listen: Vec<String>,
-    /// Whom it connects to, e.g. `tcp/192.168.0.1:7447`. Those that are not there yet are tried again for ever.
+    /// The endpoints to connect to, e.g. `tcp/192.168.0.1:7447`. Unreachable ones are retried for ever.
     pub connect: Vec<String>,
     /// Its part in the network.
     pub mode: Mode,
-    /// What encrypts links whose endpoints begin with `tls/`.
+    /// The certificates for links whose endpoints begin with `tls/`.
     pub tls: Option<Tls>,
 }
 
@@ -129,7 +129,7 @@ impl Zenoh {
             .name("zenoh".to_string())
             .spawn(move || {
                 for (to, packet) in queue {
-                    // Whoever cannot be reached now is a case that programs are made for.
+                    // Programs tolerate unreachable members.
                     let _ = sender
                         .put(key(&fleet, to), packet)
                         .congestion_control(CongestionControl::Drop)

@@ -148,7 +148,7 @@ impl Diagnostic {
                     message: label.message.clone(),
                 }
             });
-            let edits = diagnostic.mend.iter().flat_map(|mend| &mend.edits);
+            let edits = diagnostic.fix.iter().flat_map(|fix| &fix.edits);
             let edits = edits.map(|edit| {
                 let (start, end) = place(edit.span);
                 Edit {
@@ -170,7 +170,7 @@ impl Diagnostic {
                     Severity::Warning => "warning",
                 },
                 code: Some(diagnostic.code.number()),
-                help: diagnostic.mend.as_ref().map(|mend| mend.message.clone()),
+                help: diagnostic.fix.as_ref().map(|fix| fix.message.clone()),
                 notes: diagnostic.remarks().collect(),
                 related: related.collect(),
                 edits: edits.collect(),

@@ -72,16 +72,16 @@ fn where_it_starts_again_its_zone_is_left_to_it_though_it_has_forgotten_it() {
 /// own turn, and Robot1 has given way by then, whenever its wheels are repaired.
 #[test]
 fn cars_that_do_not_hear_each_other_take_turns() {
-    for mended in 56..=72 {
+    for repaired in 56..=72 {
         let faults = format!(
             "[[fault]]\nat = \"0s\"\nkind = \"partition\"\n\
              groups = [[\"Robot0\"], [\"Robot1\"], [\"Robot2\"], [\"Robot3\"]]\n\
              [[fault]]\nat = \"5.5s\"\nkind = \"stuck_motor\"\nrobots = [\"Robot1\"]\n\
-             [[fault]]\nat = \"{mended}s\"\nkind = \"repair\"\nrobots = [\"Robot1\"]\n"
+             [[fault]]\nat = \"{repaired}s\"\nkind = \"repair\"\nrobots = [\"Robot1\"]\n"
         );
         let traffic = drive("intersection", &["duration=140s"], &faults);
         let violations = &traffic.violations;
-        assert!(violations.is_empty(), "{mended} {violations:?}");
-        assert_eq!(traffic.passed(), [0, 1, 2, 3], "{mended}");
+        assert!(violations.is_empty(), "{repaired} {violations:?}");
+        assert_eq!(traffic.passed(), [0, 1, 2, 3], "{repaired}");
     }
 }

@@ -136,9 +136,9 @@ fn what_cannot_be_read_is_told_and_the_rest_checked() {
 #[test]
 fn json_output_has_code_position_and_fix() {
     let folder = folder("check_json");
-    let text = "program Mend\n\ntarget: Point\n\nstep()\n    eff log(\"{}\", tarjet)\n";
-    file(&folder, "mend.starl", text);
-    let output = starl(&folder, &["check", "--json", "mend.starl"]);
+    let text = "program Fix\n\ntarget: Point\n\nstep()\n    eff log(\"{}\", tarjet)\n";
+    file(&folder, "fix.starl", text);
+    let output = starl(&folder, &["check", "--json", "fix.starl"]);
     assert_eq!(status(&output), 1);
     let report = json(&output);
     assert_eq!(report["files"], 1);
@@ -150,9 +150,9 @@ fn json_output_has_code_position_and_fix() {
         .find(|problem| problem["severity"] == "error")
         .expect("there is an error");
     assert_eq!(problem["code"], "E0201");
-    assert_eq!(problem["file"], "mend.starl");
+    assert_eq!(problem["file"], "fix.starl");
     let place = serde_json::json!({"offset": 54, "line": 6, "column": 19});
     assert_eq!(problem["start"], place);
-    assert_eq!(problem["mend"]["edits"][0]["text"], "target");
-    assert_eq!(problem["mend"]["edits"][0]["start"], place);
+    assert_eq!(problem["fix"]["edits"][0]["text"], "target");
+    assert_eq!(problem["fix"]["edits"][0]["start"], place);
 }

@@ -227,9 +227,9 @@ fn a_way_that_cannot_be_gone_any_more_is_told() {
     assert_eq!(status(&output), 1);
     let text = std::fs::read_to_string(folder.join("way.json")).expect("it is there");
     // The program has been fixed.
-    let mended = text.replace("asked < time", "asked <= time");
-    assert_ne!(text, mended);
-    file(&folder, "way.json", &mended);
+    let fixed = text.replace("asked < time", "asked <= time");
+    assert_ne!(text, fixed);
+    file(&folder, "way.json", &fixed);
     let output = starl(&folder, &["explore", "--replay", "way.json"]);
     assert_eq!(status(&output), 2, "{}", stdout(&output));
     assert!(stderr(&output).contains("cannot be taken any more"));

@@ -20,9 +20,9 @@ pub(super) struct Arranged {
     pub rest: Vec<(Option<String>, ast::Expression)>,
 }
 
-/// What may be called with which arguments.
+/// The parameters of a function, method, record or message.
 pub(super) struct Parameters<'a> {
-    /// What is called, for messages.
+    /// Its name in messages.
     pub callee: &'a str,
     /// Names, and whether each may be left out.
     pub names: Vec<(&'a str, bool)>,
@@ -175,13 +175,13 @@ impl Checker {
                     let names = parameters.names.iter().map(|(name, _)| *name);
                     let problem = did_you_mean(problem, at, &text, names);
                     self.report(problem);
-                    // What it was meant for is not missing.
+                    // The unknown argument may be meant for a missing parameter, so missing ones are not reported.
                     return Arranged { values, rest };
                 }
             }
         }
         if is_doubled {
-            // What it was meant for is not missing.
+            // The extra argument may be meant for a missing parameter, so missing ones are not reported.
             return Arranged { values, rest };
         }
         let given = arguments.len();

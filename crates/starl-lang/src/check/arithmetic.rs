@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Expression, ExpressionKind, Operator, Type};
 use crate::syntax::ast::BinaryOperator;
 
-/// What is said where two types look the same.
+/// The note on two different types with the same name.
 pub(super) const SAME_NAME: &str =
     "these are two types that are declared apart; declare one, with a name, and use it twice";
 
@@ -88,13 +88,13 @@ impl Checker {
             _ if look_the_same => problem.note(SAME_NAME),
             (Type::Point, Type::Int, _) if is_scaling => self.as_float(problem, right),
             (Type::Int, Type::Point, BinaryOperator::Multiply) => self.as_float(problem, left),
-            (Type::String, _, BinaryOperator::Add) => problem.mend(around(
+            (Type::String, _, BinaryOperator::Add) => problem.fix(around(
                 "make a text of it with `String(...)`",
                 right.span,
                 "String(",
                 ")",
             )),
-            (_, Type::String, BinaryOperator::Add) => problem.mend(around(
+            (_, Type::String, BinaryOperator::Add) => problem.fix(around(
                 "make a text of it with `String(...)`",
                 left.span,
                 "String(",
@@ -112,14 +112,14 @@ impl Checker {
         });
     }
 
-    /// The problem with a mend that makes the Int a Float.
+    /// The problem with a fix that makes the Int a Float.
     pub fn as_float(&self, problem: Diagnostic, int: &Expression) -> Diagnostic {
         match int.kind {
             ExpressionKind::Int(_) => {
                 let float = format!("{}.0", self.text(int.span));
                 problem.replace(format!("write `{float}`"), int.span, float)
             }
-            _ => problem.mend(around(
+            _ => problem.fix(around(
                 "convert it with `Float(...)`",
                 int.span,
                 "Float(",

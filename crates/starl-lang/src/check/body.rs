@@ -7,7 +7,7 @@ use super::Purity;
 use crate::diagnostic::{Code, Span};
 use crate::ir::{Local, LocalId, SharedId, Type, VariableId};
 
-/// What a body belongs to.
+/// The kind of body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Where {
     /// The value of a constant or the default of a parameter.
@@ -35,7 +35,7 @@ impl Where {
         }
     }
 
-    /// What it is, for messages.
+    /// The phrase for messages.
     pub fn what(self) -> &'static str {
         match self {
             Self::Constant => "a constant",
@@ -120,8 +120,8 @@ impl Body {
         self.unread[local.index()].is_read = false;
     }
 
-    /// The robot that a quantifier of a property named last. What a comprehension is at, and the value of an
-    /// optional, are fixed.
+    /// The innermost robot variable that a quantifier of a property binds. Variables of comprehensions and of `some`
+    /// are not counted.
     pub fn quantified(&self) -> Option<LocalId> {
         let mut names = self.names.iter().rev().map(|(_, local)| *local);
         names.find(|local| {

@@ -167,7 +167,7 @@ impl Checker {
     }
 }
 
-/// What a bare name on the other side of a comparison is expected to be.
+/// The type expected of a bare name on the other side of a comparison.
 pub(super) fn comparable(ty: &Type) -> Type {
     match ty {
         Type::Optional(inner) => (**inner).clone(),

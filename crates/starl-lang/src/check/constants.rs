@@ -37,7 +37,7 @@ impl Checker {
         let mut order = Vec::new();
         let mut seen = BTreeSet::new();
         for number in 0..self.nodes.constants.len() {
-            // What is to be done: a constant, and whether those that it names are done.
+            // The stack of pending constants; the flag says whether the constants that it names are done.
             let mut open = Vec::from([(ConstantId(number as u32), false)]);
             while let Some((id, is_ready)) = open.pop() {
                 if is_ready {

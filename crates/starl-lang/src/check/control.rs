@@ -15,7 +15,7 @@ use super::transitions::{Given, Transitions, first_values};
 use crate::diagnostic::{Code, Diagnostic, has_errors};
 use crate::ir::*;
 
-/// What the program does with its enum variables.
+/// The uses of the program's enum variables.
 struct Control {
     /// By action.
     actions: Vec<Transitions>,

@@ -319,7 +319,7 @@ impl Checker {
 
     fn unknown_primitive(&mut self, node: &ast::BindingDeclaration) {
         let Some((word, span)) = constructor(node) else {
-            // What is no call at all is reported by the parser.
+            // The parser reports anything that is not a call.
             if let Some(ast::Expression::Call(call)) = node.value()
                 && let Some(callee) = call.callee()
             {

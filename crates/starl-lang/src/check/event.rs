@@ -17,7 +17,7 @@ use crate::ir::{Event, Handler, Local, LocalId, RecordId, Statement, StatementKi
 use crate::syntax::SyntaxToken;
 use crate::syntax::ast;
 
-/// What a handler gets: the names of the parts, and their types.
+/// The parameters of a handler: their names and types.
 type Parts = Vec<(String, Type)>;
 
 impl Checker {
@@ -129,7 +129,7 @@ impl Checker {
                 did_you_mean(problem, span, name, names)
             }
         };
-        self.report(match (entity, &problem.mend) {
+        self.report(match (entity, &problem.fix) {
             (Some(Entity::Binding(_)), _) => {
                 problem.note("what a primitive reports is named too: `on name.event(...)`")
             }

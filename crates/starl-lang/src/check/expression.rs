@@ -170,7 +170,7 @@ impl Checker {
             let value = 0_i64.wrapping_sub_unsigned(value);
             return made(ExpressionKind::Int(value), Type::Int, span);
         }
-        // What is negated is there.
+        // The operand of a negation is never none.
         let expected = expected.map(comparable);
         let operand = self.value(node.operand(), expected.as_ref(), "what is negated");
         match operand.ty {

@@ -5,7 +5,7 @@ use alloc::collections::BTreeSet;
 
 use crate::ir::{Expression, ExpressionKind, Operator, Type, VariableId};
 
-/// What is assumed: the value of an enum variable.
+/// An assumption: the value of an enum variable.
 pub(crate) type Assumption = Option<(VariableId, u16)>;
 
 /// Whether the condition holds; none if that depends on more than what is assumed.

@@ -43,7 +43,9 @@ impl Checker {
             let problem = Diagnostic::new(Code::HandlerParameters, span, message);
             let problem = problem.expected("`on input way_points()`");
             let problem = problem.found(counted(fields.len(), "field"));
-            self.report(problem.note("it tells that they have changed: read `way_points()` anew"));
+            self.report(
+                problem.note("the event has no values; read the new waypoints with `way_points()`"),
+            );
         }
         self.compare_with_others(role, &text, &fields, span);
         let ((parameters, body), locals) = self.in_body(Where::Effect, |checker| {

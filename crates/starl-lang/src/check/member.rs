@@ -1,4 +1,4 @@
-//! What stands after a dot: fields, coordinates, flags, variants, and what libraries have.
+//! Names after a dot: fields, coordinates, flags, variants, and declarations of libraries.
 
 use alloc::boxed::Box;
 use alloc::format;
@@ -17,7 +17,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BindingId, EnumId, Expression, ExpressionKind, RobotMember, Type};
 use crate::syntax::ast::{self, AstNode};
 
-/// What people write who know other languages.
+/// Names from other languages, with StarL's.
 const FOREIGN: &[(&str, &str)] = &[
     ("length", "size"),
     ("len", "size"),
@@ -44,8 +44,7 @@ const FOREIGN: &[(&str, &str)] = &[
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 
 impl Checker {
-    /// What the expression names, if that is something with parts rather than a value: a library, a
-    /// primitive or an enum.
+    /// The library, primitive or enum that the expression names; `None` for a value.
     pub fn namespace(&mut self, base: &ast::Expression) -> Option<Entity> {
         match base {
             ast::Expression::Name(node) => {
@@ -107,7 +106,7 @@ impl Checker {
         }
     }
 
-    /// What a library declares under a name, for others to use.
+    /// The public declaration of this name in a library.
     pub fn library_entity(&mut self, file: u32, name: &str, at: Span) -> Option<Entity> {
         if self.is_probe(at) {
             self.note_probe(Surroundings::Part(Symbol::File(file)));

@@ -1,7 +1,7 @@
-//! What a bare name stands for, as a value.
+//! The meaning of a bare name, as a value.
 //!
-//! A local hides everything. Then, where an enum is expected, its variants come first; then what the
-//! file declares, the variant of the one enum that has it, and what every program has.
+//! A local hides everything. Then, where an enum is expected, its variants come first; then the declarations of the
+//! file, the variant of the only enum that has it, and the built-in names.
 
 use alloc::format;
 use alloc::string::String;
@@ -18,7 +18,7 @@ use super::tables::{BUILTINS, Builtin, Primitive, Purity};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{EnumId, Expression, ExpressionKind, RobotMember, Type};
 
-/// What a name stands for.
+/// The meaning of a name.
 pub(super) enum Meaning {
     Local(crate::ir::LocalId),
     Entity(Entity),
@@ -33,7 +33,7 @@ pub(super) enum Meaning {
 }
 
 impl Checker {
-    /// What the name stands for, where `expected` is expected.
+    /// The meaning of the name where the type `expected` is expected.
     pub fn meaning(&self, name: &str, expected: Option<&Type>) -> Meaning {
         if let Some(local) = self.body.find(name) {
             return Meaning::Local(local);
@@ -314,7 +314,7 @@ impl Checker {
     }
 }
 
-/// What people write who know the thesis, Koord or other languages.
+/// Names from the thesis, Koord and other languages, with StarL's.
 const FOREIGN: &[(&str, &str)] = &[
     ("pid", "me"),
     ("self", "me"),
@@ -332,7 +332,7 @@ const FOREIGN: &[(&str, &str)] = &[
     ("println", "log"),
 ];
 
-/// What a robot's sensors measure.
+/// Readings of a robot's sensors.
 const OF_SENSORS: [&str; 6] = [
     "bumped",
     "ranges",
@@ -342,7 +342,7 @@ const OF_SENSORS: [&str; 6] = [
     "thing_name",
 ];
 
-/// What a property may say of a robot besides its variables.
+/// The attributes of a robot that a property may read besides its variables.
 pub(super) fn robot_member(name: &str) -> Option<RobotMember> {
     Some(match name {
         "position" => RobotMember::Position,

@@ -1,4 +1,4 @@
-//! What can be written: variables and their parts.
+//! Assignable places: variables and their parts.
 
 use alloc::format;
 use alloc::string::String;
@@ -110,7 +110,7 @@ impl Checker {
                 .map(|(name, _)| name.as_str());
             let locals = self.body.names.iter().map(|(name, _)| name.as_str());
             let problem = super::report::did_you_mean(problem, span, name, locals.chain(variables));
-            self.report(match problem.mend {
+            self.report(match problem.fix {
                 None => problem.note(format!("a new one is made with `let {name} = ...`")),
                 Some(_) => problem,
             });

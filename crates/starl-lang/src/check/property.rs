@@ -128,8 +128,8 @@ impl Checker {
     }
 }
 
-/// What is always true of all robots is always true of each: the robots of a `forall` that the
-/// property begins with.
+/// Splits an invariant of the form `forall r: ...` into a condition for each robot: removes the leading quantifiers and
+/// collects their robots.
 fn of_each_robot(condition: Expression, robots: &mut Vec<LocalId>) -> Expression {
     match condition.kind {
         ExpressionKind::Quantifier {

@@ -105,7 +105,7 @@ impl Checker {
             self.report(problem.note(note));
             self.program[id].fields.clear();
         }
-        // What is made of one that is too large is not to blame.
+        // Records that contain it are not reported again.
         self.sizes.insert(id, if size > LARGEST { 1 } else { size });
     }
 

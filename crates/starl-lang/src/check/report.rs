@@ -8,18 +8,18 @@ use alloc::vec::Vec;
 use super::CheckedFile;
 use super::asked;
 use super::state::Checker;
-use crate::diagnostic::{Code, Diagnostic, Edit, LineIndex, Mend, Severity, Span, closest};
+use crate::diagnostic::{Code, Diagnostic, Edit, Fix, LineIndex, Severity, Span, closest};
 use crate::ir::{Expression, ExpressionKind, Type};
 
 impl Checker {
     /// Tells of a problem of the present file.
     pub fn report(&mut self, mut problem: Diagnostic) {
         let file = &mut self.files[self.file as usize];
-        if problem.code == Code::MayBeNone && problem.mend.is_none() {
+        if problem.code == Code::MayBeNone && problem.fix.is_none() {
             let root = file.checked.parse.syntax();
             if let Some(asked) = asked::before(&root, &file.checked.source, problem.span) {
                 let words = "that it is not none is asked here, but the value gets no name";
-                problem = problem.label(asked.span, words).mend(asked.mend);
+                problem = problem.label(asked.span, words).fix(asked.fix);
             }
         }
         file.checked.diagnostics.push(problem);
@@ -76,7 +76,7 @@ pub(super) fn made(kind: ExpressionKind, ty: Type, span: Span) -> Expression {
     Expression { kind, ty, span }
 }
 
-/// Adds the name that was probably meant as a mend.
+/// Adds the name that was probably meant as a fix.
 pub(super) fn did_you_mean<'a>(
     problem: Diagnostic,
     span: Span,
@@ -89,10 +89,10 @@ pub(super) fn did_you_mean<'a>(
     }
 }
 
-/// A mend that puts text before and after a place.
-pub(super) fn around(message: impl Into<String>, span: Span, before: &str, after: &str) -> Mend {
+/// A fix that puts text before and after a place.
+pub(super) fn around(message: impl Into<String>, span: Span, before: &str, after: &str) -> Fix {
     let edits = [(span.start, before), (span.end, after)];
-    Mend {
+    Fix {
         message: message.into(),
         edits: (edits.into_iter())
             .filter(|(_, text)| !text.is_empty())

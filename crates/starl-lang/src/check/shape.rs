@@ -8,7 +8,7 @@ use super::state::Checker;
 use super::tables::Shape;
 use crate::ir::Type;
 
-/// What the letters of a signature stand for.
+/// The types bound to the letters of a signature.
 pub(super) type Letters = BTreeMap<u8, Type>;
 
 impl Checker {

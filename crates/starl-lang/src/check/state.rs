@@ -1,4 +1,4 @@
-//! What the checker holds while it works.
+//! The state of the checker.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
@@ -38,7 +38,7 @@ pub(super) struct Nodes {
     pub shared: Vec<ast::SharedDeclaration>,
     pub bindings: Vec<ast::BindingDeclaration>,
     pub functions: Vec<(u32, ast::FunctionDeclaration)>,
-    /// What has no name that others use, in the order of the text.
+    /// Declarations that nothing refers to by name, in the order of the text.
     pub behaviour: Vec<Behaviour>,
     pub roles: Vec<ast::RoleDeclaration>,
 }
@@ -48,7 +48,7 @@ pub(super) enum RecordNode {
     Message(ast::MessageDeclaration),
 }
 
-/// What a program does, with the role that it belongs to.
+/// A part of a program's behaviour, with its role.
 pub(super) enum Behaviour {
     Init(Option<u16>, ast::InitDeclaration),
     Action(Option<u16>, ast::ActionDeclaration),
@@ -65,17 +65,17 @@ pub(super) enum Progress {
     Done,
 }
 
-/// What depends on what, among constants and functions.
+/// A constant or function on which another may depend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Needed {
     Constant(ConstantId),
     Function(FunctionId),
 }
 
-/// What is done with declarations, for the warnings.
+/// The uses of declarations, for warnings.
 #[derive(Default)]
 pub(super) struct Usage {
-    /// What is read, called or named.
+    /// Declarations that are read, called or named.
     pub used: BTreeSet<Entity>,
     /// Variables that are written.
     pub written: BTreeSet<Entity>,
@@ -98,9 +98,9 @@ pub(super) struct Checker {
     pub body: Body,
     pub usage: Usage,
     pub constants: Vec<Progress>,
-    /// What uses what: the user first.
+    /// The dependencies: the user first.
     pub needs: BTreeSet<(Needed, Needed)>,
-    /// What is being checked, if that is a constant or a function.
+    /// The constant or function that is being checked.
     pub user: Option<Needed>,
     /// Types whose keys are to be looked at when all types are known: where, in which file.
     pub keys: Vec<(Site, Type)>,
@@ -117,7 +117,7 @@ pub(super) struct Checker {
     pub resolutions: Resolutions,
     /// Where a name stands in the program of which an editor wants to know what it may be.
     pub probe: Option<u32>,
-    /// What it may be.
+    /// The result: the context of that name.
     pub surroundings: Option<Surroundings>,
     /// The parameters that it may be the name of.
     pub probed_parameters: Vec<String>,

@@ -108,7 +108,7 @@ impl Checker {
             Some(AssignOperator::Multiply) => BinaryOperator::Multiply,
             _ => return self.plain_assign(place, node.value()),
         };
-        // What is changed is read too, so it must be there and of a type that the operator gives back.
+        // A compound assignment also reads its target, so it must be there and of a type that the operator gives back.
         let read = match place.root {
             Root::Shared(id) if self.nodes.shared[id.index()].value().is_none() => {
                 Type::optional(place.ty.clone())
@@ -315,7 +315,7 @@ impl Checker {
     }
 }
 
-/// What was probably meant by a call whose value is dropped.
+/// The method probably intended by a call whose value is dropped.
 fn sibling(value: &Expression) -> Option<&'static str> {
     let ExpressionKind::Method { method, .. } = &value.kind else {
         return None;

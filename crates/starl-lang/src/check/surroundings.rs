@@ -1,7 +1,7 @@
-//! What may stand at a place of the text, as editors ask for it to complete a name.
+//! The syntactic context at a position, for completing a name in an editor.
 //!
-//! The editor puts a name that nothing has, the probe, in the place of the one that is being typed, and
-//! the checker notes what it knows where it comes upon the probe.
+//! The editor replaces the name that is being typed by the probe, a name that no declaration has. The checker records
+//! the context when it reaches the probe.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -14,7 +14,7 @@ use crate::diagnostic::Span;
 use crate::ir::{Local, Type};
 use crate::syntax::ast::{self, AstNode};
 
-/// What stands around a name that is being typed.
+/// The context of a name that is being typed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Surroundings {
     /// It is a value, something that is called or something that is assigned to.
@@ -38,14 +38,14 @@ pub enum Surroundings {
     EventOf(Symbol),
 }
 
-/// What can be seen where a value stands.
+/// The declarations in scope where a value is expected.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reach {
     /// The locals, the innermost last.
     pub locals: Vec<Local>,
     /// The type that is expected, if one is.
     pub expected: Option<Type>,
-    /// What of the built-in functions and primitives may be used: those of this purity and below.
+    /// The highest purity of the built-in functions and primitives that may be used.
     pub purity: Purity,
     /// Whether the state is seen.
     pub sees_state: bool,

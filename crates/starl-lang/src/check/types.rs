@@ -33,7 +33,7 @@ const BUILT_IN: &[&str] = &[
     "Map",
 ];
 
-/// What people write who know other languages.
+/// Types of other languages, with StarL's.
 const FOREIGN: &[(&str, &str)] = &[
     ("int", "Int"),
     ("integer", "Int"),

@@ -1,4 +1,4 @@
-//! What is declared, as a value: where it may be read, and of which type it is.
+//! Declared names as values: where they may be read, and their types.
 
 use alloc::boxed::Box;
 use alloc::format;
@@ -149,7 +149,7 @@ impl Checker {
         Some(self.local_value(robot, span))
     }
 
-    /// What a property says of a robot.
+    /// The attribute of a robot in a property.
     pub fn of_robot(&self, robot: Expression, member: RobotMember, span: Span) -> Expression {
         let ty = match member {
             RobotMember::Variable(id) => self.program[id].ty.clone(),

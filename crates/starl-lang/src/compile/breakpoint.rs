@@ -9,11 +9,12 @@ use crate::diagnostic::{Code, Diagnostic, Severity, Span};
 use crate::ir::Type;
 use crate::machine::{Bytecode, Claim};
 
-/// Compiles a program, which has no errors, with one property in the place of all of its own: that the condition
-/// comes true. It is about each robot if it has no quantifier, else about all robots that run the program.
+/// Compiles a program without errors, with one property in place of its own: that the condition becomes true. The
+/// property is judged for each robot if it has no quantifier, else for all robots that run the program.
 ///
 /// # Errors
-/// What is wrong with the condition; places are bytes of it.
+///
+/// The problems of the condition; positions are bytes of it.
 pub fn with_condition(
     program: &str,
     condition: &str,
@@ -98,11 +99,11 @@ fn moved(mut problem: Diagnostic, part: Span) -> Diagnostic {
     for label in &mut problem.labels {
         label.span = span(label.span);
     }
-    // A change of the program is no way to mend the condition.
-    problem.mend = problem
-        .mend
-        .filter(|mend| mend.edits.iter().all(|edit| inside(&edit.span)));
-    for edit in problem.mend.iter_mut().flat_map(|mend| &mut mend.edits) {
+    // A change of the program is no way to fix the condition.
+    problem.fix = problem
+        .fix
+        .filter(|fix| fix.edits.iter().all(|edit| inside(&edit.span)));
+    for edit in problem.fix.iter_mut().flat_map(|fix| &mut fix.edits) {
         edit.span = span(edit.span);
     }
     problem

@@ -9,7 +9,7 @@ use super::Severity;
 
 macro_rules! codes {
     ($($(#[doc = $doc:literal])+ $name:ident = $number:literal,)+) => {
-        /// What kind of problem a diagnostic reports.
+        /// The kind of problem that a diagnostic reports.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Code {
             $($(#[doc = $doc])+ $name,)+
@@ -28,7 +28,7 @@ macro_rules! codes {
             }
 
             /// The page that explains it, in Markdown: when it comes and why, and an example with its
-            /// mend.
+            /// fix.
             #[must_use]
             pub const fn page(self) -> &'static str {
                 match self {
@@ -36,7 +36,7 @@ macro_rules! codes {
                 }
             }
 
-            /// What the code means, in a sentence.
+            /// The meaning of the code, in a sentence.
             #[must_use]
             pub fn title(self) -> &'static str {
                 match self {

@@ -20,7 +20,7 @@ pub enum Colour {
     On,
 }
 
-/// No more diagnostics of a file are written: nobody reads them, and mending one often mends others.
+/// The most diagnostics shown of a file. Users read only the first ones, and a fix often removes several.
 const MOST: usize = 100;
 
 /// The diagnostics of one file in the order given, each as a few lines with an empty one after it. Lines that are too
@@ -123,9 +123,9 @@ fn notes(diagnostic: &Diagnostic) -> Vec<String> {
     notes.extend(diagnostic.notes.iter().cloned());
     notes.extend(
         diagnostic
-            .mend
+            .fix
             .iter()
-            .map(|mend| format!("mend: {}", mend.message)),
+            .map(|fix| format!("fix: {}", fix.message)),
     );
     notes
 }

@@ -16,7 +16,7 @@ pub(super) const PRELUDE_FILE: u32 = 1;
 /// A program or a library, checked together with what it imports. Its own file has the number 0.
 #[derive(Clone, Debug)]
 pub struct Analysis {
-    /// What the checker found.
+    /// The result of the checker.
     pub checked: Checked,
     pub(super) index: Index,
     diagnostics: Vec<Diagnostic>,
@@ -44,7 +44,7 @@ impl Analysis {
         &self.checked.files[0].source
     }
 
-    /// What is wrong with the text, that which keeps it from being run included, by rising place.
+    /// All problems of the text, those of the compiler included, sorted by position.
     #[must_use]
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
@@ -68,13 +68,13 @@ impl Analysis {
         self.index.at(file, offset)
     }
 
-    /// What a name stands for, how it is declared and what is said of it.
+    /// The meaning, declaration and documentation of a symbol.
     #[must_use]
     pub fn describe(&self, symbol: Symbol) -> Description {
         describe(&self.checked, symbol)
     }
 
-    /// What to show at a place of the text: the name's place, and what it stands for.
+    /// The text to show at a position: the span of the name, and its description.
     #[must_use]
     pub fn hover(&self, offset: u32) -> Option<(Span, Description)> {
         if let Some(found) = self.occurrence(offset) {

@@ -1,4 +1,4 @@
-//! What is said of that which every program has.
+//! Descriptions of built-in names.
 
 use alloc::format;
 
@@ -46,7 +46,7 @@ pub(super) const TYPES: &[(&str, &str, &str)] = &[
     ),
 ];
 
-/// What properties may say of every robot.
+/// The attributes that properties may read of every robot.
 pub(super) const ROBOT_MEMBERS: &[(&str, &str, &str)] = &[
     (
         "position",
@@ -76,7 +76,7 @@ pub(super) const ROBOT_MEMBERS: &[(&str, &str, &str)] = &[
     ("id", "id: RobotId", "The robot's number."),
 ];
 
-/// What every program has.
+/// The description of a built-in name.
 pub(super) fn built_in(symbol: Symbol) -> Description {
     let of_table = |table: &[(&str, &str, &str)], name: &str| {
         let found = table.iter().find(|(own, ..)| *own == name);

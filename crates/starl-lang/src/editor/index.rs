@@ -15,7 +15,7 @@ use crate::ir::{
 pub struct Occurrence {
     /// Where it is.
     pub site: Site,
-    /// What it stands for.
+    /// Its meaning.
     pub symbol: Symbol,
     /// Whether it is where that is declared.
     pub is_definition: bool,
@@ -72,7 +72,7 @@ impl Index {
         (offset <= found.site.span.end).then_some(*found)
     }
 
-    /// What the name at exactly this place stands for.
+    /// The meaning of the name at exactly this position.
     pub fn exactly(&self, site: Site) -> Option<Occurrence> {
         let at = (self.occurrences)
             .binary_search_by_key(&site, |one| one.site)

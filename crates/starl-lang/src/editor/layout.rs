@@ -1,8 +1,7 @@
-//! Laying a text out anew by the smallest changes, so that an editor's marks and cursors stay where they
-//! are.
+//! Formats a text by the smallest changes, so that an editor's marks and cursors stay in place.
 //!
-//! Only white space changes ([`crate::format`]), so that both texts are the same letters with other white
-//! space between; each white space that differs is one change.
+//! Only white space changes ([`crate::format`]): both texts have the same other characters, and each white space that
+//! differs is one change.
 
 use alloc::vec::Vec;
 

@@ -1,9 +1,9 @@
 //! Renaming, checked: the program means the same afterwards, or it is not renamed.
 //!
-//! The names are changed in copies of the texts, and these are checked: every name must stand for what it
-//! stood for before, and there must be no new error. So whatever makes two names collide, one hide the
-//! other or a word mean something else is found by the rules of the language itself. What that cannot show
-//! are uses in parts that have errors; where the old name stands in one, nothing is renamed.
+//! The names are changed in copies of the texts, and the copies are checked: every name must keep its meaning, and
+//! there must be no new error. So the rules of the language itself find names that collide, hide each other or get
+//! another meaning. Uses in parts with errors cannot be checked this way; if the old name occurs in such a part,
+//! nothing is renamed.
 
 mod changes;
 
@@ -30,7 +30,7 @@ pub struct FileEdits {
     pub edits: Vec<Edit>,
 }
 
-/// What renaming changes.
+/// The changes of a renaming.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Renamed {
     /// The changes by file.
@@ -133,7 +133,7 @@ impl Analysis {
                 if self.index.exactly(Site { file, span }).is_none() {
                     let place = line(&self.checked, Site { file, span });
                     return Err(format!(
-                        "it cannot be told what `{old}` means in {place}; mend the errors first"
+                        "it cannot be told what `{old}` means in {place}; fix the errors first"
                     ));
                 }
             }

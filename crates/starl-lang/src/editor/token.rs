@@ -1,4 +1,4 @@
-//! What each word of a text is, for an editor that colours it.
+//! The kinds of words in a text, for syntax highlighting.
 
 use alloc::vec::Vec;
 
@@ -10,7 +10,7 @@ use crate::check::{Builtin, Symbol};
 use crate::diagnostic::Span;
 use crate::syntax::{SyntaxKind, SyntaxToken};
 
-/// What a word is.
+/// The kind of a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum TokenKind {
     /// A reserved word, or one that begins a declaration.
@@ -65,7 +65,7 @@ pub struct TokenModifiers {
 pub struct Token {
     /// Where it is.
     pub span: Span,
-    /// What it is.
+    /// Its kind.
     pub kind: TokenKind,
     /// More about it.
     pub modifiers: TokenModifiers,
@@ -156,7 +156,7 @@ fn name_token(analysis: &Analysis, name: Occurrence) -> Token {
     modifiers.default_library = analysis
         .definition(name.symbol)
         .is_none_or(|site| site.file == super::analysis::PRELUDE_FILE);
-    // The variable of the roles is declared by nobody.
+    // The variable of the roles has no declaration in the text.
     let roles = program.roles.as_ref().map(|roles| roles.variable);
     modifiers.default_library |= matches!(name.symbol, Symbol::Variable(id) if Some(id) == roles);
     Token {

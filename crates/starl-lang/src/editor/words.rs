@@ -1,4 +1,4 @@
-//! What reserved words and the words that begin declarations mean, for those who meet them.
+//! Descriptions of reserved words and of the words that begin declarations.
 
 use alloc::string::String;
 
@@ -116,8 +116,8 @@ pub(super) const DECLARATIONS: &[Word] = &[
 pub(super) const HANDLERS: &[Word] = &[word(
     "input",
     "on input name(field: Type)",
-    "What is done when an operator gives an order of this name with these fields; `on input way_points()`: \
-     when the way-points have changed.",
+    "Runs when an operator gives an order of this name with these fields; `on input way_points()`: \
+     runs when the waypoints have changed.",
 )];
 
 /// Words that begin a part of an action.
@@ -248,7 +248,7 @@ impl Word {
     }
 }
 
-/// The word at a place that is no name.
+/// The word at a position, unless it is a name.
 pub(super) fn at(parse: &Parse, offset: u32) -> Option<(Span, Description)> {
     let root = parse.syntax();
     if offset > u32::from(root.text_range().end()) {

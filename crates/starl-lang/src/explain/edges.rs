@@ -128,7 +128,7 @@ fn steps(program: &Program, variable: VariableId, state: usize, edges: &mut Vec<
     }
 }
 
-/// What one action or handler does in one state.
+/// The effect of an action or handler in one state.
 struct Step {
     state: usize,
     cause: Cause,

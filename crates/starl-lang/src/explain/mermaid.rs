@@ -30,7 +30,7 @@ const RESERVED: &[&str] = &[
     "title",
 ];
 
-/// What the state that cannot be told is called there; no state of a program is called so.
+/// The identifier of the unknown state; no state of a program has it.
 const UNKNOWN: &str = "unknown_state_";
 
 pub(super) fn write(machine: &StateMachine) -> String {

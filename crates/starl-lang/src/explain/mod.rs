@@ -1,10 +1,10 @@
 //! The state machine that a program is: the values of its control variable, an enum, as states, and
 //! its actions and handlers as edges between them.
 //!
-//! An edge says that an action may lead from a state to another: that its guard can hold in the one, and
-//! that a way through its effect ends in the other. What depends on more than the variable's value is
-//! taken to be possible either way, so that no step that a robot takes is missing; some that are drawn
-//! may never be taken. Only states that can be reached so have edges.
+//! An edge from one state to another means that an action's guard can hold in the first and that a path through its
+//! effect ends in the second. A condition on anything but the control variable is assumed to go either way. So no step
+//! that a robot takes is missing, but some edges may never be taken. Only states that are reachable in this graph have
+//! edges.
 
 mod choose;
 mod dot;
@@ -27,7 +27,7 @@ pub struct StateMachine {
     pub variable: String,
     /// The values of the variable, in the order in which the enum declares them.
     pub states: Vec<State>,
-    /// What leads from state to state, by start, then end, then in the order of the program.
+    /// The edges between states, by start, then end, then in the order of the program.
     pub edges: Vec<Edge>,
 }
 
@@ -51,7 +51,7 @@ pub struct Edge {
     pub from: usize,
     /// Where it leads.
     pub to: Target,
-    /// What does it.
+    /// The action or handler.
     pub cause: Cause,
 }
 
@@ -66,7 +66,7 @@ pub enum Target {
     End,
 }
 
-/// What makes a robot take a step.
+/// The cause of a robot's step.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cause {
     /// Whether it is a handler rather than an action.

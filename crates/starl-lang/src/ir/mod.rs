@@ -5,7 +5,7 @@
 //! program, of its libraries and of the prelude together. A body is a tree of [`Statement`]s and
 //! [`Expression`]s with a table of its [`Local`]s.
 //!
-//! What the source abbreviates is written out:
+//! Abbreviations of the source are expanded:
 //! - a value where an optional is expected is wrapped in [`ExpressionKind::Present`]; nothing else is
 //!   ever converted without being written;
 //! - `elif` is an `if` in the `else`, `function f() -> T = e` has a body that returns `e`;
@@ -50,7 +50,7 @@ pub struct Program {
     pub records: Vec<Record>,
     /// Records in an order in which each comes after those that it is made of.
     pub record_order: Vec<RecordId>,
-    /// What the scenario sets.
+    /// The parameters that the scenario sets.
     pub parameters: Vec<Parameter>,
     /// Constants.
     pub constants: Vec<Constant>,
@@ -72,7 +72,7 @@ pub struct Program {
     pub roles: Option<Roles>,
     /// Actions, in the order of the text, those of roles among them.
     pub actions: Vec<Action>,
-    /// What the variables always satisfy, in the order of the text; ranges of variables come first.
+    /// The invariants of variables, in the order of the text; the ranges of variables come first.
     pub checks: Vec<Check>,
     /// Handlers, in the order of the text, those of roles among them.
     pub handlers: Vec<Handler>,
@@ -87,8 +87,8 @@ impl Program {
         display::type_name(self, of)
     }
 
-    /// What robots call a message among each other: its name, with that of the library before it that
-    /// it is from, so that messages of two libraries are not taken for each other.
+    /// The name of a message between robots, with the name of its library, so that messages of two libraries are not
+    /// confused.
     #[must_use]
     pub fn message_name(&self, message: RecordId) -> String {
         let Record { name, site, .. } = &self[message];

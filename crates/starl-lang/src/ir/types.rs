@@ -116,7 +116,7 @@ pub struct Enum {
     pub variants: Vec<Variant>,
     /// Where it is declared.
     pub site: Site,
-    /// What the comments above it say.
+    /// The comments above it.
     pub documentation: String,
 }
 
@@ -140,7 +140,7 @@ pub struct Record {
     pub fields: Vec<RecordField>,
     /// Where it is declared.
     pub site: Site,
-    /// What the comments above it say.
+    /// The comments above it.
     pub documentation: String,
 }
 

@@ -73,7 +73,7 @@ macro_rules! instructions {
                 operands.next().is_none().then_some(instruction)
             }
 
-            /// What the instruction does with its operands, in order.
+            /// Visits the uses of the operands, in order.
             pub fn uses(&self, visit: &mut dyn FnMut(Use)) {
                 match *self {
                     $(Instruction::$name { $($field),* } => {
@@ -284,8 +284,7 @@ instructions! {
 
     /// Calls a function whose windows begin at the named registers. Error: call depth.
     Call "call" { scalars: Block, objects: ObjectBlock, function: FunctionIndex }
-    /// Calls the host, see [`Host`](crate::machine::Host). What it costs beyond one, the host says. Error: the
-    /// host's own.
+    /// Calls the host, see [`Host`](crate::machine::Host). The host returns the cost beyond one. Error: the host's own.
     CallHost "call_host" { scalars: Block, objects: ObjectBlock, import: ImportIndex }
     /// Ends the function; its results are in the first registers. Object registers from `keep`, the number of
     /// objects among them, up to `until`, the number of object registers that it uses, are emptied.

@@ -58,6 +58,6 @@ struct Nobody;
 
 impl Host for Nobody {
     fn call(&mut self, _: u32, _: &mut HostCall<'_>) -> Result<u64, Cow<'static, str>> {
-        Err("there is nobody to ask".into())
+        Err("a constant cannot call the host".into())
     }
 }

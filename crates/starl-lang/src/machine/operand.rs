@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// The first object operand that stands for a state variable rather than a register.
 pub const FIRST_STATE_OPERAND: u8 = 128;
 
-/// What an instruction does with one operand, as the verifier sees it.
+/// The use of one operand by an instruction, as the verifier sees it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Use {
     /// Reads this many scalar registers from the first on.
@@ -36,7 +36,7 @@ pub trait Operand: Copy {
     fn write(self, out: &mut dyn core::fmt::Write) -> core::fmt::Result;
     /// The operand that a word of text stands for; `label` finds the place of a label.
     fn read(word: &str, label: &dyn Fn(&str) -> Option<u32>) -> Option<Self>;
-    /// What the instruction does with it.
+    /// The use of the operand.
     fn used(self) -> Use;
     /// The same, at another place if it is the target of a jump.
     #[must_use]

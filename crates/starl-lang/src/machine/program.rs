@@ -33,7 +33,7 @@ pub struct Bytecode {
     pub enums: Vec<Enum>,
     /// Types of objects; each refers to earlier ones only.
     pub types: Vec<ObjectType>,
-    /// What is asked of the host.
+    /// The imported functions of the host.
     pub imports: Vec<Import>,
     /// State variables; their layout is that of the [`State`].
     pub variables: Vec<Variable>,
@@ -134,13 +134,13 @@ pub struct Variable {
     pub kind: Type,
     /// Whether the host gives it a value before the start.
     pub parameter: Parameter,
-    /// What values the host may give it; none if any of its type will do.
+    /// The values that the host may set; any value of its type if none.
     pub range: Option<Range>,
     /// Whether the host saves it where the robot has storage; the start asks for what was saved.
     pub is_stable: bool,
 }
 
-/// What an Int, a Float or a Duration may be: from the one to before the other, as scalars.
+/// The range of an Int, a Float or a Duration, as scalars; the end is exclusive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Range {
     /// The least.
@@ -171,7 +171,7 @@ pub struct Enum {
     pub variants: Vec<String>,
 }
 
-/// What a function may do.
+/// The permissions of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FunctionKind {
@@ -191,7 +191,7 @@ pub enum FunctionKind {
 pub struct Function {
     /// Its name.
     pub name: String,
-    /// What it may do.
+    /// Its permissions.
     pub kind: FunctionKind,
     /// Its first instruction.
     pub entry: u32,
@@ -234,8 +234,8 @@ impl Action {
     }
 }
 
-/// What is done about an event. Arguments of its procedure: for a message the sender, a robot, then
-/// the fields of the message; for a primitive's event or an input its fields.
+/// A handler of an event. Arguments of its procedure: for a message the sender, a robot, and then the fields of the
+/// message; for a primitive's event or an input its fields.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Handler {
     /// The name of the message, event or input.
@@ -272,11 +272,11 @@ pub struct Binding {
 pub struct Property {
     /// Its name.
     pub name: String,
-    /// What is claimed.
+    /// The claim.
     pub claim: Claim,
     /// For each robot (1), each pair of robots (2) and so on; 0 for a claim about the whole fleet.
     pub robots: u8,
-    /// What has to hold for it to be judged: a function as those of the claim.
+    /// The assumption under which the property is judged: a function like those of the claim.
     pub assumption: Option<u32>,
     /// Nanoseconds for which it may be false after a fault has overwritten variables; none for the usual.
     pub recovery: Option<u64>,
@@ -291,7 +291,7 @@ impl Property {
     }
 }
 
-/// What a property claims; numbers are functions of kind property.
+/// The claim of a property; numbers are functions of kind property.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Claim {
@@ -299,14 +299,14 @@ pub enum Claim {
     Always(u32),
     /// It holds at some time, this many nanoseconds after the start at the latest.
     Eventually {
-        /// What.
+        /// The condition.
         holds: u32,
         /// Nanoseconds; none for without limit.
         within: Option<u64>,
     },
     /// It holds from some time on, this many nanoseconds after the start and after each fault at the latest.
     EventuallyAlways {
-        /// What.
+        /// The condition.
         holds: u32,
         /// Nanoseconds; none for without limit.
         within: Option<u64>,
@@ -337,7 +337,7 @@ pub struct Program {
     pub(in crate::machine) parts: Vec<Parts>,
     pub(in crate::machine) texts: Vec<crate::machine::value::object::Object>,
     pub(in crate::machine) signatures: Vec<Signature>,
-    /// What functions give that always give the same.
+    /// The results of functions that always return the same value.
     pub(in crate::machine) known: Vec<Option<Known>>,
     state: Layout,
 }

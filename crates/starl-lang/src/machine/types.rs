@@ -1,4 +1,4 @@
-//! What compiled programs know of types: how a value lies in registers, and how values are ordered.
+//! Types of compiled programs: the layout of values in registers, and their order.
 //!
 //! Invariant of a loaded program: object types refer to earlier ones only, so every value is a tree
 //! of limited depth.

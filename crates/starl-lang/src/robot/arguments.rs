@@ -7,10 +7,10 @@ use alloc::vec::Vec;
 use starl_core::motion::Obstacles;
 use starl_core::{Area, Duration, Point, RobotId};
 
-/// What a function of the host gives: the fuel it costs beyond one, or why it refuses.
+/// The result of a host function: the fuel it costs beyond one, or the reason of the failure.
 pub type Called = Result<u64, Cow<'static, str>>;
 
-/// Arguments that have not been read yet. What is missing reads as zero and empty.
+/// Arguments that have not been read yet. Missing arguments read as zero and empty.
 #[derive(Clone, Copy, Debug)]
 pub struct Arguments<'a> {
     scalars: &'a [u64],

@@ -13,7 +13,7 @@ use alloc::borrow::Cow;
 use alloc::string::String;
 use starl_core::{Input, Payload, Port, Robot};
 
-/// What functions of the host work with.
+/// The context of host functions.
 pub struct Context<'a, 'r> {
     /// The program.
     pub code: &'a Code,
@@ -21,7 +21,7 @@ pub struct Context<'a, 'r> {
     pub robot: &'a mut Robot<'r>,
     /// Values that were made before.
     pub memo: &'a mut Memo,
-    /// What the program's primitives have in common.
+    /// The services that the program's primitives share.
     pub services: &'a mut Services,
     /// The primitive that the present call is about.
     pub instance: Option<&'a Instance>,
@@ -31,7 +31,7 @@ pub struct Context<'a, 'r> {
 
 /// A robot as the machine sees it.
 pub struct RobotHost<'a, 'r> {
-    /// What functions work with.
+    /// The context of functions.
     pub context: Context<'a, 'r>,
     /// The bound primitives.
     pub bound: &'a mut [Slot],
@@ -39,7 +39,7 @@ pub struct RobotHost<'a, 'r> {
     pub failure: Option<String>,
     /// Whether an action has fired.
     pub has_fired: bool,
-    /// What calls do.
+    /// The treatment of calls.
     pub script: Script,
 }
 

@@ -1,4 +1,4 @@
-//! Looks into a program that runs on a robot, without changing it: for those who watch or debug a run.
+//! Inspects a program that runs on a robot, without changing it: for observers and debuggers.
 
 use super::atomic::Script;
 use super::host::{Context, RobotHost};

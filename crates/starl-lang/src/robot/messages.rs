@@ -70,7 +70,7 @@ pub struct Inbox(Vec<Incoming>);
 
 /// A message or an order that arrived.
 pub struct Arrival<'a> {
-    /// What handles it.
+    /// Its handlers.
     pub handlers: &'a [u32],
     /// The scalars of its fields.
     pub scalars: Vec<u64>,
@@ -105,8 +105,8 @@ impl Inbox {
         Some(inbox)
     }
 
-    /// The handlers of the message that these bytes end with; none if they end with no message of the program. What
-    /// primitives send holds the message at its end.
+    /// The handlers of the message at the end of these bytes; none if there is no message of the program. A primitive's
+    /// message ends with the program's message.
     pub fn at_end_of(&self, program: &Program, bytes: &[u8]) -> Option<&[u32]> {
         let mut ends = (0..bytes.len()).filter_map(|start| bytes.get(start..));
         ends.find_map(|end| Some(self.decode(program, end)?.handlers))

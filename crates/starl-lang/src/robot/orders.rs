@@ -51,7 +51,7 @@ impl Orders {
         Some(orders)
     }
 
-    /// What the order's handlers are given; `None` if it has no handler.
+    /// The arguments of the order's handlers; `None` if it has no handler.
     ///
     /// # Errors
     /// A sentence that names the order, the first field that does not fit, and its type.

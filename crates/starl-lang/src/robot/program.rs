@@ -43,7 +43,7 @@ pub struct RobotProgram {
     pub(super) waiting: VecDeque<Waiting>,
     /// See [`RobotProgram::version`].
     version: u64,
-    /// What storage holds of its stable variables.
+    /// The stable variables in storage.
     kept: Option<Box<Kept>>,
     pub(super) phase: Phase,
     /// Whether it rests: see [`rest`](super::rest).
@@ -56,7 +56,7 @@ pub struct RobotProgram {
     target: Option<Point>,
 }
 
-/// What waits for an action with `atomic`.
+/// The activation that waits for an action with `atomic`.
 #[derive(Clone, Debug)]
 pub(super) enum Waiting {
     Message(Message),
@@ -117,7 +117,7 @@ impl RobotProgram {
         self.version
     }
 
-    /// What it runs.
+    /// The code that it runs.
     pub fn code(&self) -> &Code {
         &self.code
     }
@@ -206,7 +206,7 @@ fn check(code: &Code, machine: &mut Machine<'_>) -> Result<Option<u32>, RuntimeE
     Ok(first)
 }
 
-/// What is run at once.
+/// A part of a program that runs in one go.
 pub(super) enum Part<'a> {
     /// The first values of variables, bindings of primitives, and `init`.
     Start,
@@ -223,7 +223,7 @@ pub(super) enum Part<'a> {
 }
 
 impl Part<'_> {
-    /// What calls to the host are to do.
+    /// Takes the effects that calls to the host have requested.
     fn take_script(&mut self) -> Script {
         match self {
             Part::Perform(_, script) => mem::take(script),
@@ -390,7 +390,7 @@ impl Program for RobotProgram {
     }
 
     fn told(&mut self, robot: &mut Robot<'_>, order: &Order) {
-        // The way-points may have changed, and guards may ask for them.
+        // The waypoints may have changed, and guards may depend on them.
         self.rests = false;
         self.follow(robot, order);
     }

@@ -63,7 +63,7 @@ pub enum Shape {
     Any,
 }
 
-/// What a function of the host is called, takes and gives.
+/// The name, arguments and results of a host function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Signature {
     /// Its name.

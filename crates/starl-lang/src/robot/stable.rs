@@ -51,7 +51,7 @@ pub fn saved<'s>(code: &Code, saved: &'s Saved, variable: usize) -> Option<&'s [
     stable.find(saved)?.strip_prefix(&stable.tag)
 }
 
-/// What storage holds of a program's stable variables.
+/// A program's stable variables in storage.
 #[derive(Clone, Debug)]
 pub struct Kept {
     /// The version of the variables that was saved last.
@@ -61,7 +61,7 @@ pub struct Kept {
 }
 
 impl Kept {
-    /// What storage holds when the program has started; none if there is nothing to save.
+    /// The stored variables when the program has started; none if there is nothing to save.
     pub fn at_start(code: &Code, robot: &Robot<'_>) -> Option<Kept> {
         let (saved, stable) = (robot.saved()?, code.stable());
         (!stable.is_empty()).then(|| Kept {

@@ -1,4 +1,4 @@
-//! What literals are worth.
+//! Values of literals.
 
 use alloc::string::String;
 use core::f64::consts::PI;
@@ -9,7 +9,7 @@ use super::SyntaxKind;
 pub(crate) struct Unit {
     /// How it is written.
     pub name: &'static str,
-    /// What a number with it is.
+    /// The kind of a number with it.
     pub kind: SyntaxKind,
     /// How many nanoseconds, metres or radians it has: this many, divided by `parts`.
     size: f64,

@@ -53,7 +53,7 @@ impl Parse {
         ast::SourceFile::of(self.syntax())
     }
 
-    /// What is wrong with the text, by rising place.
+    /// The problems of the text, sorted by position.
     #[must_use]
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics

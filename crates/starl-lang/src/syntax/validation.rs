@@ -1,5 +1,4 @@
-//! What is wrong with a tree that its parts do not show: where `some` stands, and which problems are
-//! the consequences of others.
+//! Checks of the whole tree: the places of `some`, and problems that are consequences of others.
 
 use alloc::vec::Vec;
 

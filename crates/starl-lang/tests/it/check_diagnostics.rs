@@ -120,7 +120,7 @@ fn what_is_suggested_puts_the_problem_right() {
             let libraries = |name: &str| case.libraries.get(name).cloned();
             let checked = check(&case.program, &libraries);
             for diagnostic in checked.diagnostics() {
-                let Some(mend) = &diagnostic.mend else {
+                let Some(fix) = &diagnostic.fix else {
                     continue;
                 };
                 let same = |checked: &Checked| {
@@ -130,9 +130,9 @@ fn what_is_suggested_puts_the_problem_right() {
                     })
                     .count()
                 };
-                let mended = check(&mend.apply(&case.program), &libraries);
-                let remains = same(&mended) >= same(&checked);
-                assert!(!remains, "{}: {}", case.heading, mend.message);
+                let fixed = check(&fix.apply(&case.program), &libraries);
+                let remains = same(&fixed) >= same(&checked);
+                assert!(!remains, "{}: {}", case.heading, fix.message);
             }
         }
     }

@@ -1,4 +1,4 @@
-//! What the checker gives: everything resolved, nothing abbreviated.
+//! The checker resolves every name and expands every abbreviation.
 
 use crate::common::{mutation, written};
 use starl_lang::check::{Checked, NoLibraries, check};

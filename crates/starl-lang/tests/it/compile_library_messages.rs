@@ -1,5 +1,4 @@
-//! A message of a library has the library's name before its own on the way between robots, for those
-//! who send it and for those who handle it.
+//! On the network, a library's message has the library's name before its own, both for the sender and for the handler.
 
 use starl_lang::check::check;
 use starl_lang::compile::compile;

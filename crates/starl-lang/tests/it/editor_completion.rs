@@ -1,4 +1,4 @@
-//! What is suggested is what may stand at the cursor.
+//! The completions are the names that are allowed at the cursor.
 
 use crate::editor_support::{Beside, complete, complete_with, labels};
 use starl_lang::check::{Libraries, StandardLibraries};

@@ -1,4 +1,4 @@
-//! What is shown of a name is its declaration and what is said of it.
+//! Hovering over a name shows its declaration and its documentation.
 
 use crate::editor_support::{Beside, cursor, hover};
 use starl_lang::editor::Analysis;
@@ -58,7 +58,7 @@ invariant rising: sum_of >= 0 and forall r: r.up
 stable sum_of: Int = 2
 ";
 
-/// What is shown of the first `word` after `context`.
+/// The text shown for the first `word` after `context`.
 fn shown(context: &str, word: &str) -> (String, String) {
     let start = PROGRAM.find(context).expect("the context is there");
     let at = start + PROGRAM[start..].find(word).expect("the word is there") + word.len();

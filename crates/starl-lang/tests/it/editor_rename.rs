@@ -128,7 +128,7 @@ fn what_every_program_has_keeps_its_name() {
 }
 
 #[test]
-fn an_input_changes_its_name_in_every_role_and_the_way_points_keep_theirs() {
+fn an_input_is_renamed_in_every_role_except_the_input_of_waypoints() {
     let text = "program P\non input go$0(to: Point)\n    log(\"{}\", to)\nrole a\n    on input go(to: Point)\n        log(\"a {}\", to)\n";
     let after = "program P\non input walk(to: Point)\n    log(\"{}\", to)\nrole a\n    on input walk(to: Point)\n        log(\"a {}\", to)\n";
     assert_eq!(renamed(text, "walk").as_deref(), Ok(after));
@@ -153,7 +153,7 @@ fn a_field_of_an_input_keeps_its_name_where_another_role_would_differ() {
 fn where_it_is_not_known_what_the_name_means_it_stays() {
     let text = "program P\ncount$0: Int = 0\ngo()\n    eff count = 1\n) count +\nstop_it()\n    eff count = 1\n";
     let reason = refused(text, "number");
-    assert!(reason.ends_with("mend the errors first"), "{reason}");
+    assert!(reason.ends_with("fix the errors first"), "{reason}");
 }
 
 #[test]

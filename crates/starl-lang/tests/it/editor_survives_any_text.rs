@@ -69,7 +69,7 @@ fn a_text_that_is_being_typed() {
 }
 
 #[test]
-fn texts_that_nobody_would_write() {
+fn texts_that_are_not_programs() {
     for text in [
         "",
         "\n",

@@ -1,4 +1,4 @@
-//! What the canonical layout is: before, and after.
+//! The canonical layout: texts before and after formatting.
 
 use starl_lang::format::format;
 

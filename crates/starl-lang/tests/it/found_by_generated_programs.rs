@@ -1,4 +1,4 @@
-//! What random programs once brought to light.
+//! Faults that random programs have found.
 
 use crate::support;
 use starl_lang::check::{NoLibraries, check};

@@ -10,7 +10,7 @@ use starl_lang::robot::{Code, RobotProgram};
 
 const ROBOTS: u32 = 2;
 
-/// What may be known of the robots from outside.
+/// The robots as an observer sees them.
 struct Seen<'a>(&'a World, Vec<RobotId>);
 
 impl Fleet for Seen<'_> {
@@ -130,7 +130,7 @@ fn detail(random: &mut Random) -> Value {
     }
 }
 
-/// What there is to see of a run.
+/// The observable result of a run.
 fn seen((world, judged): &(World, String)) -> String {
     let mut text = format!("{:?}{judged}", world.records);
     for (robot, unit) in world.robots.iter().enumerate() {

@@ -16,7 +16,7 @@ enum Form {
     Word(String),
     /// A class of words, such as NAME.
     Class(String),
-    /// What another production makes.
+    /// A nonterminal.
     Rule(String),
     Row(Vec<Form>),
     Choice(Vec<Form>),

@@ -1,5 +1,5 @@
-//! The reference of the standard library is what its sources say. `BLESS=1 cargo test -p starl-lang
-//! --test it library_reference` writes it anew.
+//! The reference of the standard library is generated from its sources. `BLESS=1 cargo test -p starl-lang --test it
+//! library_reference` rewrites it.
 #![allow(clippy::disallowed_methods, reason = "a test reads its page")]
 
 use std::fs;

@@ -1,5 +1,5 @@
-//! What a function without arguments gives is computed when the program is loaded: to call it gives the same
-//! as to run it, for less, and what goes wrong in it goes wrong where it is called.
+//! The result of a function without arguments is computed when the program is loaded. Calling it returns the same
+//! result as running it, at a lower cost, and its errors occur at the call.
 
 use crate::machine_support::{call_within, program};
 use starl_lang::machine::{Fault, Limits};

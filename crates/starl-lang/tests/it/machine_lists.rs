@@ -12,7 +12,7 @@ type List[{name: type0, place: Point}]
 type Set[Int]
 ";
 
-/// What a body makes of the list in `b0`, with three Ints in `r0` to `r2` and a second list in `b1`.
+/// Runs a body on the list in `b0`, with three Ints in `r0` to `r2` and a second list in `b1`; returns the list.
 fn list(body: &str, arguments: [i64; 3], lists: [&[i64]; 2]) -> Result<Vec<i64>, Fault> {
     let code = format!(
         "{DECLARATIONS} function test function (Int, Int, Int, type1, type1) (type1) \

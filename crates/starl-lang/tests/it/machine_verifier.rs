@@ -201,7 +201,7 @@ fn ends() {
 }
 
 #[test]
-fn who_may_do_what() {
+fn each_kind_of_function_has_its_permissions() {
     let cases = [
         (
             "function",

@@ -70,7 +70,7 @@ fn all_show_one_leader_and_another_when_it_resigns() {
 }
 
 #[test]
-fn who_is_cut_off_from_most_shows_no_leader() {
+fn a_robot_in_a_minority_partition_has_no_leader() {
     let mut world = World::of(&compile(&program("leases", 1000)), 3);
     world.steps(50);
     let leader = agreed(&world, &[0, 1, 2]).expect("a leader");

@@ -23,7 +23,7 @@ tick()
     eff count += 1; plain += 1
 ";
 
-/// What the storage of the only robot holds.
+/// The storage of the only robot.
 fn saved(world: &World) -> Saved {
     let store = world.robots[0].store.as_ref();
     Saved::clone(&store.map(Store::saved).unwrap_or_default())
@@ -271,7 +271,7 @@ tick()
         "",
     ];
     assert_eq!(keys, expected);
-    // What storage holds already is not saved again.
+    // Values that are already in storage are not saved again.
     let (mut agent, again) = started(source, Some(saved));
     assert_eq!(again, []);
     let [first, second] = [(); 2].map(|()| saves(&mut agent, &Input::Activate));

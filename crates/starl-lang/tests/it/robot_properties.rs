@@ -325,7 +325,7 @@ fn what_follows_must_follow_in_time() {
     assert!(
         violations[0]
             .to_string()
-            .starts_with("what is to follow within 5s has not since 10.000s")
+            .starts_with("the consequence is not true within 5s of 10.000s")
     );
     // Without limit nothing is too late.
     assert_eq!(judge.standing(1), Standing::Holds);

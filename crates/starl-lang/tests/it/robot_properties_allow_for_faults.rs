@@ -1,5 +1,5 @@
-//! What properties allow for: robots that are down, variables that were just overwritten, times after a fault, and what
-//! they assume.
+//! Properties excuse faults: robots that are down, variables that were just overwritten, times after a fault, and false
+//! assumptions.
 
 use crate::robot_properties::{Given, rows, seconds};
 use starl_core::{Duration, Point};

@@ -1,4 +1,4 @@
-//! Where a check is false the program begins anew: its variables, its primitives and `init`.
+//! A program restarts when an invariant of its variables is false: its variables, its primitives and `init`.
 
 use crate::robot_support::{World, compile};
 use starl_core::{Input, Order, Point, Random, Value};

@@ -1,5 +1,5 @@
-//! Actions with `atomic`: what several robots count together is counted once each, whatever the network does
-//! and whoever crashes; without `atomic` it is not.
+//! Actions with `atomic`: increments by several robots are counted exactly once, whatever the network does and
+//! whichever robot crashes; without `atomic` some are lost.
 
 use crate::robot_support::{self, World, compile};
 use starl_core::event::{PrimitiveEvent, RegisterEvent};
@@ -70,7 +70,7 @@ fn no_increment_is_lost() {
             world.step();
             steps += 1;
             let (added, seen) = (sum(&world, 4, "added"), most_seen(&world, 4));
-            // What others have seen may be stored and not be known to be.
+            // Values that others have seen may be stored without this being known.
             assert!(added <= seen && seen <= added + 3, "seed {seed}");
             assert!(steps < 10_000, "seed {seed}: {added} were added");
         }

@@ -28,12 +28,12 @@ pub fn timeline(scenario: &Scenario) -> Vec<Fault> {
     let robots: Vec<RobotId> = (0..scenario.fleet.len() as u32).map(RobotId).collect();
     for &robot in &robots {
         let id = u64::from(robot.0);
-        let mut both = |at: Time, kind: FaultKind, after: Duration, mend: FaultKind| {
+        let mut both = |at: Time, kind: FaultKind, after: Duration, end: FaultKind| {
             faults.push(Fault { at, kind });
             if !after.is_zero() {
                 faults.push(Fault {
                     at: at + after,
-                    kind: mend,
+                    kind: end,
                 });
             }
         };

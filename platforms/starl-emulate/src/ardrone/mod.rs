@@ -28,7 +28,7 @@ pub struct EmulatedArdrone {
 struct Sockets {
     commands: UdpSocket,
     navdata: UdpSocket,
-    /// Who gets navdata.
+    /// The receiver of navdata.
     client: Mutex<Option<SocketAddr>>,
 }
 
@@ -130,7 +130,7 @@ fn turn(sockets: &Sockets, flight: &Mutex<Flight>, due: &mut Instant) -> io::Res
     Ok(())
 }
 
-/// What has arrived, if anything; a client that is gone, whose system has said so, is no error.
+/// The datagram that has arrived, if any. A closed client is not an error.
 fn arrived<T>(received: io::Result<T>) -> io::Result<Option<T>> {
     match received {
         Ok(what) => Ok(Some(what)),

@@ -29,7 +29,7 @@ pub struct EmulatedCrazyflie {
 struct Inside {
     flight: Flight,
     desk: Desk,
-    /// Who gets its packets: whoever was heard last.
+    /// The receiver of its packets: the client that it heard last.
     client: Option<SocketAddr>,
 }
 

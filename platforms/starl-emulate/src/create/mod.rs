@@ -27,7 +27,7 @@ pub fn model(generation: Generation) -> Arc<dyn Model> {
         .expect("the distance between the wheels is in its range")
 }
 
-/// What can happen to a robot besides motion. A cliff or a dropped wheel ends safe mode.
+/// Disturbances of a robot besides motion. A cliff or a dropped wheel ends safe mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Hazards {
     /// The robot stands at the top of a staircase.

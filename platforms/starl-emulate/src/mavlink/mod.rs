@@ -28,7 +28,7 @@ const WAIT: Duration = Duration::from_millis(5);
 
 impl EmulatedVehicle {
     /// Puts `body` behind `address`; port 0 takes any free port. It sends to `client`, as PX4 does to port 14540, or to
-    /// whoever sends it a heartbeat.
+    /// any client that sends it a heartbeat.
     ///
     /// # Errors
     /// Where the address is in use or not this machine's.

@@ -19,7 +19,7 @@ pub(super) fn blocked(map: &ObstacleIndex, bodies: &[Body], new: &Body) -> bool 
             .any(|body| overlap(new, at, body, body.state.pose.position))
 }
 
-/// What stops each body on its way to the predicted state.
+/// The obstacle that stops each body on its way to the predicted state.
 pub(super) fn impacts(
     map: &ObstacleIndex,
     bodies: &[Body],

@@ -188,7 +188,7 @@ impl Floor {
     }
 }
 
-/// Steps the floor until nobody holds it any more.
+/// Steps the floor until its last user drops it.
 fn keep_time(floor: &Weak<Mutex<Floor>>) {
     let step = std::time::Duration::from_nanos(STEP.0);
     let most_late = std::time::Duration::from_nanos(CATCH_UP.0);

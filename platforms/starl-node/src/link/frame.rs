@@ -1,4 +1,4 @@
-//! What the members of a fleet say to each other, below the programs.
+//! Frames between the members of a fleet, below the messages of programs.
 
 use super::Refusals;
 use super::quality::Quality;
@@ -35,7 +35,7 @@ pub enum Frame {
     Seen(Box<Seen>),
 }
 
-/// What a robot tells all others periodically.
+/// The periodic message of a robot to all others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Beacon {
     /// Counts beacons, so that lost ones can be counted.
@@ -51,7 +51,7 @@ pub struct Beacon {
     pub echo: Option<(Time, Time)>,
 }
 
-/// What has happened on a robot since the last time.
+/// The events on a robot since the last such frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Seen {
     /// The robot's time, by the clock of its process.
@@ -60,9 +60,9 @@ pub struct Seen {
     pub begun: Time,
     /// The number of the first event: all since the robot's start are counted, so that lost ones are noticed.
     pub first: u64,
-    /// What its program is doing: its state, if the program has one.
+    /// The state of its program, if the program has one.
     pub state: Option<String>,
-    /// What happened, and when.
+    /// The events, with their times.
     pub events: Vec<(Time, Event)>,
 }
 
@@ -85,10 +85,10 @@ pub struct Status {
     pub stopped: Option<String>,
     /// Charge of its battery, 0 to 1, if it measures that.
     pub battery: Option<f64>,
-    /// What its program is doing: its state, if the program has one.
+    /// The state of its program, if the program has one.
     pub state: Option<String>,
     /// How well it hears each other robot.
     pub links: Vec<(u32, Quality)>,
-    /// What it refused.
+    /// The packets that it has refused.
     pub refused: Refusals,
 }

@@ -8,7 +8,7 @@ use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread;
 use std::time::Instant;
 
-/// What happens to packets that are sent.
+/// The impairment of sent packets.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Impairment {
     /// The probability that a packet is lost.
@@ -54,7 +54,7 @@ impl Impaired {
                         waiting.first_entry().filter(|entry| entry.key().0 <= now)
                     {
                         let (to, packet) = first.remove();
-                        // As with any packet, nobody hears that it is lost.
+                        // The sender does not learn of the loss, as with any packet.
                         let _ = transport.send(to, &packet);
                     }
                     let next = waiting.first_key_value().map(|((at, _), _)| *at);

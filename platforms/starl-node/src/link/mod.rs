@@ -42,6 +42,6 @@ pub struct Arrival {
     pub at: Instant,
     /// From where.
     pub origin: Origin,
-    /// What it holds.
+    /// Its content.
     pub packet: Vec<u8>,
 }

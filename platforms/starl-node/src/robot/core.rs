@@ -61,7 +61,7 @@ pub struct Core<R: Recorder, E: Equipment> {
     is_over: bool,
 }
 
-/// What is known of another robot.
+/// The state known of another robot.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Peer {
     pub quality: Quality,

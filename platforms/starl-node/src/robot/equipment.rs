@@ -1,4 +1,4 @@
-//! What a robot's core acts through.
+//! The interfaces through which a robot's core acts.
 
 use crate::link::{Member, Origin, Transport};
 use crate::motors::Motors;
@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// The motors, the planner, the storage and the network of a robot. No method blocks.
 pub trait Equipment {
-    /// What the robot has saved in earlier lives; none if it keeps nothing.
+    /// The data that the robot saved in earlier lives; none without storage.
     fn saved(&self) -> Option<Arc<Saved>>;
 
     /// Whether an external system tells the robot where it is.

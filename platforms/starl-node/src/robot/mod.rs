@@ -35,7 +35,7 @@ const LONGEST_WAIT: Duration = Duration::from_millis(20);
 /// The loop takes at most so many things at once, so that timers are not kept waiting.
 const MOST_AT_ONCE: usize = 64;
 
-/// What a robot is, and what it knows from the start.
+/// The configuration of a robot.
 pub struct Setup {
     /// Its number.
     pub id: RobotId,
@@ -45,14 +45,14 @@ pub struct Setup {
     pub program: Box<dyn Program>,
     /// The stream that its software draws from.
     pub random: Random,
-    /// What it is made of.
+    /// Its hardware.
     pub hardware: Hardware,
     /// The sensors that its program may read. A bumper is the device's; the others are measured among the places of the
     /// other robots and the known obstacles.
     pub sensors: SensorSuite,
     /// The things that a detector sees.
     pub things: Vec<Thing>,
-    /// The application's way-points.
+    /// The application's waypoints.
     pub way_points: Vec<WayPoint>,
     /// The obstacles that it knows.
     pub obstacles: Obstacles,
@@ -66,13 +66,13 @@ pub struct Setup {
     pub safety: Safety,
 }
 
-/// What the robot is connected to.
+/// The connections of a robot.
 pub struct Connections {
     /// Its motors and sensors.
     pub device: Box<dyn Device>,
-    /// Who tells it where it is; none if it has odometry alone.
+    /// The source of its position; none if it has odometry alone.
     pub positions: Option<Box<dyn PositionSource>>,
-    /// What it keeps over a restart; none if it keeps nothing.
+    /// Its storage, which survives restarts; none if it has none.
     pub storage: Option<Storage>,
     /// The network.
     pub transport: Box<dyn Transport>,
@@ -80,7 +80,7 @@ pub struct Connections {
     pub channel: Channel,
 }
 
-/// What comes in from other threads.
+/// An input from another thread.
 #[derive(Debug)]
 pub enum Incoming {
     /// A packet.
@@ -120,7 +120,7 @@ pub trait Recorder {
     /// The person in front of the robot should know this.
     fn notice(&mut self, at: Time, text: &str);
 
-    /// What the program is doing, in a word, if that can be said.
+    /// The state of the program in a word, if it has one.
     fn state(&self, program: &dyn Program) -> Option<String> {
         let _ = program;
         None

@@ -1,4 +1,4 @@
-//! What operators see of a robot as it happens.
+//! Live observation of a robot by operators.
 
 use super::Recorder;
 use crate::link::Member;
@@ -24,7 +24,7 @@ const MOST_EVENTS: usize = 4096;
 /// A recorder whose events operators see too.
 pub(super) struct Watched<R> {
     pub recorder: R,
-    /// Who watches, and until when.
+    /// The watching operators, with the time until which each watches.
     watchers: BTreeMap<Member, Time>,
     fresh: Vec<(Time, Event)>,
     /// How many events there were.
@@ -51,7 +51,7 @@ impl<R: Recorder> Watched<R> {
         self.watchers.insert(operator, now + INTEREST);
     }
 
-    /// Who is to be told what now.
+    /// The observers to notify now, with the frames for them.
     pub fn due(&mut self, now: Time, program: &dyn Program) -> (Vec<Member>, Vec<Seen>) {
         self.watchers.retain(|_, until| *until > now);
         if self.watchers.is_empty() || now.since(self.told) < PERIOD {
@@ -185,7 +185,7 @@ mod tests {
         assert_eq!(watched.due(ms(110), &Idle).0, [7]);
         assert!(
             watched.due(ms(3011), &Idle).0.is_empty(),
-            "nobody asked again"
+            "the observer did not renew its request"
         );
     }
 }

@@ -31,7 +31,7 @@ macro_rules! builtins {
                 }
             }
 
-            /// What it is, as one tells a person.
+            /// The documentation shown to users.
             #[must_use]
             pub const fn documentation(self) -> &'static str {
                 match self {
@@ -61,15 +61,15 @@ builtins! {
     AtomicBlocked = "atomic_blocked: Bool" Query "Whether the action with `atomic` that this robot waits for, or has run, cannot go on: no majority of the robots answers."
 
     // The run.
-    Undisturbed = "undisturbed: Duration" Property "How long it is since the start and since the last fault began or was mended; zero while the network is parted, a motor is stuck or sensors are frozen."
+    Undisturbed = "undisturbed: Duration" Property "How long it is since the start and since the last fault began or was fixed; zero while the network is parted, a motor is stuck or sensors are frozen."
     Uncorrupted = "uncorrupted: Duration" Property "How long it is since the start and since a fault last overwrote the state of robots at random."
     Majority = "majority: Bool" Property "Whether more than half of the robots that run the program have been up at every moment; one that has restarted counts again after 10 s."
     Crashed = "crashed: Int" Property "How many of the robots that run the program are down."
 
     // Input.
-    WayPoints = "way_points() -> List[Point]" Query "The way-points of the scenario, in their order."
-    WayPoint = "way_point(name: String) -> Point?" Query "The way-point with this name."
-    WayPointGroup = "way_point_group(group: Int) -> List[Point]" Query "The way-points of one group of the scenario, in their order."
+    WayPoints = "way_points() -> List[Point]" Query "The waypoints of the scenario, in their order."
+    WayPoint = "way_point(name: String) -> Point?" Query "The waypoint with this name."
+    WayPointGroup = "way_point_group(group: Int) -> List[Point]" Query "The waypoints of one group of the scenario, in their order."
     Obstacles = "obstacles() -> Obstacles" Query "The obstacles that the robot knows."
     AreasOf = "areas_of(obstacles: Obstacles) -> List[Area]" Query "The ground that each obstacle takes."
     WithArea = "with_area(obstacles: Obstacles, area: Area) -> Obstacles" Query "The obstacles and one more, as high as the sky."

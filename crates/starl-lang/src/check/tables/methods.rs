@@ -30,7 +30,7 @@ macro_rules! methods {
                 }
             }
 
-            /// What it does, as one tells a person.
+            /// The documentation shown to users.
             #[must_use]
             pub const fn documentation(self) -> &'static str {
                 match self {

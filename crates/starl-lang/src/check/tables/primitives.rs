@@ -13,9 +13,9 @@ pub struct Primitive {
     pub constructor: &'static str,
     /// Its methods and status flags.
     pub members: &'static [Member],
-    /// What it reports by itself, for handlers.
+    /// The events that it reports to handlers.
     pub events: &'static [Event],
-    /// What it is, as one tells a person.
+    /// The documentation shown to users.
     pub documentation: &'static str,
 }
 
@@ -26,7 +26,7 @@ pub struct Member {
     pub text: &'static str,
     /// Whether it does something or only tells.
     pub purity: Purity,
-    /// What it does, as one tells a person.
+    /// The documentation shown to users.
     pub documentation: &'static str,
 }
 
@@ -235,12 +235,12 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "fencing: Int?",
                 Query,
-                "With leases, the number of what is held: greater than those of all who held any of it before.",
+                "With leases, the fencing token: greater than the token of every earlier holder of any of these resources.",
             ),
             member(
                 "failed: Bool",
                 Query,
-                "Whether somebody who is waited for is believed to have failed.",
+                "Whether a robot that this one waits for is suspected to have failed.",
             ),
         ],
         events: &[],
@@ -262,7 +262,7 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "members: Set[RobotId]?",
                 Query,
-                "Those who agreed on taking part (the thesis's rList); none while that is open.",
+                "The robots that take part (the thesis's rList); none until they have agreed.",
             ),
             member(
                 "agreed_at: Time?",
@@ -276,7 +276,7 @@ pub const PRIMITIVES: &[Primitive] = &[
             ),
         ],
         events: &[],
-        documentation: "Agreement on who takes part (thesis, section 3.4.1).",
+        documentation: "Agreement on the participants (thesis, section 3.4.1).",
     },
     Primitive {
         constructor: "LeaderElection(id: String, participants?: Set[RobotId], algorithm?: ElectionAlgorithm)",
@@ -294,7 +294,7 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "leader: RobotId?",
                 Query,
-                "Who leads; none while that is open and if the election failed.",
+                "The leader; none until the election ends, and if it failed.",
             ),
             member(
                 "epoch: Int?",
@@ -314,7 +314,7 @@ pub const PRIMITIVES: &[Primitive] = &[
             },
             Event {
                 text: "lost(leader: RobotId)",
-                documentation: "This robot led, and nobody does now.",
+                documentation: "This robot was the leader, and there is no leader now.",
             },
         ],
         documentation: "Election of one robot (thesis, section 3.4.2).",

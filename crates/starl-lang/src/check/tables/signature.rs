@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 /// A signature that was read from its text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Signature {
-    /// What it is a method of, if it is one.
+    /// The receiver's type, for a method.
     pub receiver: Option<Shape>,
     /// Its name.
     pub name: &'static str,
@@ -24,7 +24,7 @@ pub struct Signature {
     pub takes_values: bool,
     /// Whether any number of named values may follow.
     pub takes_fields: bool,
-    /// What it gives.
+    /// The type of the result.
     pub result: Shape,
 }
 
@@ -104,7 +104,7 @@ impl Signature {
         signature
     }
 
-    /// The name in the text of a signature of something that is no method.
+    /// The name in a signature without a receiver.
     #[must_use]
     pub fn name_of(text: &'static str) -> &'static str {
         let end = text.find(['(', ':']).unwrap_or(text.len());

@@ -103,7 +103,7 @@ impl<'u, 'p> Body<'u, 'p> {
         result
     }
 
-    /// What is in use now, to be given to [`Body::release`].
+    /// The registers in use now, to be passed to [`Body::release`].
     pub fn mark(&self) -> Size {
         self.top
     }

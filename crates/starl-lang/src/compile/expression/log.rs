@@ -1,4 +1,4 @@
-//! What `log` writes: a text with places for values.
+//! The text of `log`, with its placeholders.
 
 use alloc::string::String;
 use alloc::vec::Vec;

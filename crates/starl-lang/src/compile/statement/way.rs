@@ -13,7 +13,7 @@ use crate::ir::{Place, Root, SharedId, Step, Type};
 use crate::machine::operand::{In, ObjectIn, ObjectInOut, ObjectOut, ObjectSlot};
 use crate::machine::{Instruction, operand};
 
-/// What a step needs that was computed before the way is gone.
+/// Values that a step needs, computed before the path is followed.
 #[derive(Clone, Copy)]
 pub(super) enum Prepared {
     /// A step within registers.
@@ -24,7 +24,7 @@ pub(super) enum Prepared {
     Entry(Slot),
 }
 
-/// What is to be done when a part was changed.
+/// A pending write after a part was changed.
 pub(super) enum WriteBack {
     List(ObjectInOut, In, Slot),
     Map(ObjectInOut, Slot, operand::Type),
@@ -38,7 +38,7 @@ pub(super) struct Way<'p> {
     pub at: Location,
     /// The type of what is there.
     pub ty: &'p Type,
-    /// What is to be written back, the innermost last.
+    /// The pending writes, the innermost last.
     pub back: Vec<WriteBack>,
 }
 

@@ -20,7 +20,7 @@ use starl_core::{Point, RobotId};
 /// The scalar registers of a function.
 pub(in crate::machine) type Registers = [u64; WINDOW];
 
-/// What a run of the machine works on.
+/// The context of a run of the machine.
 pub(in crate::machine) struct Execution<'a> {
     pub program: &'a Program,
     pub state: &'a mut State,

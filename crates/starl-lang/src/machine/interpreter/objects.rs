@@ -233,7 +233,7 @@ impl View<'_> {
         let (Some(scalars), Some(objects)) = (scalars, objects) else {
             return Err(Fault::Malformed);
         };
-        // Registers of results that are no arguments hold nothing yet.
+        // Result registers beyond the arguments are empty so far.
         scalars[arguments.scalars.len()..].fill(0);
         objects[arguments.objects.len()..].fill(Object::EMPTY);
         let mut call = HostCall {

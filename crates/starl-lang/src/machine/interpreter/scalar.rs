@@ -167,7 +167,7 @@ pub(in crate::machine) fn point_of_other(
     point.copied().ok_or(Fault::Malformed)
 }
 
-/// What a program is told that asks for the state of a robot that there is not.
+/// The error of a program that asks for the state of a robot that does not exist.
 pub(in crate::machine) fn unknown_robot() -> Fault {
     Fault::Host(Cow::Borrowed(
         "there is no such robot that runs this program",

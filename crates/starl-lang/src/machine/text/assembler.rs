@@ -54,12 +54,12 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
-/// What is wrong with the text form of a program.
+/// An error in the text form of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AssemblyError {
     /// The line, counted from one.
     pub line: u32,
-    /// What is wrong with it.
+    /// The reason.
     pub reason: &'static str,
 }
 

@@ -18,12 +18,12 @@ pub const WORD: usize = 8;
 
 /// A text, collection, area or obstacles; one word.
 ///
-/// The counted reference has no weak ones, so that to see that nobody else holds the body, as every
-/// change of an element does, is to look at a number and takes no atomic exchange.
+/// The reference count has no weak references. So a change of an element finds out whether it is the only holder by
+/// reading a number, without an atomic exchange.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Object(Option<Arc<Body>>);
 
-/// What an object holds.
+/// The content of an object.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Body {
@@ -53,7 +53,7 @@ impl Object {
     /// The empty text, list, set or map; no area, no obstacles.
     pub const EMPTY: Object = Object(None);
 
-    /// What it holds; none if it is empty.
+    /// Its content; none if it is empty.
     #[inline]
     pub fn body(&self) -> Option<&Body> {
         self.0.as_deref()
@@ -110,7 +110,7 @@ impl Object {
         }
     }
 
-    /// A list to be changed if there is one that nobody else holds.
+    /// The list, mutable, if this is its only holder.
     #[inline]
     pub fn own_list_mut(&mut self) -> Option<&mut List> {
         match Arc::get_mut(self.0.as_mut()?)? {

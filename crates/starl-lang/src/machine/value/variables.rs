@@ -1,4 +1,4 @@
-//! Variables of a state by name: for parameters, and for whoever looks at a state.
+//! Variables of a state by name: for parameters, and for inspecting a state.
 
 use crate::machine::program::Program;
 use crate::machine::types::{Layout, Type};

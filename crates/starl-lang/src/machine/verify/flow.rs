@@ -1,8 +1,8 @@
-//! What registers hold at each instruction of a function, by following all ways through it.
+//! The contents of registers at each instruction of a function, found by following all paths through it.
 //!
-//! A data-flow analysis as in the verifier of the Java virtual machine (Lindholm and Yellin 1996,
-//! section 4.9), with less to know: of a scalar register whether it was written, of an object register
-//! the type of what was. Where ways meet, what they do not agree on counts as not written.
+//! A data-flow analysis as in the verifier of the Java virtual machine (Lindholm and Yellin 1996, section 4.9), with
+//! fewer facts: whether a scalar register was written, and the type of the object in an object register. Where paths
+//! meet, a register on which they differ counts as not written.
 //!
 //! Invariant: facts at an instruction only ever become fewer, so the analysis ends.
 
@@ -23,7 +23,7 @@ const UNWRITTEN: u16 = u16::MAX;
 /// A rule that is broken.
 pub(in crate::machine) type Broken = &'static str;
 
-/// What is known of the registers before an instruction.
+/// The facts about the registers before an instruction.
 #[derive(Clone, PartialEq, Eq)]
 pub(in crate::machine) struct Facts {
     scalars: [u64; WINDOW / 64],

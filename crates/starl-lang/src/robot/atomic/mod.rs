@@ -1,20 +1,19 @@
 //! Actions with `atomic`: how a robot reads and writes linearizable variables as one step.
 //!
-//! When the guard of such an action holds by what the robot knows, the robot asks for the lock of the
-//! action's variables and claims them: it reads their latest values from a majority, which promises to store
-//! nothing under a lower number any more. It finds out what the action writes, has that stored by a majority,
-//! and only then the action takes place, as it was found out. If others have claimed the variables meanwhile it
-//! is not stored, nothing has happened, and the action is tried anew.
+//! When the guard of such an action holds for the values that the robot knows, the robot requests the lock of the
+//! action's variables. Then it claims them: it reads their latest values from a majority, which promises not to store
+//! anything under a lower number. Then the robot computes the action's writes and asks a majority to store them. The
+//! action takes place, with these writes, only after they are stored. If another robot has claimed the variables
+//! meanwhile, nothing is stored and the action is retried.
 //!
-//! Safety rests on the claims alone (`starl_primitives::register`, the module `claiming`): the lock, which has
-//! leases so that who holds it may fail, only keeps robots from disturbing each other. So neither clocks nor
-//! leases nor suspicions can lose what an action wrote.
+//! Safety rests on the claims alone (`starl_primitives::register`, the module `claiming`): the lock only reduces
+//! contention, and has leases so that its holder may fail. So neither clocks nor leases nor false suspicions can lose
+//! an action's writes.
 //!
-//! Invariants: a robot waits for one action at a time, and holds the lock of no others, so robots do not wait
-//! for each other in circles. Variables that some action uses together are one group: one lock, and one
-//! register that holds the values of all of them, so that of what an action writes others see all or
-//! nothing, even if the robot crashes meanwhile. While what an action writes is being stored, nothing that the
-//! action depends on changes ([`Conflicts`]).
+//! Invariants: a robot waits for one action at a time, and holds the lock of no others, so robots do not wait for each
+//! other in circles. Variables that some action uses together are one group: one lock, and one register that holds the
+//! values of all of them, so that others see all writes of an action or none, even if the robot crashes meanwhile.
+//! While an action's writes are being stored, nothing that the action depends on changes ([`Conflicts`]).
 
 mod footprint;
 mod groups;
@@ -66,7 +65,7 @@ enum Stage {
     Storing(u32, OperationId),
 }
 
-/// What is to be done with an action now.
+/// The next step of an action.
 #[derive(Debug)]
 pub enum Step {
     /// Find out what it writes, given the values ([`Atomic::open`]), and store that ([`Atomic::store`]).
@@ -128,7 +127,7 @@ impl Atomic {
         });
     }
 
-    /// What the values are after an action was tried.
+    /// The values after an action was tried.
     pub fn take_values(&mut self) -> Values {
         self.open.take().map(|open| open.values).unwrap_or_default()
     }
@@ -276,7 +275,7 @@ impl Atomic {
         }
     }
 
-    /// Asks anew for a lock that has ended meanwhile, and sets right what only a corruption leaves behind.
+    /// Requests a lock again that has ended meanwhile, and repairs states that only a corruption leaves behind.
     fn set_right(&mut self, robot: &mut Robot<'_>, code: &Code) {
         match self.stage {
             Stage::Idle if self.mutex.crit() || self.mutex.is_waiting() => {
@@ -356,7 +355,7 @@ impl Primitive for Half<'_> {
     }
 }
 
-/// Reads a group's register. What is none of ours is as if nothing was ever written.
+/// Reads a group's register. Bytes that are not a valid value count as never written.
 fn values(bytes: Option<&[u8]>) -> Values {
     bytes.and_then(message::decode).unwrap_or_default()
 }

@@ -1,5 +1,5 @@
-//! The built-in functions and names of the language that need the robot. What depends on arguments
-//! alone is compiled to instructions.
+//! The built-in functions and names of the language that need the robot. Functions that depend on their arguments alone
+//! are compiled to instructions.
 
 mod driving;
 mod sensing;
@@ -18,15 +18,15 @@ use starl_core::Command;
 /// A built-in function or name.
 #[derive(Debug)]
 pub struct Builtin {
-    /// What it is called, takes and gives.
+    /// Its name, arguments and results.
     pub signature: Signature,
     /// Whether what it tells depends on its arguments alone, and on what is the same from one input to the next.
     pub is_steady: bool,
-    /// What it does.
+    /// The function that runs it.
     pub run: Run,
 }
 
-/// What a built-in does.
+/// The implementation of a built-in.
 pub type Run = fn(&mut RobotHost<'_, '_>, &mut HostCall<'_>) -> Called;
 
 /// One that only tells.

@@ -49,7 +49,7 @@ pub struct Attended<'a> {
     pub seat: &'a mut Seat,
     /// Where it listens.
     pub port: Port,
-    /// What the program says of it.
+    /// The instance in the program.
     pub form: &'a Instance,
     /// Its number among the program's primitives.
     pub number: u32,

@@ -13,7 +13,7 @@ use starl_primitives::election::{Algorithm, Change, Options};
 impl Kind for LeaderElection {
     const NAME: &'static str = "LeaderElection";
 
-    /// The name of the election, who takes part (all, if none are given), and how a leader is found.
+    /// The name of the election, the participants (all, if none are given), and the algorithm.
     const CONSTRUCTOR: &'static [Shape] = &[
         Shape::Text,
         Shape::Optional(&Shape::Set(&Shape::Robot)),

@@ -38,18 +38,18 @@ pub type Slot = Option<Seat>;
 
 /// A method or flag of a kind of primitive.
 pub struct Member<P: 'static> {
-    /// What it is called, takes and gives.
+    /// Its name, arguments and results.
     pub signature: Signature,
-    /// What it does; arguments begin with the instance's number.
+    /// The function that runs it; arguments begin with the instance's number.
     pub run: fn(&mut P, &mut Context<'_, '_>, &mut HostCall<'_>) -> Called,
 }
 
 /// Something that a kind of primitive reports.
 #[derive(Debug)]
 pub struct Event {
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
-    /// What it carries.
+    /// Its fields.
     pub parameters: &'static [Shape],
 }
 
@@ -64,14 +64,14 @@ pub struct Report {
     pub objects: Vec<Object>,
 }
 
-/// What primitives of a program have in common, and which of it a kind needs.
+/// The services that a kind of primitive needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Needs {
     /// The memory that shared variables lie in.
     pub memory: bool,
     /// The detector of failed robots.
     pub detector: bool,
-    /// What actions with `atomic` need.
+    /// The services of actions with `atomic`.
     pub atomic: bool,
 }
 
@@ -83,7 +83,7 @@ impl Needs {
         atomic: false,
     };
 
-    /// What one of two needs.
+    /// The needs of either.
     pub fn or(self, other: Needs) -> Needs {
         Needs {
             memory: self.memory || other.memory,
@@ -129,15 +129,15 @@ impl Attention {
 pub trait Kind: Clone + fmt::Debug + Send + Sync + Sized + 'static {
     /// Its name.
     const NAME: &'static str;
-    /// What it is bound with.
+    /// The parameters of its constructor.
     const CONSTRUCTOR: &'static [Shape];
     /// Its methods and flags.
     const MEMBERS: &'static [Member<Self>];
-    /// What it reports.
+    /// The events that it reports.
     const EVENTS: &'static [Event] = &[];
-    /// What it shares with the program's other primitives.
+    /// The services that it shares with the program's other primitives.
     const NEEDS: Needs = Needs::NOTHING;
-    /// What it must be shown.
+    /// The inputs that it must receive.
     const ATTENTION: Attention = Attention::FULL;
 
     /// Binds an instance.
@@ -150,8 +150,8 @@ pub trait Kind: Clone + fmt::Debug + Send + Sync + Sized + 'static {
     /// The state machine; none if it has none of its own.
     fn primitive(&mut self) -> Option<&mut dyn Primitive>;
 
-    /// Overwrites its state at random, as a transient fault would. What lies in the program's shared services
-    /// is overwritten there.
+    /// Overwrites its state at random, as a transient fault would. State in the program's shared services is
+    /// overwritten there.
     fn corrupt(&mut self, random: &mut Random);
 
     /// Hands over what has happened since the last call.
@@ -242,15 +242,15 @@ impl<P: Kind> Bound for P {
 pub struct Entry {
     /// The kind's name.
     pub name: &'static str,
-    /// What it is bound with.
+    /// The parameters of its constructor.
     pub constructor: &'static [Shape],
     /// The signature of the member with this number.
     pub member: fn(usize) -> Option<&'static Signature>,
-    /// What it reports.
+    /// The events that it reports.
     pub events: &'static [Event],
-    /// What it shares with the program's other primitives.
+    /// The services that it shares with the program's other primitives.
     pub needs: Needs,
-    /// What it must be shown.
+    /// The inputs that it must receive.
     pub attention: Attention,
     /// Binds an instance.
     pub bind: Bind,

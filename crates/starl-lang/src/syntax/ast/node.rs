@@ -1,4 +1,4 @@
-//! What all types of nodes have in common.
+//! Common code of all node types.
 
 use alloc::boxed::Box;
 

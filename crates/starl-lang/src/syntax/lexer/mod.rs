@@ -30,7 +30,7 @@ impl Tokens {
         self.kinds.len()
     }
 
-    /// What the token is; [`EndOfFile`] after the last.
+    /// The kind of the token; [`EndOfFile`] after the last.
     pub fn kind(&self, index: usize) -> SyntaxKind {
         self.kinds.get(index).copied().unwrap_or(EndOfFile)
     }

@@ -1,4 +1,4 @@
-//! What is wrong with single tokens.
+//! Problems of single tokens.
 
 use alloc::format;
 use alloc::string::String;

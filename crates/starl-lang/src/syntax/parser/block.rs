@@ -4,7 +4,7 @@ use alloc::format;
 
 use super::slips::{self, Colon};
 use super::{Code, Diagnostic, Parser, Span, SyntaxKind, SyntaxKind::*, statement};
-use crate::diagnostic::{Edit, Mend};
+use crate::diagnostic::{Edit, Fix};
 
 /// The indented statements under a header; `owner` is what needs them.
 pub(super) fn indented(parser: &mut Parser<'_>, owner: &str) {
@@ -31,7 +31,7 @@ pub(super) fn after_word(parser: &mut Parser<'_>, owner: &str, goes_on: bool) {
     parser.finish();
 }
 
-/// What belongs to `else`: a statement on its line, or a block.
+/// Parses the body of `else`: a statement on its line, or a block.
 pub(super) fn after_else(parser: &mut Parser<'_>) {
     slips::header_colon(parser, Colon::Remove);
     if parser.at_line_end() {
@@ -84,7 +84,7 @@ fn missing(parser: &mut Parser<'_>, owner: &str) {
         let start = parser.start_of_line(next.start);
         let problem = problem.label(next, "this line is not indented deeper");
         let edits = [Edit::new(Span::empty(start), "    ")].into();
-        problem.mend(Mend {
+        problem.fix(Fix {
             message: "indent what belongs to it by 4 more spaces".into(),
             edits,
         })
@@ -149,7 +149,7 @@ pub(super) fn unexpected_indentation(parser: &mut Parser<'_>, inner: fn(&mut Par
     let first = parser.nth_span(1);
     let start = parser.start_of_line(first.start);
     parser.start(Error);
-    // What is wrong with the line above may well be why this one is not understood.
+    // An error on the line above may be the reason why this line is not understood.
     let line_above = parser.start_of_line(parser.end_of_last());
     if parser.last_report.is_some_and(|end| end >= line_above) {
         parser.skip_block();
@@ -186,7 +186,7 @@ fn move_operator(parser: &mut Parser<'_>, problem: Diagnostic) {
     .into();
     let message = format!("move `{text}` to the end of the line above");
     let problem = problem.note("a line goes on in the next if it ends in an operator");
-    parser.report(problem.mend(Mend { message, edits }));
+    parser.report(problem.fix(Fix { message, edits }));
 }
 
 /// Whether it stands between two operands.

@@ -7,7 +7,7 @@ use rowan::Checkpoint;
 use super::operand::{self, postfix};
 use super::{Code, Diagnostic, MAX_DEPTH, Parser, Span, SyntaxKind, SyntaxKind::*};
 
-/// What an expression is, as far as statements ask.
+/// The shape of an expression, for the parser of statements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shape {
     /// Something that can be assigned to: a name, or a field or an element of one.
@@ -25,7 +25,7 @@ pub(super) enum Shape {
 /// An expression that was parsed.
 #[derive(Clone, Copy)]
 pub(super) struct Parsed {
-    /// What it is.
+    /// Its shape.
     pub shape: Shape,
     /// How deep its tree is.
     pub height: u32,
@@ -161,12 +161,12 @@ fn prefix(parser: &mut Parser<'_>, start: Checkpoint) -> Option<Parsed> {
         NotKeyword => power::NOT,
         Bang => {
             let span = parser.span();
-            let mend = ("write `not`", "not ");
+            let fix = ("write `not`", "not ");
             super::slips::foreign_operator(
                 parser,
                 span,
                 "`!` before a value is written `not`",
-                mend,
+                fix,
             );
             power::SIGN
         }
@@ -203,9 +203,9 @@ fn chained(parser: &mut Parser<'_>, span: Span, operand: u32) {
         span,
         "a comparison cannot be compared again",
     );
-    let mend = format!(" and {text}");
+    let fix = format!(" and {text}");
     let form = format!("write `and {text}` before it");
-    parser.report(problem.replace(form, Span::empty(middle.end), mend));
+    parser.report(problem.replace(form, Span::empty(middle.end), fix));
 }
 
 /// Whether the kind can begin an operand.

@@ -1,4 +1,4 @@
-//! What a file is made of: the header and declarations, one after another.
+//! The parts of a file: the header and declarations, one after another.
 
 use alloc::format;
 
@@ -141,7 +141,7 @@ fn check_place(parser: &mut Parser<'_>, kind: SyntaxKind, place: Place, first: u
     }
 }
 
-/// Something that is no declaration.
+/// Text that is not a declaration.
 fn other(parser: &mut Parser<'_>, start: Checkpoint) {
     match parser.current() {
         PreKeyword | EffKeyword => {

@@ -1,5 +1,4 @@
-//! What operators stand between: literals, names, calls, elements, fields, brackets, and the forms that
-//! begin with a word.
+//! Operands: literals, names, calls, elements, fields, brackets, and the forms that begin with a keyword.
 
 use alloc::format;
 

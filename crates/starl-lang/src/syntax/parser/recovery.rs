@@ -65,7 +65,7 @@ impl Parser<'_> {
         self.finish();
     }
 
-    /// What must follow a statement or a declaration: the end of the line, or of the block.
+    /// Parses the end of a statement or a declaration: the end of the line, or of the block.
     pub fn end_line(&mut self) {
         let after_block = self.position > 0 && self.lexemes[self.position - 1].kind == Dedent;
         if !self.at_line_end() && !after_block {
@@ -178,7 +178,7 @@ impl Parser<'_> {
         self.last_error = Some(self.position);
     }
 
-    /// What indents the lines from the one with the byte `from` to the one with the byte before `to`.
+    /// The edits that indent the lines from the one with the byte `from` to the one with the byte before `to`.
     pub fn indent_lines(&self, from: u32, to: u32) -> Vec<Edit> {
         let first = self.start_of_line(from);
         let line_ends = self.text[first as usize..to as usize].match_indices('\n');

@@ -48,7 +48,7 @@ impl Parser<'_> {
         before.find(|kind| *kind != Whitespace) == Some(Unknown)
     }
 
-    /// What the next lexeme is called where a person is told of it.
+    /// The name of the next lexeme in messages.
     pub fn found(&self) -> String {
         match self.current() {
             kind if kind.text().is_some() => kind.name().into(),

@@ -76,7 +76,7 @@ fn angle_arguments(parser: &mut Parser<'_>) {
         let edits = [(open, "["), (close, "]")]
             .map(|(span, text)| crate::diagnostic::Edit::new(span, text));
         let message = "write it in square brackets".into();
-        parser.report(problem.mend(crate::diagnostic::Mend {
+        parser.report(problem.fix(crate::diagnostic::Fix {
             message,
             edits: edits.into(),
         }));

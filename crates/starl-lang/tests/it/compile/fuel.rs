@@ -1,4 +1,4 @@
-//! What code costs: loops are bounded, and good code is cheap.
+//! The cost of code: loops are bounded, and good code is cheap.
 
 use starl_lang::check::NoLibraries;
 use starl_lang::machine::{Fault, Limits, Value, disassemble};

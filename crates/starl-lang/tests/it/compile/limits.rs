@@ -1,4 +1,4 @@
-//! What the machine cannot hold is said, at its place.
+//! The compiler reports, with the position, programs that exceed the machine's limits.
 
 use starl_lang::check::{NoLibraries, check};
 use starl_lang::compile::compile;

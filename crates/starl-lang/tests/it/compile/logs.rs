@@ -1,4 +1,4 @@
-//! What `log` and `emit` tell.
+//! The output of `log` and `emit`.
 
 use super::support::effect;
 
@@ -41,7 +41,7 @@ fn places_and_values_that_do_not_match() {
 }
 
 #[test]
-fn a_format_that_is_no_literal() {
+fn a_format_that_is_not_a_literal() {
     let body = "log(f, 1, \"b\")\nlog(f + f, 1, \"b\", 2.5)\nlog(\"{}\" + f, s)\nlog(s, 1)\nlog(f + f + f, s)";
     let told = effect("f: String = \"<{}|{}>\"\ns: String = \"t\"", body).unwrap();
     assert_eq!(

@@ -106,7 +106,7 @@ fn leaving_early() {
 }
 
 #[test]
-fn locals_begin_anew_in_each_turn() {
+fn locals_are_initialized_in_each_iteration() {
     let body = "for x in a\n    let l: List[Int] = []\n    l.add(x)\n    let c = 0\n    c += 1\n    log(\"{} {}\", l, c)";
     assert_eq!(told(body), ["[3] 1", "[1] 1", "[2] 1"]);
 }

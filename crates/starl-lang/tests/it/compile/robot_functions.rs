@@ -1,4 +1,4 @@
-//! What asks and tells the robot itself.
+//! Functions that call the robot.
 
 use starl_lang::machine::Value;
 

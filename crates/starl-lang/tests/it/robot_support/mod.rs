@@ -1,5 +1,5 @@
-//! What the tests of programs on robots share: a small world of robots whose programs are driven by
-//! hand, and whose network can be told what to do.
+//! Common code of the tests of programs on robots: a small world of robots whose programs run step by step, with a
+//! network under the test's control.
 
 pub mod race;
 
@@ -97,7 +97,7 @@ impl World {
         World(fleet)
     }
 
-    /// Puts way-points at these places, named `w0`, `w1` and so on.
+    /// Puts waypoints at these positions, named `w0`, `w1` and so on.
     pub fn with_way_points(mut self, places: &[(f64, f64)]) -> World {
         let places = places.iter().enumerate();
         let way_points = places.map(|(index, &(x, y))| WayPoint {

@@ -1,4 +1,4 @@
-//! What must hold of every program that is generated, whatever the bytes.
+//! Properties that must hold for every generated program, whatever its bytes.
 
 use super::compare::{Compared, compare};
 use super::generate::{Choices, layout, program, program_with_parentheses};

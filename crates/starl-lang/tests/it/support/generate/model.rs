@@ -1,4 +1,4 @@
-//! What a generated program declares, as far as the rest of it needs to know.
+//! The declarations of a generated program, for generating its other parts.
 
 /// A type.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -139,7 +139,7 @@ impl Place {
     }
 }
 
-/// What is declared.
+/// The declarations.
 pub struct Model {
     pub enums: Vec<Enum>,
     pub records: Vec<Record>,
@@ -154,7 +154,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// What every program has without declaring it.
+    /// The built-in declarations.
     pub fn new() -> Model {
         let field = |name: &str, ty| Named {
             name: name.into(),

@@ -7,7 +7,7 @@ use starl_lang::check::{Builtin, Method};
 use starl_lang::machine::Fault;
 use std::cmp::Ordering;
 
-/// What a pure function gives. Arguments that were left out are none.
+/// The result of a pure function. Omitted arguments are none.
 pub fn pure(builtin: Builtin, arguments: Vec<Option<Value>>) -> Outcome<Value> {
     use Value::{Float, Int};
     let mut given = arguments.into_iter();
@@ -141,7 +141,7 @@ fn keys(map: Vec<(Value, Value)>) -> Vec<Value> {
     map.into_iter().map(|(key, _)| key).collect()
 }
 
-/// What a method gives that changes nothing.
+/// The result of a method that changes nothing.
 pub fn method(method: Method, receiver: Value, arguments: Vec<Value>) -> Outcome<Value> {
     use Value::{Bool, Int, List, Map, Set, Text};
     let mut arguments = arguments.into_iter();

@@ -1,4 +1,4 @@
-//! What statements do.
+//! The execution of statements.
 
 use super::builtin::{index, position};
 use super::operator::apply;
@@ -8,7 +8,7 @@ use starl_lang::check::Method;
 use starl_lang::ir::*;
 use starl_lang::machine::{self, Fault};
 
-/// What an end of a block is: none if it goes on after it, else what is returned.
+/// The end of a block: none if execution continues after it, else the returned value.
 type End = Option<Option<Value>>;
 
 /// A step with its index or key, which was computed.
@@ -219,7 +219,7 @@ impl<'a> Reference<'a> {
     }
 }
 
-/// What a method does that changes what it is called on.
+/// Calls a method that changes its receiver.
 fn changed(value: &mut Value, method: Method, arguments: Vec<Value>) -> Outcome<()> {
     let mut arguments = arguments.into_iter();
     match (method.name(), value, arguments.next(), arguments.next()) {
