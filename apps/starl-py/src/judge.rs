@@ -57,7 +57,7 @@ fn kind(name: &str) -> PyResult<Kind> {
         "Float" => Ok(Kind::Float),
         "Point" => Ok(Kind::Point),
         other => Err(refused(format!(
-            "the type `{other}` is none of Bool, Float and Point"
+            "the type `{other}` is not Bool, Float or Point"
         ))),
     }
 }

@@ -1,4 +1,4 @@
-//! Sweeps: plans, single runs, and the rows that came back, from wherever they were run.
+//! Sweeps: plans, single runs, and their rows from any process.
 
 use crate::engine::{Engine, registry};
 use crate::table::Table;

@@ -1,7 +1,7 @@
-//! The journal of a sweep: rows as they come, so that a sweep that was stopped, however hard, goes on where it was.
+//! The journal of a sweep: its finished rows, so that a sweep that was stopped in any way continues where it was.
 //!
-//! The first line says which plan the journal belongs to; every other line is a row. A line counts once it is complete:
-//! the torn last line of a process that was killed is cut off. While a sweep writes to its journal, no other one can.
+//! The first line says which plan the journal belongs to; every other line is a row. Only complete lines count: the
+//! incomplete last line of a killed process is removed. A journal has one writer at a time.
 
 use crate::{Axis, Error, Measured, Plan, Seeds};
 use serde::{Deserialize, Serialize};

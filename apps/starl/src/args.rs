@@ -135,7 +135,8 @@ pub struct RunArguments {
 /// The options of the robots' log.
 #[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
 pub struct LogArguments {
-    /// Show what programs log, as it happens, on the error stream; with a level, what matters at least so much
+    /// Show the log lines of programs while they run, on the error stream; with a level, only lines of this level and
+    /// above
     #[arg(long, value_name = "LEVEL", num_args = 0..=1, require_equals = true, default_missing_value = "info")]
     pub log: Option<Shown>,
     /// Show the log of these robots only
@@ -482,7 +483,7 @@ pub struct SweepArguments {
     /// An example's name (see `starl list`), a scenario file, or a program: a file ending in .starl
     pub target: String,
     /// Write a row for each run to this file (.parquet, .csv or .jsonl), with a journal beside it from which an
-    /// interrupted sweep goes on
+    /// interrupted sweep continues
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Draw the first metric against the first axis to this .svg or .png file, with a line for each value of the others

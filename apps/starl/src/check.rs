@@ -1,4 +1,4 @@
-//! `starl check`: all that is wrong with programs and libraries.
+//! `starl check`: reports all problems of programs and libraries.
 
 use crate::args::CheckArguments;
 use crate::console;
@@ -99,7 +99,7 @@ pub fn examine(
 }
 
 impl Examinee {
-    /// All that is wrong with it, as a person reads it.
+    /// All its problems, as text.
     pub fn render(&self, colour: Colour) -> String {
         let CheckedFile {
             source,

@@ -1,5 +1,4 @@
-//! Writes to the terminal, or to wherever the output goes. A reader that has gone away (`| head`) is
-//! no error; a disk that is full is.
+//! Writes to standard output and to the error stream. A closed reader (`| head`) is not an error; a full disk is.
 
 use crate::failure::Failure;
 use starl_catalog::disk::reason;

@@ -12,7 +12,7 @@ use starl_lang::diagnostic::Code;
 use starl_lang::explain::StateMachine;
 use std::path::{Path, PathBuf};
 
-/// Draws a program, or shows the page of a code. False if the program has errors, of which is told.
+/// Draws a program, or shows the page of a code. False if the program has errors, which are printed.
 pub fn run(arguments: &ExplainArguments) -> Result<bool, Failure> {
     let mut codes = Code::ALL.iter();
     let asked = |code: &&Code| code.number().eq_ignore_ascii_case(&arguments.program);

@@ -1,7 +1,6 @@
-//! `starl fmt`: lays programs out in the one canonical way.
+//! `starl fmt`: formats programs in the standard layout.
 //!
-//! Invariant: a file is there whole, as it was or as it is to be, at every moment; one with errors in
-//! its text stays as it is.
+//! Invariant: a file is replaced atomically, and a file with syntax errors is not changed.
 
 use crate::args::FormatArguments;
 use crate::console;

@@ -91,9 +91,9 @@ pub struct CommandLine {
 }
 
 impl CommandLine {
-    /// With one more program: its name in scenarios, what it does in one line for `list`, and how a robot's
-    /// program is made from the `parameters` of the scenario. A scenario that gives a parameter for which
-    /// `make` does not ask is refused.
+    /// Adds a program: its name in scenarios, its summary in one line for `list`, and a function that makes a robot's
+    /// program from the `parameters` of the scenario. A scenario with a parameter that `make` does not request is
+    /// rejected.
     ///
     /// # Panics
     /// If the name is empty, is taken, or ends in `.starl`, which names files.

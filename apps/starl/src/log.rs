@@ -34,7 +34,7 @@ impl Shown {
     }
 }
 
-/// Shows lines of the log as they come.
+/// Shows lines of the log during the run.
 pub struct Log {
     least: Level,
     /// The robots whose lines are shown; all if none are named.

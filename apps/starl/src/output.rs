@@ -91,7 +91,7 @@ impl Drop for Output {
     }
 }
 
-/// Opens a file under its own name; what it held is gone. It is a regular file unless the name is that of a
+/// Opens a file under its own name and discards its old content. It is a regular file unless the name is that of a
 /// pipe, a device or the like.
 pub fn create_now(path: &Path) -> Result<File, Failure> {
     let is_special = is_special(path)?;

@@ -22,7 +22,7 @@ pub fn text(report: &Report) -> String {
     text
 }
 
-/// The violations and failures alone: what is said even when nothing else is to be.
+/// The violations and failures alone, which `--quiet` also prints.
 pub fn violations(report: &Report) -> String {
     let mut text = String::new();
     let _ = failures(&mut text, report);
@@ -100,7 +100,7 @@ fn ending(report: &Report) -> String {
         Ending::Over(Outcome::Reached) => match &report.open().collect::<Vec<_>>()[..] {
             [] => format!("goal reached after {at}"),
             open => format!(
-                "goal reached after {at}, but what {} demands has not come",
+                "goal reached after {at}, but {} is still open",
                 listed(open)
             ),
         },

@@ -1,4 +1,4 @@
-//! Finds what `starl run TARGET` means, and reads it with all that the command line changes.
+//! Finds the target of `starl run TARGET`, and reads it with the changes of the command line.
 
 use crate::args::RunArguments;
 use crate::console;
@@ -27,7 +27,7 @@ pub struct Selection {
     pub application: Application,
     /// The files on disk that it was read from.
     pub files: Vec<PathBuf>,
-    /// Where the files that the scenario names come from.
+    /// The origin of the files that the scenario names.
     pub origin: Origin,
 }
 
@@ -94,7 +94,7 @@ fn warn(application: &Application, origin: &Origin) {
     }
 }
 
-/// Tells of programs with errors, each with its lines; the failure sums them up.
+/// Prints the errors of programs, each with its lines; the failure sums them up.
 pub fn refused(refusal: Refusal) -> Failure {
     tell(&refusal, |findings| findings.name.clone())
 }

@@ -75,7 +75,7 @@ pub struct Effects {
 pub(crate) struct Scratch(Option<Box<dyn Any + Send + Sync>>);
 
 impl Scratch {
-    /// Takes what was kept; none if there is nothing or something of another type.
+    /// Takes the kept value; none if there is none, or one of another type.
     pub fn take<T: Any + Send + Sync>(&mut self) -> Option<Box<T>> {
         self.0.take()?.downcast().ok()
     }

@@ -12,9 +12,9 @@ pub struct Bounds {
     pub losses: u8,
     /// Datagrams that arrive once more than they were sent, at most; default 0.
     pub duplicates: u8,
-    /// Whether all that was once sent may arrive any number of times, or never: at any time later, or as long as
-    /// [`Clocks::Ticking`] bounds the delay. Losses and duplicates are then not counted, and add nothing but for
-    /// robots that wait for ever for what was lost. Default false.
+    /// Whether each sent datagram may arrive any number of times, or never: at any later time, or within the delay
+    /// bound of [`Clocks::Ticking`]. Losses and duplicates are then not counted. Only robots that wait for ever for a
+    /// lost datagram are not found. Default false.
     #[serde(default)]
     pub any_copies: bool,
     /// Crashes, at most, of all robots together; each robot that is down may start again at any time, or
@@ -27,8 +27,8 @@ pub struct Bounds {
     pub timers: u8,
     /// The model of clocks.
     pub clocks: Clocks,
-    /// States further than this many steps from the start are not explored; default none. A search
-    /// that comes upon this bound is not complete.
+    /// States further than this many steps from the start are not explored; default none. A search that reaches this
+    /// bound is not complete.
     pub depth: Option<u32>,
     /// The search stops when there are this many states, and is not complete then; default 10
     /// million.
@@ -58,7 +58,7 @@ pub enum Clocks {
 }
 
 impl Bounds {
-    /// So many timers are not counted: they fire any number of times.
+    /// The value for timers without a bound: they fire any number of times.
     pub const ANY_NUMBER: u8 = u8::MAX;
 }
 

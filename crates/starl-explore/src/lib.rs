@@ -1,13 +1,12 @@
-//! Explores every behaviour of a small fleet within bounds: all orders in which datagrams can arrive,
-//! losses, duplicates, crashes and restarts, timers and activations at any time they could come.
+//! Explores every behaviour of a small fleet within bounds: all orders in which datagrams can arrive, losses,
+//! duplicates, crashes and restarts, timers and activations at every possible time.
 //!
-//! It is a host of the same [`starl_core::Agent`] as the simulator, with the same checkers of properties.
-//! A simulation is one behaviour out of many. An exploration is all of them, for fleets that are small
-//! enough. Robots stand still. `docs/explanation/exploration.md` explains the model of time, and the
-//! meaning of a search that found nothing.
+//! It is a host of the same [`starl_core::Agent`] as the simulator, with the same checkers of properties. A simulation
+//! shows one behaviour. An exploration visits all of them, for small fleets. Robots stand still.
+//! `docs/explanation/exploration.md` explains the model of time, and the meaning of a search that found nothing.
 //!
-//! [`Search`] finds the states, and the shortest way to a violation; [`Walk`] goes that way step by step,
-//! without any of the search's shortcuts.
+//! [`Search`] finds the states, and the shortest path to a violation; [`Walk`] follows that path step by step, without
+//! any of the search's optimisations.
 
 mod actors;
 mod bounds;

@@ -1,7 +1,7 @@
-//! One robot in an exploration: its software, timers and clock, and what an input makes of it.
+//! One robot in an exploration: its software, timers and clock, and the effect of an input.
 //!
-//! Invariant: [`Local::write`] writes all that the future of the robot depends on, so that two robots
-//! of one number that write the same answer every input alike.
+//! Invariant: [`Local::write`] writes everything that the robot's future depends on, so that two robots of one number
+//! that write the same text answer every input alike.
 
 use crate::bounds::Clocks;
 use crate::model::{Member, Model};
@@ -86,7 +86,7 @@ impl Surroundings {
         }
     }
 
-    /// The time at which a clock has ticked so often.
+    /// The time of a clock after this number of ticks.
     pub fn time(&self, ticks: u64) -> Time {
         Time::ZERO + self.tick() * ticks
     }
@@ -176,7 +176,7 @@ impl Local {
         timers
     }
 
-    /// Whether a timer is due that has to fire before the clock goes on.
+    /// Whether a timer is due that must fire before the clock advances.
     pub fn is_due(&self, surroundings: &Surroundings) -> bool {
         let silent: &BTreeSet<Port> = &surroundings.model.silent;
         let is_due = |(at, key): (Time, TimerKey)| {
@@ -185,7 +185,7 @@ impl Local {
         self.runs() && self.node.timers().iter().any(is_due)
     }
 
-    /// Writes all that its future depends on.
+    /// Writes everything that its future depends on.
     pub fn write(&self, surroundings: &Surroundings, text: &mut String) {
         let Local {
             node,

@@ -1,7 +1,7 @@
-//! The states of single robots, by number, and what each input makes of them.
+//! The states of single robots, by number, and their successors for each input.
 //!
-//! A fleet has far fewer states of single robots than it has states, so programs run once for each
-//! state of a robot and input, and never again.
+//! A fleet has far fewer states of single robots than it has states, so a program runs once for each state of a robot
+//! and input.
 
 use crate::code::{Code, Kind, MOST_DATAGRAMS};
 use crate::doubt::Doubt;
@@ -44,7 +44,7 @@ pub(crate) struct Outcome {
     pub local: u32,
     /// The events for the checkers.
     pub batch: u32,
-    /// Where the numbers of what it sent are.
+    /// The range of the numbers of its sent messages.
     pub sent: (u32, u32),
 }
 
@@ -108,7 +108,7 @@ impl Robots {
         self.states[local as usize].robot()
     }
 
-    /// The numbers of what was sent in a turn.
+    /// The numbers of the messages sent in a turn.
     pub fn sent(&self, (begin, end): (u32, u32)) -> &[u32] {
         &self.sent[begin as usize..end as usize]
     }
@@ -157,7 +157,7 @@ impl Robots {
         }
     }
 
-    /// Gives all that has come of a turn its numbers.
+    /// Numbers the results of a turn.
     pub(crate) fn enter(&mut self, turn: crate::robot::Turn) -> Outcome {
         self.motions += turn.motions;
         let robot = turn.local.robot();

@@ -55,7 +55,7 @@ pub enum Step {
     Duplicate(Datagram),
     /// A datagram gets lost.
     Lose(Datagram),
-    /// A robot crashes: all that its program knows is gone.
+    /// A robot crashes, and its program loses all state.
     Crash(RobotId),
     /// A robot that was down starts again.
     Restart(RobotId),
@@ -114,7 +114,7 @@ impl fmt::Display for Step {
             }
             Step::Duplicate(Datagram { from, to, .. }) => write!(
                 f,
-                "a datagram from robot {from} reaches robot {to}, and a copy stays on its way"
+                "a datagram from robot {from} reaches robot {to}, and a copy stays in transit"
             ),
             Step::Lose(Datagram { from, to, .. }) => {
                 write!(f, "a datagram from robot {from} to robot {to} gets lost")
@@ -123,7 +123,7 @@ impl fmt::Display for Step {
             Step::Restart(robot) => write!(f, "robot {robot} starts again"),
             Step::RestartDeaf(robot) => write!(
                 f,
-                "robot {robot} starts again; what was on its way to it has got lost"
+                "robot {robot} restarts; the datagrams in transit to it are lost"
             ),
             Step::Suspect(robot, peer) => write!(f, "robot {robot} suspects robot {peer}"),
             Step::Trust(robot, peer) => write!(f, "robot {robot} trusts robot {peer} again"),

@@ -1,7 +1,7 @@
-//! Goes one way through the states, step by step, and tells all that happens on it.
+//! Follows one path through the states, step by step, and reports all events on it.
 //!
-//! It holds the robots themselves and not their numbers, and knows nothing of the search: a way that
-//! leads to a violation here is one that robots can go.
+//! It runs the robots themselves, not their numbers, and is independent of the search: a path to a violation here is a
+//! behaviour of the real programs.
 
 use crate::Setup;
 use crate::bounds::{Bounds, Clocks, Left};

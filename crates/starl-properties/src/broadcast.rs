@@ -109,7 +109,7 @@ impl Broadcast {
         self.outstanding.remove(&key);
         let MessageKey { from, number, .. } = key;
         let text = format!(
-            "robot {from} says that all have acknowledged its message {number}, which was not handed to {}",
+            "robot {from} reports that all robots have acknowledged its message {number}, which was not delivered to {}",
             robot_list(&owed)
         );
         let robots: Vec<RobotId> = [from].into_iter().chain(owed).collect();

@@ -152,7 +152,7 @@ impl Health {
         self.cuts.get(&(from, to)).is_none_or(|&at| at < since)
     }
 
-    /// The excuse for a message that did not get from one robot to another from `since` on; none if there is none.
+    /// The excuse for a message between two robots that did not arrive from `since` on; none if there is none.
     pub fn excuse_of(&self, from: RobotId, to: RobotId, since: Time) -> Option<Excuse> {
         let unwell = [from, to]
             .into_iter()

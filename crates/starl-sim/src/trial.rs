@@ -1,4 +1,4 @@
-//! A run whose only question is what goes wrong: it ends as soon as anything does.
+//! A run that looks for a failure: it ends at the first one.
 
 use crate::run::{Outcome, Run};
 use serde::{Deserialize, Serialize};

@@ -1,8 +1,7 @@
 //! Events from JSON: the other half of [`crate::encode`].
 //!
-//! Every message comes from a file that anyone may have written: whatever is missing, doubled or of
-//! the wrong type becomes a reason, never a panic. Members that this version does not know are left
-//! out, as the version policy asks.
+//! Files are untrusted: a missing or duplicate member, or one of a wrong type, is an error with a reason, never a
+//! panic. Unknown members are ignored, by the version policy.
 
 use crate::Topic;
 use crate::json::from_base64;

@@ -315,7 +315,7 @@ impl Drop for Robots {
 starl_host::conformance!(
     Robots,
     skip clocks_run_wrong = "a robot has no other clock than that of its process",
-    skip a_corrupted_robot_goes_on_until_it_restarts = "nobody overwrites a real robot's state",
-    skip the_next_life_goes_on_with_the_next_number =
+    skip a_corrupted_robot_continues_until_it_restarts = "nobody overwrites a real robot's state",
+    skip the_next_life_continues_the_numbers =
         "a robot's datagrams are numbered from the time of its start",
 );

@@ -102,11 +102,11 @@ impl Programs {
             .collect()
     }
 
-    /// The condition over the robots of each program for which it has no errors.
+    /// The condition for the robots of each program for which it has no errors.
     ///
     /// # Errors
-    /// The errors for the first program, if there are errors for all; positions are bytes of the text. Nothing if
-    /// there is no program.
+    /// The errors for the first program, if there are errors for all; positions are bytes of the text. Empty if there
+    /// is no program.
     pub fn conditions(&self, condition: &str) -> Result<Vec<FleetCondition>, Vec<Diagnostic>> {
         self.each_that_can(|path, compiled| FleetCondition::new(path, compiled, condition))
     }

@@ -84,8 +84,7 @@ impl Findings {
 /// scenario's inputs.
 ///
 /// # Errors
-/// Where a file cannot be read. Where the program has errors there is no code, and the findings tell
-/// of them.
+/// A file cannot be read. If the program has errors there is no code, and the findings contain them.
 pub fn compile(
     path: &str,
     resolved: &mut Resolved,

@@ -1,4 +1,4 @@
-//! All that is wrong with files that are held in memory, programs and scenarios alike.
+//! All problems of files in memory, programs and scenarios.
 
 use super::files::{Beside, Files};
 use crate::Refusal;
@@ -200,7 +200,7 @@ impl Diagnostic {
         Diagnostic::of_findings(&path, &findings.source, &findings.diagnostics).collect()
     }
 
-    /// All that is wrong with a scenario and its programs.
+    /// All problems of a scenario and its programs.
     pub(super) fn of_refusal(refusal: Refusal, beside: &Beside<'_>) -> Vec<Diagnostic> {
         let found = refusal.findings.iter();
         let mut all: Vec<Diagnostic> = found

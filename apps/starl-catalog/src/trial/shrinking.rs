@@ -13,7 +13,8 @@ use starl_sim::read::{Loader, Request, Source};
 use starl_sim::shrink::{Limits, shrink};
 use starl_sim::{Finding, Run, Scenario, Trial, write};
 
-/// A search for the smallest scenario that fails as a run did. It can be made in pieces: what was tried is remembered.
+/// A search for the smallest scenario that fails as a run did. It can be made in pieces: the results of trials are
+/// kept.
 pub struct Shrinking {
     original: Scenario,
     finding: Finding,
@@ -118,7 +119,7 @@ impl Shrinking {
         Shrinking { answers, ..self }
     }
 
-    /// The answers of all that was tried so far.
+    /// The results of all trials so far.
     pub fn into_answers(self) -> Answers {
         self.answers
     }

@@ -1,5 +1,5 @@
-//! The robots of Line end evenly spaced on a line and stay there, from any start and over a bad network.
-//! Where one dies the others close the gap, or stand as near to their places as it leaves room.
+//! The robots of Line end evenly spaced on a line and stay there, from any start and over a bad network. If one
+//! crashes, the others close the gap, or stand as near to their places as it allows.
 
 use crate::support::Case;
 use rayon::prelude::*;

@@ -84,7 +84,7 @@ fn each_type_is_written_in_its_way() {
 }
 
 #[test]
-fn what_is_left_out_has_its_default() {
+fn omitted_parameters_have_their_defaults() {
     let application = read(LEAST).unwrap_or_else(|refusal| panic!("{refusal}"));
     let run = application.run().unwrap();
     let program = run

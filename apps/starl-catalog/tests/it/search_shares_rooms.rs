@@ -1,5 +1,5 @@
-//! No two robots search one room, but while the network is parted; none is searched again because the robot that
-//! searched it starts again; and robots go to their rooms by short ways.
+//! No two robots search one room, except during a partition; no room is searched again because its robot restarts; and
+//! robots take short paths to their rooms.
 
 use crate::support::Case;
 use rayon::prelude::*;

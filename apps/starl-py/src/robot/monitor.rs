@@ -29,7 +29,7 @@ struct Property {
 
 #[derive(Clone, Copy, PartialEq)]
 enum Standing {
-    /// It holds as far as is known, or its time is not up.
+    /// It holds so far, or its deadline has not passed.
     Open,
     /// It did not hold when it was judged last.
     Violated,

@@ -1,4 +1,4 @@
-//! Whatever is asked, there is an answer: bad requests get an error, and never a panic.
+//! Every request gets an answer: bad requests get an error, and never a panic.
 
 use crate::support::ask;
 use serde_json::{Value, json};

@@ -79,7 +79,7 @@ fn a_snapshot_keeps_frames_that_were_not_taken() {
 }
 
 #[test]
-fn what_is_no_period_is_refused() {
+fn invalid_periods_are_rejected() {
     let mut client = race();
     for period in [json!(0.0), json!(-1.0), json!(1e-12), json!("1s")] {
         let refused = client.try_ask("run", json!({"until": 1.0, "sample": period}));

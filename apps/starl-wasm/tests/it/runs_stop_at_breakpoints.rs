@@ -178,7 +178,7 @@ fn breakpoints_make_no_difference_to_the_run() {
 }
 
 #[test]
-fn breakpoints_stay_when_one_goes_back() {
+fn breakpoints_stay_after_going_back() {
     let mut client = race();
     let before = client.ask("snapshot", json!({}));
     set(

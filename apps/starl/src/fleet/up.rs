@@ -1,4 +1,4 @@
-//! `starl fleet up`: runs all robots of a fleet on this machine, each in a process of its own, and judges what they did.
+//! `starl fleet up`: runs all robots of a fleet on this machine, each in its own process, and judges the run.
 
 use super::connect::connect;
 use super::file::Fleet;

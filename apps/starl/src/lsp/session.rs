@@ -1,4 +1,4 @@
-//! One editor: what it said, what it is told.
+//! The session with one editor: its messages and the answers.
 
 use super::answer::{Answers, read};
 use super::capabilities::{Client, capabilities};
@@ -57,7 +57,7 @@ impl Session {
         }
     }
 
-    /// Takes in a message.
+    /// Handles a message.
     pub fn take(&mut self, incoming: Incoming) -> io::Result<Step> {
         let mut message = match incoming {
             Incoming::Message(message) => message,
@@ -190,7 +190,7 @@ impl Session {
             .request("starl-files", "client/registerCapability", &params)
     }
 
-    /// Tells the editor what is wrong with the texts of which it does not know that.
+    /// Publishes the problems of texts that have not been published yet.
     pub fn publish(&mut self) -> io::Result<()> {
         if self.phase != Phase::Ready {
             return Ok(());

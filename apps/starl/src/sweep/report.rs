@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// All that is told of a sweep. As JSON its fields are described in `docs/reference/command.md`.
+/// The report of a sweep. As JSON its fields are described in `docs/reference/command.md`.
 #[derive(Debug, Serialize)]
 pub struct Report {
     pub target: String,
@@ -148,7 +148,7 @@ impl Report {
             }
             None => writeln!(
                 text,
-                "nothing was saved; with --out FILE a sweep goes on where it stopped"
+                "nothing was saved; with --out FILE a sweep continues where it stopped"
             ),
         }
     }

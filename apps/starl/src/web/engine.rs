@@ -43,7 +43,7 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// Pages get copies of the session, whose run steps on the threads of the pool.
+    /// Pages get copies of the session; its run steps on the threads of the pool.
     pub fn new(session: Session, registry: Registry, pool: Option<ThreadPool>) -> Origin {
         Origin {
             session: Mutex::new(session),

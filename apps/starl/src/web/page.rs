@@ -20,7 +20,7 @@ static BUILT_IN: Files = include!(concat!(env!("OUT_DIR"), "/page.rs"));
 /// The first file that a browser asks for.
 const INDEX: &str = "index.html";
 
-/// Where the page's files come from.
+/// The source of the page's files.
 #[derive(Debug)]
 pub enum Page {
     /// The command itself.

@@ -74,7 +74,7 @@ fn connect(port: u16, cookie: &str) -> WebSocket<TcpStream> {
 }
 
 #[test]
-fn a_request_that_panics_is_answered_and_the_server_goes_on() {
+fn a_request_that_panics_is_answered_and_the_server_continues() {
     let (port, cookie) = served();
     for _ in 0..2 {
         let mut socket = connect(port, &cookie);

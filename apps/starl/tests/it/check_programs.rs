@@ -1,4 +1,4 @@
-//! `starl check` tells of everything that is wrong with programs, and exits with 0, 1 or 2.
+//! `starl check` reports all problems of programs, and exits with 0, 1 or 2.
 
 use crate::support::*;
 
@@ -49,7 +49,7 @@ fn warnings_are_allowed_unless_denied() {
 }
 
 #[test]
-fn a_folder_stands_for_the_programs_in_it() {
+fn a_folder_means_the_programs_in_it() {
     let folder = folder("check_folder");
     let inner = folder.join("all/inner");
     std::fs::create_dir_all(&inner).expect("a folder can be made");
@@ -108,7 +108,7 @@ fn errors_of_a_library_are_shown_in_the_library_and_once() {
 }
 
 #[test]
-fn what_cannot_be_read_is_told_and_the_rest_checked() {
+fn unreadable_files_are_reported_and_the_rest_checked() {
     let folder = folder("check_unreadable");
     file(&folder, "broken.starl", BROKEN);
     std::fs::write(folder.join("latin.starl"), b"program L\n// \xe9\n").expect("it can be written");

@@ -1,5 +1,5 @@
-//! `--cluster` where the interpreter or what it runs is not as it should be. Runs on real clusters are tested with the
-//! package for Python, in `apps/starl-py/tests/test_cluster_command.py`.
+//! `--cluster` with a missing or wrong interpreter or package. Runs on real clusters are tested with the package for
+//! Python, in `apps/starl-py/tests/test_cluster_command.py`.
 
 use crate::support::{command, folder, names, starl, status, stderr, stdout};
 use std::fs;

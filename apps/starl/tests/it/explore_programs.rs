@@ -97,7 +97,7 @@ fn an_example_is_explored_to_the_end() {
 }
 
 #[test]
-fn a_violation_is_kept_and_can_be_gone_again() {
+fn a_violation_is_saved_and_can_be_replayed() {
     let folder = folder("explore_violation");
     let target = polite(&folder);
     let output = explore(&folder, &[&target]);
@@ -132,7 +132,7 @@ fn a_violation_is_kept_and_can_be_gone_again() {
 }
 
 #[test]
-fn a_bound_that_is_hit_is_no_proof() {
+fn a_reached_bound_is_not_a_proof() {
     let folder = folder("explore_bounds");
     let target = polite(&folder);
     for (option, outcome) in [("--depth", "depth_bound"), ("--most-states", "state_bound")] {
@@ -149,7 +149,7 @@ fn a_bound_that_is_hit_is_no_proof() {
 }
 
 #[test]
-fn an_exploration_that_takes_too_long_says_what_it_has_covered() {
+fn an_exploration_that_takes_too_long_reports_its_coverage() {
     let folder = folder("explore_within");
     let target = polite(&folder);
     let arguments = ["explore", &target, "--within", "1ns"];
@@ -170,7 +170,7 @@ fn an_exploration_that_takes_too_long_says_what_it_has_covered() {
 }
 
 #[test]
-fn what_never_comes_is_noted() {
+fn requests_that_are_never_granted_are_noted() {
     let folder = folder("explore_notes");
     let output = explore(&folder, &["election"]);
     assert_eq!(status(&output), 0, "{}", stderr(&output));
@@ -200,7 +200,7 @@ fn bad_input_is_refused() {
         (&[], "name what to explore"),
         (
             &["--replay", "torn.json"],
-            "torn.json: is no counterexample",
+            "torn.json: is not a counterexample",
         ),
         (&["nothing.toml"], "nothing.toml"),
         (&[&target, "--robots", "3"], "the scenario has 2 robots"),
@@ -220,7 +220,7 @@ fn bad_input_is_refused() {
 }
 
 #[test]
-fn a_way_that_cannot_be_gone_any_more_is_told() {
+fn an_impossible_path_is_reported() {
     let folder = folder("explore_stale");
     let target = polite(&folder);
     let output = explore(&folder, &[&target, "--save", "way.json", "--quiet"]);

@@ -376,7 +376,7 @@ fn an_operator_sees_and_stops_a_fleet_and_a_stranger_does_not() {
 }
 
 #[test]
-fn what_is_wrong_with_a_fleet_file_is_said_in_one_message() {
+fn problems_of_a_fleet_file_are_reported_in_one_message() {
     let folder = folder("fleet_bad");
     file(&folder, "race.toml", RACE);
     let cases = [

@@ -52,7 +52,7 @@ fn standard_input_goes_to_standard_output() {
 }
 
 #[test]
-fn a_file_with_errors_in_its_text_stays_as_it_is() {
+fn a_file_with_syntax_errors_is_not_changed() {
     let folder = folder("fmt_broken");
     file(&folder, "broken.starl", BROKEN);
     file(&folder, "untidy.starl", UNTIDY);
@@ -77,7 +77,7 @@ fn broken_standard_input_gives_nothing() {
 
 #[cfg(unix)]
 #[test]
-fn permissions_and_links_stay() {
+fn permissions_and_links_are_kept() {
     use std::os::unix::fs::{PermissionsExt, symlink};
     let folder = folder("fmt_permissions");
     let path = file(&folder, "untidy.starl", UNTIDY);
@@ -94,7 +94,7 @@ fn permissions_and_links_stay() {
 
 #[cfg(unix)]
 #[test]
-fn a_file_that_cannot_be_written_is_told() {
+fn a_file_that_cannot_be_written_is_reported() {
     use std::os::unix::fs::PermissionsExt;
     let folder = folder("fmt_read_only");
     let path = file(&folder, "untidy.starl", UNTIDY);

@@ -1,4 +1,4 @@
-//! `starl lsp` serves an editor: what it shows, and that nothing the editor sends ends it.
+//! `starl lsp` serves an editor, and no message from the editor ends it.
 
 use crate::lsp_support::*;
 use serde_json::{Value, json};
@@ -76,7 +76,7 @@ fn an_exit_without_a_shutdown_is_a_failure() {
 }
 
 #[test]
-fn problems_change_as_one_types() {
+fn problems_are_updated_while_typing() {
     let mut editor = opened(RACE);
     assert_eq!(editor.problems(URI, 1), Vec::<Value>::new());
     // `loc = pick` becomes `loc = pack`.
@@ -110,7 +110,7 @@ fn problems_change_as_one_types() {
 }
 
 #[test]
-fn a_problem_comes_with_its_fix() {
+fn a_problem_has_its_fix() {
     let text = RACE.replace("loc = pick\n", "loc = pack\n");
     let mut editor = opened(&text);
     let problems = editor.problems(URI, 1);
@@ -204,7 +204,7 @@ fn what_may_be_typed_is_suggested() {
 }
 
 #[test]
-fn a_call_shows_what_it_takes() {
+fn a_call_shows_its_parameters() {
     let (text, place) = cursor(&RACE.replace("index += 1", "motion.reach_avoid(position, $0)"));
     let mut editor = opened(&text);
     let help = editor

@@ -62,7 +62,7 @@ fn shown_by_page(text: &str, found: &Diagnostic) -> Problem {
 }
 
 #[test]
-fn check_gives_what_the_language_server_tells() {
+fn check_and_the_language_server_report_the_same() {
     let mut editor = Editor::ready();
     let mut codes = BTreeSet::new();
     for (number, text) in programs().iter().enumerate() {

@@ -36,7 +36,7 @@ fn shown(test: &str, options: &[&str]) -> (i32, String) {
 }
 
 #[test]
-fn lines_come_with_time_and_robot() {
+fn lines_have_time_and_robot() {
     let (_, text) = shown("log_lines", &["--log"]);
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines.len(), 5, "{text}");

@@ -1,5 +1,5 @@
-//! `starl run` runs programs in the StarL language: by themselves, in a scenario that names them, or in
-//! another one; and tells what is wrong with them, before the run or in it.
+//! `starl run` runs programs in the StarL language: by themselves, in a scenario that names them, or in another one;
+//! and reports their problems before or during the run.
 
 use crate::support::*;
 
@@ -257,7 +257,7 @@ fn a_run_time_error_names_robot_line_and_reason() {
 }
 
 #[test]
-fn a_property_that_does_not_hold_is_told_with_the_state() {
+fn a_violated_property_is_reported_with_the_state() {
     let folder = lone("program_violated");
     let output = starl(
         &folder,

@@ -168,7 +168,7 @@ fn stop(folder: &Path, signal: &str) -> std::process::Output {
 
 #[cfg(unix)]
 #[test]
-fn a_sweep_that_is_killed_goes_on_where_it_was() {
+fn a_killed_sweep_continues_where_it_was() {
     let folder = prepared("sweep_killed");
     let path = folder.join("stopped.parquet.journal");
     let mut known = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! However a run ends, its trace is there under its own name, and can be read as far as it goes.
+//! However a run ends, its trace exists under its final name, and its written part is readable.
 
 #![cfg(unix)]
 
@@ -139,7 +139,7 @@ fn a_disk_that_is_full() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_place_that_takes_nothing_is_told() {
+fn an_unwritable_place_is_reported() {
     let folder = folder("disk_full_device");
     let output = starl(&folder, &["run", "race", "--quiet", "--trace", "/dev/full"]);
     assert_eq!(status(&output), 2);

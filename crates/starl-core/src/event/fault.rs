@@ -10,9 +10,9 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 pub enum Fault {
     /// The robot is down.
     Crash,
-    /// The robot's storage lost all that it held, at a crash.
+    /// A crash erased the robot's storage.
     StorageLost,
-    /// The robot starts again, and knows of what was before only what its storage holds.
+    /// The robot restarts, with no state except that in its storage.
     Restart,
     /// The network falls into parts, which may have been others before.
     Partition,
@@ -22,7 +22,7 @@ pub enum Fault {
     Heal,
     /// The robot's motors do not answer.
     StuckMotor,
-    /// The robot's sensors and its positioning show what they showed last.
+    /// The robot's sensors and positioning repeat their last readings.
     FrozenSensor,
     /// Motors, sensors and positioning work again.
     Repair,

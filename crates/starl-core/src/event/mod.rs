@@ -121,7 +121,7 @@ pub enum Event {
         /// How.
         text: Name,
     },
-    /// The run is steered from outside. Faults of a schedule are told of by [`Event::Fault`] alone.
+    /// The run is steered from outside. Scheduled faults are recorded only as [`Event::Fault`].
     Intervention(Box<crate::Intervention>),
     /// The robot took hold of a thing, by its index among the world's things.
     Took(u32),

@@ -57,7 +57,7 @@ events! {
             /// Where the robot believes to be.
             position: Point,
         },
-        /// There is no way to the target.
+        /// There is no path to the target.
         GiveUp = "give_up" {
             /// Why.
             reason: Trouble,

@@ -1,7 +1,7 @@
 //! A uniform grid over the floor plane whose rim reaches outwards without end.
 //!
-//! Invariant: a greater coordinate never has a lesser cell, so things that overlap share a cell however
-//! their coordinates were rounded.
+//! Invariant: a greater coordinate never has a smaller cell, so bodies that overlap share a cell, independent of
+//! rounding.
 
 use super::segment::{greater, lesser};
 use super::{Bounds, Point};

@@ -94,7 +94,7 @@ fn distance_changes_no_faster_than_the_point_moves() {
 }
 
 #[test]
-fn bounds_hold_the_obstacle_and_no_more() {
+fn bounds_are_tight() {
     for seed in 0..CASES {
         let mut cases = Cases::new(seed);
         let obstacle = cases.obstacle();
@@ -141,7 +141,7 @@ fn a_body_may_stand_on_an_obstacle_but_not_in_it() {
 }
 
 #[test]
-fn impossible_obstacles_are_told_apart() {
+fn each_kind_of_invalid_obstacle_is_reported() {
     let (p, nan) = (Point::ZERO, Point::planar(f64::NAN, 0.0));
     assert!(Obstacle::circle(p, 0.0).is_valid());
     assert!(!Obstacle::circle(p, -1.0).is_valid());

@@ -11,7 +11,7 @@ use starl_core::event::{Fault, Name};
 use starl_core::motion::{Obstacles, Path};
 use starl_core::{Agent, Duration, Event, Input, Point, Random, RobotId, Sensors, Time, WayPoint};
 
-/// Robots in virtual time. A clone goes on exactly as the original would.
+/// Robots in virtual time. A clone continues exactly as the original would.
 #[derive(Clone)]
 pub struct Fleet {
     /// The current time.
@@ -26,7 +26,7 @@ pub struct Fleet {
     pub thing_names: Vec<Name>,
     /// The obstacles that all robots know.
     pub obstacles: Obstacles,
-    /// All that has happened: when, on which robot, and what.
+    /// All records: time, robot and event.
     pub records: Vec<(Time, RobotId, Event)>,
     /// How often robots hear where they are, from their start on; when they arrive, where none is given.
     pub positioning: Option<Duration>,
@@ -76,8 +76,7 @@ impl Fleet {
         }
     }
 
-    /// A robot joins the fleet; its number is that of its place. It starts when time goes on, or by
-    /// [`Fleet::start`].
+    /// Adds a robot to the fleet; its number is its index. It starts when time advances, or by [`Fleet::start`].
     pub fn add(&mut self, unit: Unit) -> usize {
         let robot = self.robots.len();
         assert_eq!(unit.node.id().index(), robot, "robots join in order");
@@ -119,7 +118,7 @@ impl Fleet {
         self.call(robot, |node, now, _, desk| node.corrupt(now, random, desk));
     }
 
-    /// A robot stands somewhere from now on, and hears of it.
+    /// Moves a robot to a position, and sends it the estimate.
     pub fn place(&mut self, robot: usize, position: Point) {
         self.robots[robot].travel.place(self.now, position);
         self.locate(robot);
@@ -159,14 +158,14 @@ impl Fleet {
         }
     }
 
-    /// Time goes on by this span; what happens at its end is part of it.
+    /// Advances time by this span, including the events at its end.
     pub fn run_for(&mut self, span: Duration) {
         let end = self.now + span;
         self.advance(end + Duration(1));
         self.now = end;
     }
 
-    /// Time goes on until `end`; what happens then is not part of it.
+    /// Advances time to `end`, excluding the events at `end`.
     pub fn run_before(&mut self, end: Time) {
         self.advance(end);
         self.now = self.now.max(end);
@@ -177,7 +176,7 @@ impl Fleet {
         self.next().0
     }
 
-    /// The host does nothing for a while: what is due is late.
+    /// Suspends the host for a while: inputs due then are late.
     pub fn stall(&mut self, span: Duration) {
         self.now += span;
     }

@@ -1,4 +1,4 @@
-//! A command that a robot's model does not take stops the robot, and what it did before does not go on.
+//! A command that a robot's model does not accept stops the robot, and cancels the previous command.
 
 use starl_core::{
     Agent, Command, Duration, Estimate, Event, Point, Program, Random, Robot, RobotId, Sensors,

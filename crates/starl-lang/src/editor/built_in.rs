@@ -34,11 +34,7 @@ pub(super) const TYPES: &[(&str, &str, &str)] = &[
     ("Area", "Area", "A part of the floor plane."),
     ("Obstacles", "Obstacles", "A set of obstacles."),
     ("List", "List[T]", "Elements in order, by index from 0."),
-    (
-        "Set",
-        "Set[T]",
-        "Distinct elements, in ascending order.",
-    ),
+    ("Set", "Set[T]", "Distinct elements, in ascending order."),
     (
         "Map",
         "Map[K, V]",

@@ -79,7 +79,11 @@ pub(super) const DECLARATIONS: &[Word] = &[
         "function name(a: Type) -> Type",
         "A function of its arguments and of constants alone.",
     ),
-    word("init", "init", "Statements that run once, before any action."),
+    word(
+        "init",
+        "init",
+        "Statements that run once, before any action.",
+    ),
     word(
         "on",
         "on Message(from, field)",

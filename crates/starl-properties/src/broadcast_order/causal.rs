@@ -1,4 +1,4 @@
-//! Causal order: what happened before a message was sent (Lamport 1978) is handed out before it.
+//! Causal order: messages that happened before a message (Lamport 1978) are delivered before it.
 //!
 //! Each sender's messages are delivered in its order, so the predecessors of a message are one number for each sender.
 //! Messages of a robot's earlier life are not required at robots that delivered, or passed over, a message of a later
@@ -77,7 +77,7 @@ impl Causality {
         let number = key.number;
         if self.is_over(robot, process) {
             let text = format!(
-                "was handed message {number} of an earlier life of robot {} after one of a later life",
+                "delivered message {number} of an earlier life of robot {} after one of a later life",
                 key.from
             );
             finding.add(CAUSAL, key.from, text);
@@ -86,7 +86,7 @@ impl Causality {
         let settled = self.settled.entry(robot).or_default();
         if settled.get(&process).is_some_and(|&last| last >= number) {
             let text = format!(
-                "was handed message {number} of robot {}, which it had passed over",
+                "delivered message {number} of robot {}, which it had passed over",
                 key.from
             );
             finding.add(CAUSAL, key.from, text);

@@ -1,5 +1,5 @@
-//! Total order: no two robots are handed two messages in different orders; and between two messages that a
-//! robot is handed one after the other, without saying that it has a gap, no robot is handed another one.
+//! Total order: no two robots deliver two messages in different orders; and between two messages that a robot delivers
+//! directly after each other, without reporting a gap, no robot delivers another one.
 
 use super::{Finding, TOTAL};
 use crate::report::MessageKey;
@@ -84,7 +84,7 @@ impl Sequences {
             if last_there.is_some_and(|last| last >= there) {
                 let other = other.robot.unwrap_or(robot);
                 let text = format!(
-                    "was handed message {} of robot {} after one that robot {other} was handed later",
+                    "delivered message {} of robot {} after one that robot {other} delivered later",
                     key.number, key.from
                 );
                 finding.add(TOTAL, other, text);

@@ -64,7 +64,7 @@ impl Locks {
         }
     }
 
-    /// A robot has come to hold something.
+    /// A robot has got a resource.
     pub(super) fn overtake(&mut self, robot: RobotId, resource: &str, at: Time) {
         for (&other, waiting) in &mut self.waiting {
             if other != robot && waiting.resources.contains(resource) {
@@ -146,7 +146,7 @@ impl Locks {
                 property: property.into(),
                 at: due,
                 text: format!(
-                    "{} did not get what was asked for within {bound}, {why}",
+                    "{} did not get the requested resources within {bound}, {why}",
                     robot_list(&late)
                 ),
                 robots: late.clone(),

@@ -115,7 +115,7 @@ fn with_leases_a_robot_without_a_majority_has_no_leader() {
 
 /// Robot 0 votes, robot 1 has restarted, robot 2 is down: no other robot knows the promises of robot 2.
 #[test]
-fn with_leases_robots_that_wait_for_one_that_remembers_have_no_leader() {
+fn with_leases_robots_that_wait_for_one_with_memory_need_no_leader() {
     let mut story = three("leases");
     for robot in 0..3 {
         story.report(1000, robot, ("election", "vote"), [("anew", false.into())]);

@@ -1,5 +1,5 @@
-//! A lease mutex frees what a dead robot held, and goes on while a majority of its arbiters is up, ready and together.
-//! Each excuse from that is tried with a run that it must not excuse.
+//! A lease mutex frees the resources of a crashed robot, and continues while a majority of its arbiters is up, ready
+//! and connected. Each excuse is also tried with a run that it must not excuse.
 
 use crate::support::{Story, assert_none, assert_only, seconds};
 use starl_core::event::Value;
@@ -40,7 +40,7 @@ fn numbered(story: &mut Story, millis: u64, robot: u32, number: i64) {
 
 /// The bug that no campaign saw: the lease of a holder that has died never ends.
 #[test]
-fn a_lease_that_outlives_its_holder_is_reported_though_the_holder_stays_dead() {
+fn a_lease_that_outlives_its_crashed_holder_is_reported() {
     let mut story = story(3);
     story
         .locks(1000, 4, "acquire", "a")

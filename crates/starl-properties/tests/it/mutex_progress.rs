@@ -31,7 +31,7 @@ fn a_request_without_overlap_is_granted_in_time() {
 }
 
 #[test]
-fn what_is_held_may_be_waited_for() {
+fn waiting_for_a_held_resource_is_correct() {
     let mut story = story();
     story.locks(1000, 1, "enter", "b");
     story

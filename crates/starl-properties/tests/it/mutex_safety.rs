@@ -110,7 +110,7 @@ fn numbers_that_do_not_grow_are_reported() {
 }
 
 #[test]
-fn where_clocks_are_wrong_numbers_may_come_late_but_never_twice() {
+fn with_wrong_clocks_numbers_may_be_late_but_are_unique() {
     let mut story = drifting(1e6);
     story.leases(1000, 0, "a", 5).leases(2000, 1, "a", 4);
     assert_none(&story.verdict(5000));

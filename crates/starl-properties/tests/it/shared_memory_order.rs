@@ -15,7 +15,7 @@ fn two_writes() -> Story {
 }
 
 #[test]
-fn going_on_is_right() {
+fn later_writes_are_correct() {
     assert_none(&two_writes().verdict(10_000));
 }
 
@@ -65,7 +65,7 @@ fn of_writes_at_one_time_that_of_the_greater_number_is_the_later() {
 }
 
 #[test]
-fn variables_and_elements_are_told_apart() {
+fn variables_and_elements_are_judged_separately() {
     let mut story = two_writes();
     story.shows(500, 0, "write", "y", (500, 0, 1));
     story.shows(600, 0, "write", "x[]", (600, 0, 1));
@@ -86,7 +86,7 @@ fn a_restarted_robot_starts_again() {
 }
 
 #[test]
-fn so_does_one_whose_memory_is_corrupted_but_no_other() {
+fn only_a_corrupted_memory_starts_again() {
     for (corrupted, is_violated) in [(1, false), (2, true)] {
         let mut story = two_writes();
         story.fault(2100, Some(corrupted), "corrupt state");

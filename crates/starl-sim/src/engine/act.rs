@@ -1,4 +1,4 @@
-//! One robot's turn in a slot of time: its node is called for all that happens to it, in the order of time.
+//! One robot's turn in a slot of time: its node handles the robot's inputs in the order of time.
 
 use super::inbox::{Delivery, Transmission};
 use super::mind::{Account, Frozen, Senses};
@@ -9,7 +9,7 @@ use starl_core::{Event, Input, Message, Payload, Sensors, Time};
 use starl_host::{Happening, Node, Outlet, Snapshot};
 use starl_motion::sensing::Readings;
 
-/// All that one robot's turn touches.
+/// The state used by one robot's turn.
 pub struct Turn<'a> {
     /// The slot of time under way.
     pub window: Window,
@@ -25,8 +25,8 @@ pub struct Turn<'a> {
 }
 
 impl Turn<'_> {
-    /// Takes all that happens in this slot, and returns when something happens next, arrivals aside. `arrivals`
-    /// is room for work.
+    /// Handles all inputs of this slot, and returns the time of the next one, without arrivals. `arrivals` is scratch
+    /// memory.
     pub fn run(&mut self, arrivals: &mut Vec<Delivery>) -> Time {
         if self.window.from == Time::ZERO {
             let pose = self.desk.state.pose;
@@ -181,7 +181,7 @@ impl Due {
     }
 }
 
-/// When something happens to a robot next, arrivals of datagrams aside.
+/// The time of a robot's next input, without arrivals of datagrams.
 #[inline]
 pub fn next_due(node: &Node, account: &Account, next_estimate: Time) -> Time {
     let next = due(node, account, &[]).min();

@@ -1,4 +1,4 @@
-//! How a robot comes to know obstacles that are hidden at first.
+//! The discovery of hidden obstacles by robots.
 
 use super::mind::{Knowledge, Senses};
 use super::shared::Shared;

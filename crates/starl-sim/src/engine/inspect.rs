@@ -46,7 +46,7 @@ impl Simulation {
         .collect()
     }
 
-    /// The payload of a datagram that arrived in the step made last; none if none of this number did.
+    /// The payload of a datagram that arrived in the last step; none if no datagram with this number did.
     pub fn arrived(&self, from: RobotId, sequence: u32) -> Option<&[u8]> {
         let content = self.shared.inboxes.find(from, sequence)?;
         Some(&content.payload)

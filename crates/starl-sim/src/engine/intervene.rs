@@ -20,9 +20,9 @@ const INVALID: &str = "a number in it is not finite or out of its range, a name 
 const PARTS: u32 = 16;
 
 impl Simulation {
-    /// Has something happen at a time, now if that has passed. It is recorded, belongs to the digest, and
-    /// takes place before anything else that robots do in that step. A clone of the simulation that is given
-    /// the same goes on alike.
+    /// Schedules an intervention at a time, or now if that has passed. It is recorded, is part of the digest, and takes
+    /// effect before the robots act in that step. A clone of the simulation with the same interventions continues
+    /// identically.
     ///
     /// # Errors
     /// The error of the intervention: invalid numbers, unknown robots, and, if it is to happen now, unknown
@@ -59,8 +59,7 @@ impl Simulation {
         self.agenda.applied()
     }
 
-    /// The scenario with all that has been applied to this run as events on schedule: run from the start, it
-    /// goes as this run went.
+    /// The scenario with all interventions of this run as scheduled events: it repeats this run from the start.
     pub fn as_scenario(&self) -> Scenario {
         let mut scenario = Scenario::clone(&self.origin);
         let applied = self.agenda.applied().iter().cloned();
@@ -73,7 +72,7 @@ impl Simulation {
         scenario
     }
 
-    /// Carries out what is due now, or has been due since before.
+    /// Executes the interventions that are due.
     pub(super) fn intervene(&mut self, at: Time) {
         while let Some(Due { what, told, .. }) = self.agenda.next(at) {
             if told {
@@ -132,7 +131,7 @@ impl Simulation {
                 let body = self.shared.bodies[like.index()];
                 return match self.is_free(None, pose.position, body.radius, body.height) {
                     true => Ok(()),
-                    false => Err("something stands where the robot is to join".into()),
+                    false => Err("the place where the robot joins is occupied".into()),
                 };
             }
             _ => None,

@@ -1,4 +1,4 @@
-//! The engine: robots in shards that step independently, and what is settled between steps.
+//! The engine: robots in shards that step independently, and the work between steps.
 
 mod act;
 mod agenda;

@@ -1,4 +1,4 @@
-//! The obstacles that stand: they expire, appear, move and vanish, and robots' knowledge of them follows.
+//! The existing obstacles: they expire, appear, move and disappear, and the robots' knowledge is updated.
 //!
 //! An obstacle's index in the world never changes: first come those of the scenario, then the walls around
 //! the world, then those that have appeared since.
@@ -16,7 +16,7 @@ impl Simulation {
         (world.obstacles.len(), walls)
     }
 
-    /// The obstacle of the world with this index, if it stands and is no wall.
+    /// The obstacle of the world with this index, if it exists and is not a wall.
     pub(super) fn obstacle(&mut self, index: u32) -> Option<&mut WorldObstacle> {
         let (first, walls) = self.first_indices();
         let index = index as usize;
@@ -38,7 +38,7 @@ impl Simulation {
         });
     }
 
-    /// Makes the map of the obstacles that stand now, and of what is known of them.
+    /// Builds the map of the existing obstacles, and that of the known ones.
     pub(super) fn raise_obstacles(&mut self) {
         let now = self.now;
         let (first, walls) = self.first_indices();

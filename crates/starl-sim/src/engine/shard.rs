@@ -61,7 +61,7 @@ impl Shard {
         }
     }
 
-    /// Forgets what was sent in the step before.
+    /// Clears the messages sent in the previous step.
     pub fn begin_step(&mut self, step: Time) {
         self.outbox.clear();
         self.routed = 0;
@@ -81,7 +81,7 @@ impl Shard {
         self.find_earliest();
     }
 
-    /// When something happens to any robot next, arrivals of datagrams aside.
+    /// The time of the next input of any robot, without arrivals of datagrams.
     pub fn next_due(&self) -> Time {
         self.earliest
     }

@@ -22,7 +22,7 @@ use starl_motion::contact::{self, Contact, Motions};
 use starl_motion::{Neighbour, State};
 use std::sync::Arc;
 
-/// A scenario under way. A clone goes on exactly as the original would.
+/// A running scenario. A clone continues exactly as the original would.
 #[derive(Clone)]
 pub struct Simulation {
     pub(super) now: Time,
@@ -37,7 +37,7 @@ pub struct Simulation {
     pub(super) bodies: Vec<Neighbour>,
     contacts: Vec<Option<Contact>>,
     pub(super) agenda: Agenda,
-    /// Whether robots have come or gone since the spatial index was built.
+    /// Whether robots have joined or left since the spatial index was built.
     pub(super) have_changed: bool,
     /// When the last fault came.
     pub(super) disturbed: Time,
@@ -73,13 +73,13 @@ pub struct Progress {
     pub up: usize,
     /// Of these, robots whose programs have reached their goals.
     pub finished: usize,
-    /// Of these, robots whose programs cannot go on.
+    /// Of these, robots whose programs have failed.
     pub failed: usize,
 }
 
 impl Simulation {
-    /// Sets up a run. `programs` makes a fresh program for a group of robots, or says what is wrong
-    /// with its name or parameters.
+    /// Sets up a run. `programs` makes a fresh program for a group of robots, or returns the problem with its name or
+    /// parameters.
     pub fn new(scenario: Scenario, programs: &Programs<'_>) -> Result<Simulation, StartError> {
         let kinds = populate::kinds(&scenario, programs)?;
         let origin = Arc::new(scenario);
@@ -367,7 +367,7 @@ impl Simulation {
         &self.journal
     }
 
-    /// The hash of all that has happened so far.
+    /// The hash of all events so far.
     pub fn digest(&self) -> Digest {
         let mut digest = self.world_digest;
         for mind in self.minds() {
@@ -376,12 +376,12 @@ impl Simulation {
         digest
     }
 
-    /// The hash of all that has happened to one robot, to find out where two runs part.
+    /// The hash of all events of one robot, to find the first difference of two runs.
     pub fn robot_digest(&self, robot: RobotId) -> Digest {
         self.mind(robot).account.digest
     }
 
-    /// Counts of what has happened so far.
+    /// Counts of events so far.
     pub fn tally(&self) -> Tally {
         let mut tally = Tally::default();
         self.shards
@@ -414,7 +414,7 @@ impl Simulation {
         self.mind(robot).node.estimate()
     }
 
-    /// The obstacles that stand and that all robots know of.
+    /// The existing obstacles that all robots know.
     pub fn known_obstacles(&self) -> Obstacles {
         self.shared.known.clone()
     }
@@ -468,7 +468,7 @@ impl Simulation {
         self.mind(robot).node.condition().has_finished()
     }
 
-    /// How far a robot has come along its path, metres.
+    /// The distance that a robot has travelled, metres.
     pub fn distance(&self, robot: RobotId) -> f64 {
         self.mind(robot).distance
     }

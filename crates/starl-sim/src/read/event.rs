@@ -1,4 +1,4 @@
-//! Reads `event`: whatever steers a run, and when.
+//! Reads `event`: interventions and their times.
 
 use super::names::Names;
 use super::report::{Origin, Report};

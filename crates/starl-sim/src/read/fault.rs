@@ -83,7 +83,7 @@ pub(super) fn check_time(table: Section<'_>, at: Option<Duration>, duration: Dur
     }
 }
 
-/// The fields that a kind of fault needs, and those that it may have; none for what is no fault.
+/// The required and the optional fields of a kind of fault; none if it is not a fault.
 pub(super) fn fields(kind: &str) -> Option<(&'static [&'static str], &'static [&'static str])> {
     match kind {
         "partition" | "one_way" => Some((&["groups"], &[])),

@@ -38,7 +38,7 @@ pub struct Request {
     pub faults: Option<Source>,
 }
 
-/// All that a scenario was read from.
+/// All inputs of a scenario.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Inputs {
     /// The request.

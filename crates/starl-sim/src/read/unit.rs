@@ -72,7 +72,7 @@ impl Dimension {
         own.map(|unit| unit.name)
     }
 
-    /// All that may be written for its units, such as `us` and `\u{b5}s`.
+    /// All spellings of its units, such as `us` and `\u{b5}s`.
     pub fn spellings(self) -> impl Iterator<Item = &'static str> {
         self.unit_names().flat_map(|name| {
             let others = ALIASES.iter().filter(move |(_, plain)| *plain == name);

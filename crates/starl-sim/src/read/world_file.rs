@@ -16,7 +16,7 @@ use crate::scenario::{Thing, WorldObstacle};
 use starl_core::{ConvexPolygon, Duration, Obstacle, Point, Pose, Time, WayPoint, math};
 use word::{Word, words};
 
-/// Adds what is in a file to the world.
+/// Adds the contents of a file to the world.
 pub(super) fn read(
     name: &str,
     bytes: &[u8],

@@ -64,7 +64,7 @@ impl Editor {
         self.send_bytes(text.as_bytes());
     }
 
-    /// Tells the server something.
+    /// Sends the server a notification.
     pub fn tell(&mut self, method: &str, params: Value) {
         self.send(&json!({"jsonrpc": "2.0", "method": method, "params": params}));
     }
