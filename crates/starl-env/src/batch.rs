@@ -17,7 +17,7 @@ pub struct Batch {
     parallel: bool,
 }
 
-/// Where results go: arrays whose first dimensions are environments E and robots N, in row-major order.
+/// The outputs: arrays whose first dimensions are environments E and robots N, in row-major order.
 pub struct Outputs<'a> {
     /// E, N, 6: x, y, z in metres, then yaw, pitch and roll in radians.
     pub poses: &'a mut [f64],
@@ -137,7 +137,7 @@ impl Batch {
     /// [`Settings::action_numbers`]; `messages` the shape environments, robots, [`Settings::message_numbers`].
     ///
     /// # Errors
-    /// Gives the first environment with a number that is not finite. It stays as it was; the others have stepped.
+    /// The first environment with a number that is not finite. It is unchanged; the others have stepped.
     pub fn step(
         &mut self,
         actions: &[f64],
@@ -169,7 +169,7 @@ impl Batch {
     /// Evaluates the expressions of a task for all environments after an action, or for those that begin an episode.
     ///
     /// # Errors
-    /// Gives an expression of the first environment that cannot be evaluated; the others have been.
+    /// An expression of the first environment that cannot be evaluated; the others have been evaluated.
     pub fn judge(
         &mut self,
         judge: &Judge,

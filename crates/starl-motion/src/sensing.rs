@@ -1,7 +1,7 @@
 //! The readings of a robot's sensors for bodies and obstacles whose places are known.
 //!
-//! The simulator measures in its true world. A real robot that has no such sensors measures among the bodies that
-//! others have told it of: see `starl-node`.
+//! The simulator measures in its true world. A real robot without such sensors uses the bodies whose positions it has
+//! received: see `starl-node`.
 
 use crate::Neighbour;
 use crate::proximity::{Rays, Scene};

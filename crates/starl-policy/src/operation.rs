@@ -128,7 +128,7 @@ pub enum Operation {
 }
 
 impl Operation {
-    /// How many additions, multiplications and functions it takes for so many outputs.
+    /// The number of additions, multiplications and functions for this number of outputs.
     pub fn cost(&self, outputs: usize) -> usize {
         match self {
             Self::Dense { weights, .. } => weights.len(),

@@ -48,8 +48,9 @@ const UNHEARD: Duration = Duration::from_millis(300);
 
 /// An AR.Drone on the network.
 ///
-/// The drone flies on for 2 s after its last command; the driver sends some at each call. Readings come once the drone
-/// is configured, and until then it does not take off. A drone that is in the air when the driver connects stays there.
+/// The drone flies on for 2 s after its last command; the driver sends some at each call. There are readings once the
+/// drone is configured, and until then it does not take off. A drone that is in the air when the driver connects stays
+/// there.
 #[derive(Debug)]
 pub struct Ardrone {
     commands: UdpSocket,

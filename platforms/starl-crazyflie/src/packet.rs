@@ -1,4 +1,4 @@
-//! One packet: a port and a channel, which say what it is about, and up to 30 bytes.
+//! One packet: a port and a channel, which define its kind, and up to 30 bytes.
 
 /// The longest content of a packet, bytes.
 pub const LONGEST: usize = 30;

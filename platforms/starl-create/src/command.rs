@@ -1,7 +1,7 @@
 //! Commands of the Open Interface: an opcode, then a number of data bytes that depends on it, big-endian.
 //!
-//! Nothing frames a command: a byte that is lost or added shifts those that follow until an opcode happens to be read
-//! as one again. A driver that repeats its command gets through.
+//! Commands have no framing: after a lost or added byte the following bytes are misread until an opcode is read as one
+//! again. A driver therefore repeats its commands.
 
 use std::collections::VecDeque;
 
@@ -152,7 +152,7 @@ impl CommandDecoder {
 }
 
 enum Length {
-    /// So many data bytes.
+    /// A fixed number of data bytes.
     Fixed(usize),
     /// The data byte `at` says how many items of `each` bytes follow it.
     Listed { at: usize, each: usize },

@@ -20,7 +20,7 @@ pub struct CreateOptions {
     pub wheel_distance: f64,
     /// Bits per second of the serial line: 115200 unless the robot was set to the older 57600.
     pub baud: u32,
-    /// Whether a process stands by that stops the robot if this process dies ([`Guard`]).
+    /// Whether a guard process stops the robot if this process dies ([`Guard`]).
     pub guard: bool,
 }
 

@@ -45,7 +45,7 @@ pub enum Mode {
     Passive,
     /// The robot drives; a cliff or a dropped wheel ends this mode.
     Safe,
-    /// The robot drives, wherever that leads.
+    /// The robot drives without safety stops.
     Full,
 }
 
@@ -90,7 +90,7 @@ pub fn members(packet: u8) -> std::ops::RangeInclusive<u8> {
     }
 }
 
-/// The value of a packet whose bytes these are; `None` if they are too few or too many, or the packet is a group.
+/// The value of a packet from its bytes; `None` if their number is wrong, or the packet is a group.
 pub fn value(packet: u8, bytes: &[u8]) -> Option<i32> {
     let signed = matches!(packet, 19 | 20 | 23 | 24 | 39..=42 | 54..=57);
     match (length(packet)?, bytes) {

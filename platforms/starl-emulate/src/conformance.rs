@@ -36,11 +36,11 @@ pub struct Rig {
     pub noise: Interference,
     /// How long the robot moves on after its driver has fallen silent. `None` if it would move on for ever.
     pub watchdog: Option<Duration>,
-    /// Whatever keeps the emulated robot running.
+    /// The handle that keeps the emulated robot running.
     pub keep: Box<dyn Any>,
 }
 
-/// A check: what it measured, or why it failed.
+/// A check: returns its measurement, or the reason of its failure.
 pub type Check = fn(Rig) -> Result<String, String>;
 
 /// The checks with their names.
@@ -233,14 +233,14 @@ fn travel(
             }
             if Instant::now() > limit {
                 return Err(format!(
-                    "it is at {at:?} and has not come to {target:?} within {PATIENCE:?}"
+                    "it is at {at:?} and has not reached {target:?} within {PATIENCE:?}"
                 ));
             }
             sleep(PERIOD);
         }
     }
     if readings < 20 {
-        return Err(format!("only {readings} readings have come"));
+        return Err(format!("only {readings} readings have arrived"));
     }
     Ok(length)
 }

@@ -1,4 +1,4 @@
-//! The driver of the AR.Drone passes the suite on the emulated one, and what is its own besides.
+//! The driver of the AR.Drone passes the suite on the emulated one, and tests of its own.
 
 use starl_ardrone::{Ardrone, ArdroneOptions};
 use starl_core::{Command, Estimate, Point, Pose};

@@ -91,7 +91,7 @@ fn body_that_is_added_later_is_seen() {
 }
 
 #[test]
-fn server_that_ends_is_told_of_and_found_again() {
+fn server_that_ends_is_reported_and_found_again() {
     let server = EmulatedVrpn::start(world(), any()).unwrap();
     let address = server.address();
     let mut client = client(address, "r1");

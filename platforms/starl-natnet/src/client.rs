@@ -24,7 +24,7 @@ pub struct NatNetOptions {
     pub server: SocketAddr,
     /// The name of the rigid body in Motive.
     pub body: String,
-    /// The names of other bodies whose poses are wanted too. The server need not know them.
+    /// The names of other bodies whose poses are also read. The server need not know them.
     pub others: Vec<String>,
     /// Which axis points up.
     pub up: UpAxis,
@@ -42,7 +42,7 @@ impl NatNetOptions {
     }
 }
 
-/// Why there are no positions.
+/// The reason for missing positions.
 #[derive(Debug)]
 pub enum NatNetError {
     /// The connection failed.
@@ -142,11 +142,11 @@ impl NatNet {
     }
 
     /// The latest pose that has arrived since the last call, and when the cameras saw it; `None` if there is no new
-    /// one, as when the body is hidden. Does not block; to be called several times a second, as this keeps the server
+    /// one, as when the body is hidden. Does not block. Call it several times a second, because this keeps the server
     /// sending.
     ///
     /// # Errors
-    /// Where the server cannot be reached, is silent, or does not know the body. Call again: it may come back.
+    /// The server cannot be reached, is silent, or does not know the body. Call again: it may return.
     pub fn poll(&mut self) -> Result<Option<(Instant, Pose)>, NatNetError> {
         if self.asked.is_none_or(|asked| asked.elapsed() > KEEP_ALIVE) {
             self.ask()?;

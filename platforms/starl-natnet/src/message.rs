@@ -1,4 +1,4 @@
-//! Messages between client and server: a number, the length of what follows, and that.
+//! Messages between client and server: a number, the length of the content, and the content.
 
 use crate::bytes::{Reader, put_text};
 use crate::{Frame, Version, WITH_LENGTHS};
@@ -18,7 +18,7 @@ pub enum Message {
     Frame(Frame),
     /// 10, client: keep sending to me.
     KeepAlive,
-    /// 100, server: it does not know what was asked of it.
+    /// 100, server: the request is unknown.
     Unrecognized,
 }
 

@@ -1,4 +1,4 @@
-//! The contract of a robot's hardware: what it is told, and what it measures.
+//! The interface to a robot's hardware: its commands and its measurements.
 //!
 //! An adapter for a kind of robot implements [`Device`]. The runtime calls it from one thread, several times a second,
 //! and stops the robot by itself when it loses the program, the localisation or (where so configured) the link.
@@ -10,11 +10,11 @@ use std::fmt;
 /// A robot's motors and its own sensors.
 pub trait Device: Send {
     /// Follows `command` until the next call. Called about every 50 ms with the latest command, so that a device with a
-    /// watchdog keeps moving while the program runs, and stops when it does not. `estimate` is where the robot is, for
-    /// devices that take goals in another frame than the command's.
+    /// watchdog keeps moving while the program runs, and stops when it does not. `estimate` is the robot's position,
+    /// for devices that take goals in another frame than the command's.
     ///
     /// # Errors
-    /// Where the device cannot be reached. The runtime tells the user and calls again.
+    /// The device cannot be reached. The runtime informs the user and calls again.
     fn drive(&mut self, command: &Command, estimate: &Estimate) -> Result<(), DeviceError>;
 
     /// Ends all motion as fast as is safe: wheels stop, a quadcopter in the air lands. May be called at any time, and

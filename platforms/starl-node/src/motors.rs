@@ -16,15 +16,15 @@ const REPEAT: Duration = Duration::from_millis(50);
 /// A stopped device is told to stop this often.
 const REPEAT_STOP: Duration = Duration::from_millis(200);
 
-/// The motors are stopped when the program's thread has not said anything for so long.
+/// The motors stop when the program's thread has been silent for this time.
 pub const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Tells where the robot is, from outside it.
+/// An external source of the robot's position.
 pub trait PositionSource: Send {
-    /// The newest pose since the last call, and when it was measured; none if there is none. Does not block.
+    /// The newest pose since the last call with the time of its measurement; none if there is none. Does not block.
     ///
     /// # Errors
-    /// Where the source cannot be reached, or does not know the robot. It is asked again.
+    /// The source cannot be reached, or does not know the robot. It is called again.
     fn poll(&mut self) -> Result<Option<(Instant, Pose)>, DeviceError>;
 
     /// Where other robots were seen since the last call, if the source sees them too. Called after [`Self::poll`].
@@ -64,10 +64,10 @@ pub struct Motors {
 }
 
 impl Motors {
-    /// Starts the thread, which hands what it learns to `tell`, with the times of `clock`.
+    /// Starts the thread, which passes its reports to `tell`, with the times of `clock`.
     ///
     /// # Errors
-    /// If the system gives no thread.
+    /// The system cannot start a thread.
     pub fn start(
         device: Box<dyn Device>,
         positions: Option<Box<dyn PositionSource>>,

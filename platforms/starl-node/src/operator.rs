@@ -77,8 +77,8 @@ impl Operator {
         self.send(robot, &Frame::Order(order))
     }
 
-    /// Lets all robots tell what happens on them, and takes what they have told until `end`: which robot, when that
-    /// arrived, and what it says. To be called again within a second, or robots stop to tell.
+    /// Requests the events of all robots, and returns those that arrive until `end`: the robot, the time of arrival,
+    /// and the events. Call it again within a second, or the robots stop sending.
     pub fn watch(&mut self, end: Instant) -> Vec<(Member, Instant, Seen)> {
         let is_due = self.watched.is_none_or(|at| at.elapsed() >= REPEAT_WATCH);
         if is_due {

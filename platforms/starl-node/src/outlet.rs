@@ -1,4 +1,4 @@
-//! The runtime's side of a robot's node while it handles something: what it asks for is kept, and done afterwards.
+//! The runtime's side of a robot's node while it handles an input: its requests are collected, and executed afterwards.
 
 use crate::robot::Recorder;
 use crate::surroundings::Surroundings;

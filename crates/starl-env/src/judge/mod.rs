@@ -1,8 +1,8 @@
 //! Rewards, ends and measures of a task, as expressions of the StarL language.
 //!
-//! An expression is compiled once. After each action it is evaluated for each robot of each environment, on what the world
-//! knows of the robots: no robot depends on another environment. `previous` is what a robot's quantities were when they
-//! were evaluated before.
+//! An expression is compiled once. After each action it is evaluated for each robot of each environment, on the true
+//! quantities of its robots: environments are independent. `previous` has the values of a robot's quantities at the
+//! previous evaluation.
 
 mod host;
 mod quantity;

@@ -47,7 +47,7 @@ impl Kind {
     }
 }
 
-/// A quantity that stays as it is.
+/// A constant quantity.
 #[derive(Clone, Debug)]
 pub struct Constant {
     /// Its name.
@@ -72,7 +72,7 @@ pub struct Column {
 /// The expressions of a task.
 #[derive(Clone, Debug, Default)]
 pub struct Wording {
-    /// Quantities that stay as they are.
+    /// Constant quantities.
     pub constants: Vec<Constant>,
     /// Quantities in the order of a robot's row. Those with texts are computed in this order.
     pub columns: Vec<Column>,

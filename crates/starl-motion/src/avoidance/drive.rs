@@ -1,9 +1,7 @@
-//! Robots that cannot move sideways: how fast they may go where they are heading, and what point makes
-//! them turn.
+//! Robots that cannot move sideways: their greatest speed along their heading, and the point that makes them turn.
 //!
-//! A robot on wheels goes along its heading until it has turned, whatever direction is best, so its
-//! speed must be safe along its heading too. A car moreover swings to a side while it brakes, and
-//! chooses itself between forwards and backwards.
+//! A robot on wheels moves along its heading until it has turned, so its speed must be safe along its heading too. A
+//! car also swings to a side while it brakes, and its tracker chooses between forwards and backwards.
 
 use super::cell::Cell;
 use super::pace::Pace;
@@ -64,9 +62,8 @@ impl Drive {
         }
     }
 
-    /// The greatest speed, metres per second, with which the robot stays in its cell when it is to go
-    /// with `velocity`. `near` says that the point it is to track is no farther away than
-    /// [`Drive::step`].
+    /// The greatest speed, metres per second, with which the robot stays in its cell if its desired velocity is
+    /// `velocity`. `near` means that the point to track is at most [`Drive::step`] away.
     pub fn speed_limit(
         self,
         body: &Body,

@@ -44,7 +44,7 @@ pub(super) struct Scene<'a> {
     pub estimate: &'a Estimate,
     pub target: Point,
     pub cell: &'a Cell,
-    /// Whether something keeps it from going to its target as it would like to.
+    /// Whether avoidance changes its velocity towards the target.
     pub hindered: bool,
 }
 

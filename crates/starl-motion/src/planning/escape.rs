@@ -27,9 +27,8 @@ pub fn nearest_free<const D: usize>(
     nearest(space, point, within, &first_gap)
 }
 
-/// The nearest free point that can be reached from `point` by moving straight away from what it is
-/// too near to, without coming nearer to any of that and without touching anything else; at most
-/// `within` metres away.
+/// The nearest free point that can be reached from `point` by moving straight away from the obstacles that are too
+/// near, without approaching any of them and without touching another; at most `within` metres away.
 pub fn escape<const D: usize>(
     space: &FreeSpace<D>,
     point: &Vector<D>,

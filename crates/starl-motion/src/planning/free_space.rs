@@ -84,7 +84,7 @@ impl<const D: usize> FreeSpace<D> {
         })
     }
 
-    /// Whether the segment keeps clear of all obstacles, in the box or not.
+    /// Whether the segment is clear of all obstacles, inside or outside the box.
     #[inline]
     pub fn is_clear(&self, a: &Vector<D>, b: &Vector<D>) -> bool {
         let ray = Ray::new(a, b);

@@ -7,7 +7,7 @@ use crate::Neighbour;
 use starl_core::geometry::{HeightSpan, Obstacle, Point, Shape};
 use starl_core::motion::{Body, Workspace};
 
-/// A robot's body and how far it should stay away from things beyond its own size.
+/// A robot's body and the margin between it and obstacles.
 #[derive(Clone, Copy, Debug)]
 pub struct Mover {
     /// The body.
@@ -25,8 +25,8 @@ pub struct Mover {
 pub enum Yields {
     /// Near the end only.
     NearEnds,
-    /// All along what leaves the end less than the least margin: the robot is in a passage too narrow for
-    /// it, or is to go to one.
+    /// Along everything that leaves the end less than the least margin: the robot is in, or drives to, a passage too
+    /// narrow for it.
     Along,
 }
 

@@ -114,8 +114,8 @@ impl<const D: usize> Nearest<D> {
         }
     }
 
-    /// Adds a point with finite coordinates; its number is how many there were before. One at the
-    /// very place of 32 others is numbered but never found: they stand for it.
+    /// Adds a point with finite coordinates; its number is the count of points before. A point at the same position as
+    /// 32 others is numbered but never found; the others are found instead.
     pub fn add(&mut self, point: &Vector<D>) {
         let number = self.count;
         self.count += 1;

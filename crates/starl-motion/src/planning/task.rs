@@ -21,7 +21,7 @@ const ROUNDS: u32 = 8;
 /// search but the last may use half of the nodes that are left.
 const MARGINS: u32 = 4;
 
-/// A request and all that bears on it.
+/// A request with its context.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
     pub options: &'a Options,

@@ -1,4 +1,4 @@
-//! Robots drive round a robot that stands still, such as a dead one, wherever it stands.
+//! Robots drive round a robot that does not move, such as a crashed one.
 
 use crate::avoidance_world::scenes::{AGILE, from_to, one_in_the_way};
 use crate::avoidance_world::{self, EXACT, Scene, World, runs};

@@ -1,4 +1,4 @@
-//! A grown obstacle is exactly what is within its radius, measured along segments.
+//! A grown obstacle is exactly the set of points within its radius, measured along segments.
 
 use starl_core::geometry::{ConvexPolygon, Obstacle};
 use starl_core::{Point, Random};

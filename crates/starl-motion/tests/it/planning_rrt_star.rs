@@ -19,7 +19,7 @@ fn space() -> FreeSpace<2> {
 const SHORTEST: f64 = 2.0 * 30.0 * core::f64::consts::SQRT_2 + 40.0;
 
 #[test]
-fn alone_it_comes_nearer_to_the_shortest_path_with_every_thousand_nodes() {
+fn it_approaches_the_shortest_path_with_more_nodes() {
     let (start, target) = ([0.0, 50.0], [100.0, 50.0]);
     let mut sums = [0.0; 4];
     for seed in 0..20 {

@@ -104,7 +104,7 @@ impl Causality {
         };
         if let Some(((sender, _), missing)) = others.find(is_missing) {
             let text = format!(
-                "was handed message {number} of robot {} before message {missing} of robot {sender}, \
+                "delivered message {number} of robot {} before message {missing} of robot {sender}, \
                  which comes before it",
                 key.from
             );

@@ -117,7 +117,7 @@ impl Sequences {
         match self.next.get(&last) {
             Some((next, other)) if *next != key => {
                 let text = format!(
-                    "was handed message {} of robot {} where robot {other} was handed message {} of \
+                    "delivered message {} of robot {} where robot {other} delivered message {} of \
                      robot {}",
                     key.number, key.from, next.number, next.from
                 );

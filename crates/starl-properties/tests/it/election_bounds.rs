@@ -91,7 +91,7 @@ fn standing_without_a_leader_for_too_long_is_reported() {
         assert_only(&verdict, "election.progress", 5000, &[2]);
         assert_eq!(
             verdict[0].text,
-            "robot 2 stands for election and has no leader for 5s"
+            "robot 2 is a candidate and has had no leader for 5s"
         );
     }
 }

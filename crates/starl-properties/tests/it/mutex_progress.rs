@@ -23,7 +23,7 @@ fn a_request_without_overlap_is_granted_in_time() {
     assert_only(&verdict, NON_INTERFERENCE, 6000, &[0]);
     assert_eq!(
         verdict[0].text,
-        "robot 0 did not get what was asked for within 5s, though no other robot holds or requests any of it"
+        "robot 0 did not get the requested resources within 5s, though no other robot holds or requests any of it"
     );
     late.locks(6000, 0, "enter", "a")
         .locks(6000, 0, "enter", "b");

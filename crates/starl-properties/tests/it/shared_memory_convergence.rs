@@ -23,7 +23,7 @@ fn a_robot_that_misses_a_write_is_reported_once() {
     assert_only(&verdict, PROPERTY, 6000, &[0, 2]);
     assert_eq!(
         verdict[0].text,
-        "robot 2 did not come to show what robot 0 wrote to x at 1.000s within 5s"
+        "robot 2 did not show what robot 0 wrote to x at 1.000s within 5s"
     );
 }
 
@@ -136,7 +136,7 @@ fn a_robot_that_joins_late_is_owed_what_there_is() {
         assert_only(&verdict, PROPERTY, late, &[0, 3]);
         assert_eq!(
             verdict[0].text,
-            "robot 3 did not come to show what robot 0 wrote to x at 1.000s within 5s"
+            "robot 3 did not show what robot 0 wrote to x at 1.000s within 5s"
         );
     }
 }

@@ -143,7 +143,7 @@ impl Flight {
         self.acknowledged = true;
     }
 
-    /// Whether the connection is taken for lost.
+    /// Whether the connection counts as lost.
     pub fn lost(&self) -> bool {
         self.silence_ms().is_none_or(|silence| silence > LOST_MS)
     }

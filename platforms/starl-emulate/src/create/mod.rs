@@ -77,7 +77,7 @@ impl EmulatedCreate {
         })
     }
 
-    /// The terminal that stands for the robot's serial line: the link if there is one.
+    /// The terminal that emulates the robot's serial line: the link if there is one.
     pub fn path(&self) -> &Path {
         self.link.as_deref().unwrap_or(self.terminal.path())
     }

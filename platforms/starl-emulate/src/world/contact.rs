@@ -1,15 +1,15 @@
-//! Which motions would make bodies overlap, and so do not take place.
+//! Finds motions that would make bodies overlap, and prevents them.
 //!
-//! The rule is the simulator's (`collide.rs` of starl-sim): a motion is stopped if the bodies would overlap more
-//! deeply than now; a body that is stopped stays where it was, and may so stop others that counted on its leaving.
-//! Every pair is looked at: a world of emulated devices has tens of bodies, not thousands.
+//! The rule is the simulator's (`collide.rs` of starl-sim): a motion is stopped if the bodies would overlap more deeply
+//! than now; a stopped body stays where it was, and may stop others behind it. Every pair is checked: a world of
+//! emulated devices has tens of bodies, not thousands.
 
 use super::body::Body;
 use starl_core::Point;
 use starl_core::geometry::{Bounds, ObstacleIndex};
 use starl_motion::{Impact, State};
 
-/// Whether a new body would overlap what is there.
+/// Whether a new body would overlap an existing one or an obstacle.
 pub(super) fn blocked(map: &ObstacleIndex, bodies: &[Body], new: &Body) -> bool {
     let at = new.state.pose.position;
     let shape = new.model.body();

@@ -103,7 +103,7 @@ impl World {
     /// Puts a body that stands still at `pose`.
     ///
     /// # Errors
-    /// Where the name is taken, or something is in the way.
+    /// The name is taken, or the place is occupied.
     pub fn add(
         &self,
         name: &str,

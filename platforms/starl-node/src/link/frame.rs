@@ -27,9 +27,9 @@ pub enum Frame {
     Halt,
     /// The answer: the motors were told to stop.
     Halted,
-    /// An operator tells the program something.
+    /// An operator's order to the program.
     Order(starl_core::Order),
-    /// An operator wants to see what happens on a robot, for the next few seconds.
+    /// An operator requests the events of a robot for the next few seconds.
     Watch,
     /// The answer, several times a second.
     Seen(Box<Seen>),
@@ -56,7 +56,7 @@ pub struct Beacon {
 pub struct Seen {
     /// The robot's time, by the clock of its process.
     pub now: Time,
-    /// When its process began, which tells its lives apart.
+    /// The start of its process, which distinguishes its lives.
     pub begun: Time,
     /// The number of the first event: all since the robot's start are counted, so that lost ones are noticed.
     pub first: u64,

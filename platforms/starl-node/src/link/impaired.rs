@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn packets_are_lost_and_late_as_often_as_they_are_to_be() {
+    fn packets_are_lost_and_late_at_the_set_rates() {
         let (sender, arrived) = mpsc::channel();
         let impairment = Impairment {
             loss: 0.25,

@@ -1,4 +1,4 @@
-//! How robots reach each other: a transport for packets, protection of what is in them, and how good it all is.
+//! The link between robots: a transport for packets, their encryption, and the quality of the link.
 
 pub mod channel;
 pub mod frame;

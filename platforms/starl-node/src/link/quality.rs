@@ -25,7 +25,7 @@ pub struct Quality {
 const WEIGHT: f64 = 0.05;
 
 impl Quality {
-    /// Takes in a beacon of the other that arrived at `now`.
+    /// Adds a beacon of the other robot that arrived at `now`.
     pub fn take(&mut self, now: Time, beacon: &Beacon) {
         let missed = match self.heard {
             // It has restarted, or this one is late.

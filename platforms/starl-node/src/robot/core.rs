@@ -29,7 +29,7 @@ const JUMP: f64 = 0.05;
 /// So many timers fire at once at most, so that packets are not kept waiting.
 const MOST_TIMERS: usize = 16;
 
-/// A robot that is handed what comes in, and acts through its [`Equipment`].
+/// A robot that receives inputs, and acts through its [`Equipment`].
 pub struct Core<R: Recorder, E: Equipment> {
     pub(super) setup: Setup,
     pub(super) fleet: Vec<RobotId>,
@@ -70,7 +70,7 @@ pub(super) struct Peer {
 }
 
 impl<R: Recorder, E: Equipment> Core<R, E> {
-    /// A robot that comes up at `now`, with no session with any other robot in `channel`.
+    /// A robot that starts at `now`, without sessions in `channel`.
     pub fn new(now: Time, setup: Setup, channel: Channel, equipment: E, recorder: R) -> Core<R, E> {
         let fleet: Vec<RobotId> = (0..setup.bodies.len() as u32).map(RobotId).collect();
         let mut channel = channel;
@@ -117,7 +117,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
         self.is_over
     }
 
-    /// When [`Core::step`] is to be called next if nothing comes in before.
+    /// The time of the next call of [`Core::step`] if there is no input before.
     pub fn next_due(&self) -> Time {
         if let Some(end) = self.leaving {
             return end;
@@ -132,7 +132,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
         node.min(self.next_location).min(self.next_beacon)
     }
 
-    /// Takes what has come in by `now`, and does all that is due, in the order that [`Node::handle`] asks for.
+    /// Handles the inputs until `now` and everything that is due, in the order that [`Node::handle`] requires.
     /// `incoming` is empty afterwards.
     pub fn step(&mut self, now: Time, incoming: &mut Vec<Incoming>) {
         // Time never goes back, so that records are in order.

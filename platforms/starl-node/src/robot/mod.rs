@@ -1,8 +1,8 @@
 //! One robot in real time.
 //!
-//! [`Core`] is the robot without clock and threads: it is handed what has come in, and says when it wants to be called
-//! next. [`Robot`] is the loop around it, with the machine's clock and the threads that have the device, the planner and
-//! the storage. All that the robot's software sees comes on one thread, so that it can be recorded and repeated.
+//! [`Core`] is the robot without clock and threads: it receives inputs, and returns the time of its next call.
+//! [`Robot`] is the loop around it, with the machine's clock and the threads of the device, the planner and the
+//! storage. All inputs of the robot's software arrive on one thread, so that they can be recorded and repeated.
 
 mod core;
 mod equipment;
@@ -56,11 +56,11 @@ pub struct Setup {
     pub way_points: Vec<WayPoint>,
     /// The obstacles that it knows.
     pub obstacles: Obstacles,
-    /// How often its software is told where it is.
+    /// The period of its position estimates.
     pub positioning_period: Duration,
     /// How exact its odometry and its positions are.
     pub accuracy: Accuracy,
-    /// Where it stands at the start, if that is known.
+    /// Its position at the start, if known.
     pub start: Option<Pose>,
     /// When its motors are stopped.
     pub safety: Safety,
@@ -76,7 +76,7 @@ pub struct Connections {
     pub storage: Option<Storage>,
     /// The network.
     pub transport: Box<dyn Transport>,
-    /// The protection of what goes over it.
+    /// The encryption of its packets.
     pub channel: Channel,
 }
 
@@ -91,11 +91,11 @@ pub enum Incoming {
     Planned(u32, Option<Path>),
     /// From the storage's thread.
     Written(Written),
-    /// The robot is to stop and to end.
+    /// The robot must stop and end.
     Halt,
 }
 
-/// Where other threads put what comes in.
+/// The sender of inputs for other threads.
 pub type Post = Sender<Incoming>;
 
 /// A new mailbox: one end for [`Robot::start`], one for other threads.
@@ -111,7 +111,7 @@ pub trait Recorder {
     /// Something was done to its software.
     fn observe(&mut self, at: Time, observed: Observed<'_>);
 
-    /// All up to now was told.
+    /// All events until now have been recorded.
     fn advance(&mut self, now: Time);
 
     /// All that was told must outlast the process from now on: something is about to leave the robot that shows it.

@@ -137,7 +137,7 @@ impl Channel {
         }
     }
 
-    /// Puts other keys in the place of the present ones. Sessions that exist go on until they are renewed.
+    /// Replaces the keys. Existing sessions continue until they are renewed.
     pub fn set_keys(&mut self, keys: Vec<Key>) {
         self.keys = keys;
     }
@@ -192,7 +192,7 @@ impl Channel {
         })
     }
 
-    /// The initiations that are due, each for a member. To be called a few times a second.
+    /// The initiations that are due, each for a member. Call it a few times a second.
     pub fn due(&mut self, now: Time) -> Vec<(Member, Vec<u8>)> {
         let Some(key) = self.keys.first().copied() else {
             return Vec::new();
