@@ -113,7 +113,7 @@ fn of_what_the_program_declares() {
         "stable sum_of",
         "stable",
         "stable name: Type = value",
-        "A variable that outlasts a crash where the robot has storage.",
+        "A variable that survives a crash if the robot has storage.",
     );
     shows("pos[me] =", "pos", "allread pos[RobotId]: Point", "");
     shows("sum = index", "sum", "allwrite sum: Int = 0", "");
@@ -132,7 +132,7 @@ fn of_a_bound_primitive_what_kind_it_is() {
     let (signature, documentation) = shown("not motion", "motion");
     assert_eq!(signature, "motion = ReachAvoid(vicinity = vicinity)");
     assert!(
-        documentation.starts_with("Goes.\n\nGoes to targets"),
+        documentation.starts_with("Goes.\n\nDrives to targets"),
         "{documentation}"
     );
 }

@@ -13,15 +13,15 @@ pub struct Task {
     pub name: &'static str,
     /// The name of the instances whose messages count.
     pub port: &'static str,
-    /// A fleet of so many robots that is ready, by seed and delay in milliseconds.
+    /// A ready fleet of this number of robots, by seed and delay in milliseconds.
     pub prepare: Box<dyn Fn(usize, u64, u64) -> World>,
     /// Does it, and gives how long robots waited for it.
     pub run: Box<dyn Fn(&mut World) -> Duration>,
     /// Whether it is done once for each robot.
     pub is_of_each: bool,
-    /// Messages that it takes in theory, by the number of robots.
+    /// The theoretical number of messages, by the number of robots.
     pub messages: Box<dyn Fn(f64) -> String>,
-    /// Delays that it takes in theory, one after the other.
+    /// The theoretical number of successive delays.
     pub delays: &'static str,
 }
 

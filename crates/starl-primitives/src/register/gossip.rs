@@ -1,6 +1,6 @@
-//! How copies that missed a write are repaired: robots announce what their copies amount to, rarely while
-//! nothing changes, and compare them where they differ (the rhythm is that of [`crate::shared_memory`], the
-//! Trickle algorithm; the comparison is by lists, since registers are few).
+//! How copies that missed a write are repaired: robots announce a hash of their copies, rarely while nothing changes,
+//! and compare the copies if they differ (the rhythm is that of [`crate::shared_memory`], the Trickle algorithm; the
+//! comparison is by lists, since registers are few).
 //!
 //! Operations do not need this. It lets [`Register::known`] show written values, also on robots that are not
 //! participants.
@@ -72,7 +72,7 @@ impl Register {
         self.begin_interval(robot, next.max(shortest).min(longest));
     }
 
-    /// Takes what another robot says of its copies.
+    /// Handles another robot's announcement of its copies.
     pub(super) fn gossip(&mut self, robot: &mut Robot<'_>, from: RobotId, content: Content) {
         match content {
             Content::Announcement(theirs) if theirs == self.replica.fingerprint() => {

@@ -98,7 +98,7 @@ impl Registration {
         self.open(robot, self.options.settle);
     }
 
-    /// A robot has gone on to a later list.
+    /// A robot has changed to a later list.
     pub(super) fn refused(
         &mut self,
         robot: &mut Robot<'_>,
@@ -163,7 +163,7 @@ impl Registration {
         }
     }
 
-    /// There is no list for now; another one may be computed after this time.
+    /// There is no list now; another may be computed after this time.
     pub(super) fn open(&mut self, robot: &mut Robot<'_>, wait: Duration) {
         let had_list = self.members().is_some();
         self.stage = Stage::Open;

@@ -163,8 +163,8 @@ impl Line {
         self.tell(&numbers, peer, notices);
     }
 
-    /// Sends a receiver again what was lost, as what it has shows: `newest` is when the latest of that was sent. Gives
-    /// when it is tried next, if it lacks anything.
+    /// Retransmits lost messages to a receiver, judged by those that it has: `newest` is the send time of the latest of
+    /// them. Returns the time of the next attempt, if messages are missing.
     pub fn recover(
         &self,
         robot: &mut Robot<'_>,
@@ -249,7 +249,7 @@ impl Line {
         now >= message.sent + self.options.patience(is_held)
     }
 
-    /// Gives up what is over and tries those again that are due. Gives when to do so next.
+    /// Gives up expired messages and retransmits due ones. Returns the time of the next call.
     pub fn look_after(
         &self,
         robot: &mut Robot<'_>,

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-/// All numbers before one, and runs of later ones.
+/// A set of numbers: all below one, and runs of later ones.
 ///
 /// Invariant: the runs are in order, do not touch each other, and do not touch what is before them.
 #[derive(Clone, Debug)]

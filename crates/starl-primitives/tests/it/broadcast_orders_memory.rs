@@ -1,5 +1,4 @@
-//! Whatever arrives, and however much is sent, a broadcast in any order keeps little; and garbage does no
-//! harm.
+//! The memory of a broadcast in any order is bounded, for any traffic; and garbage does no harm.
 
 use crate::harness::teller::{Teller, tell, teller};
 use crate::harness::{Wire, World};
@@ -11,7 +10,7 @@ fn size(world: &World, robot: usize) -> usize {
 }
 
 #[test]
-fn memory_does_not_grow_with_what_was_sent() {
+fn memory_does_not_grow_with_the_number_of_messages() {
     for order in [Order::Causal, Order::Total] {
         let make = Teller::boxed(order, 0, 0.0);
         let mut world = World::new(3, 1, Wire::perfect(), None, make);

@@ -1,4 +1,4 @@
-//! How many datagrams a broadcast takes in each order, against what its algorithm needs.
+//! The number of datagrams of a broadcast in each order, compared with the need of its algorithm.
 
 use crate::harness::teller::{Teller, tell};
 use crate::harness::{Wire, World};

@@ -1,5 +1,5 @@
-//! Broadcasts at many messages a second, for long, through partitions and restarts, with copies that come seconds
-//! late: what is promised holds, and what piles up is cleared within a few round trips.
+//! Broadcasts at many messages a second, for long, through partitions and restarts, with copies that arrive seconds
+//! late: the guarantees hold, and backlogs are cleared within a few round trips.
 
 use crate::harness::teller::{Teller, causal_violation, is_fifo, runs, sequences};
 use crate::harness::{Wire, World, int, robot};

@@ -8,7 +8,7 @@ use starl_core::{Duration, RobotId, Time};
 use starl_primitives::reliable::Options;
 
 #[test]
-fn the_failure_comes_within_its_bound_and_names_the_dead() {
+fn the_failure_is_reported_within_its_bound_and_names_the_crashed_robots() {
     for in_order in [false, true] {
         for seed in 0..20 {
             let options = Options {

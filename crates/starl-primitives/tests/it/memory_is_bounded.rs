@@ -1,4 +1,4 @@
-//! However much is sent, lost and repeated, and whatever else arrives, a robot keeps little.
+//! A robot's memory is bounded, for any number of sent, lost and repeated messages, and with garbage.
 
 use starl_core::effect::Effects;
 use starl_core::motion::{Body, Obstacles, Workspace};

@@ -1,5 +1,5 @@
-//! With leases a holder may die: others get what it held when its lease ends, with a greater number. Clocks may
-//! run wrong within the bound; beyond it two robots may hold the same, and their numbers tell them apart.
+//! With leases a holder may crash: others get its resources when the lease ends, with a greater number. Clocks may
+//! drift within the bound; beyond it two robots may hold the same resource, and their numbers distinguish them.
 
 use crate::harness::locker::{Locker, RESOURCES, acquire, entries, mutex, numbers, release, set};
 use crate::harness::{Wire, World};

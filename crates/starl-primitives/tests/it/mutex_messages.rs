@@ -1,6 +1,6 @@
-//! How many messages an entry takes, counted for 3 to 100 robots, against what each algorithm's takes in
-//! theory. A message to all counts once for each receiver. `cargo test -p starl-primitives --test
-//! mutex_messages -- --nocapture` shows the table of docs/reference/primitives/mutex.md.
+//! The number of messages of an entry for 3 to 100 robots, compared with the theory of each algorithm. A message to all
+//! counts once for each receiver. `cargo test -p starl-primitives --test mutex_messages -- --nocapture` shows the table
+//! of docs/reference/primitives/mutex.md.
 
 use crate::harness::locker::{ALGORITHMS, Locker, acquire, asked, mutex, release};
 use crate::harness::{Wire, World};

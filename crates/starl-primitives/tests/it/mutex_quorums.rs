@@ -1,5 +1,4 @@
-//! Quorums go round robots that are believed to have failed, and an arbiter that has restarted grants nothing
-//! before it knows what it had granted.
+//! Quorums avoid suspected robots, and a restarted arbiter grants nothing before it knows its earlier grants.
 
 use crate::harness::locker::{Locker, acquire, mutex, release, set};
 use crate::harness::{Wire, World};
@@ -53,7 +52,7 @@ fn waiting_for_a_dead_holder_is_reported_and_ends_when_it_returns() {
 }
 
 #[test]
-fn arbiters_that_restart_ask_what_they_had_granted() {
+fn restarted_arbiters_ask_for_their_grants() {
     let mut world = calm(4);
     world.command(0, acquire(&["a"]));
     world.run_for(SECOND);

@@ -1,5 +1,4 @@
-//! Whatever state a fault leaves ReachAvoid in, a command under way comes to an end, and the next one is carried
-//! out.
+//! From any state that a fault leaves, the current command of ReachAvoid ends, and the next one is executed.
 
 use crate::harness::pilot::{Bench, p};
 use starl_core::Random;

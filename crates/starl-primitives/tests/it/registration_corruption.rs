@@ -1,4 +1,4 @@
-//! From any state at all robots come to agree again (self-stabilisation, Dijkstra 1974).
+//! From any state robots agree again (self-stabilisation, Dijkstra 1974).
 
 use crate::harness::registrar::{Registrar, agree, list, register, registration};
 use crate::harness::{Wire, World};
@@ -44,7 +44,7 @@ fn recovery(seed: u64, wire: Wire) -> Duration {
 }
 
 #[test]
-fn robots_come_to_agree_from_any_state() {
+fn robots_agree_from_any_state() {
     let mut spans: Vec<Duration> = (0..400)
         .map(|seed| recovery(seed, Wire::perfect()))
         .collect();

@@ -1,4 +1,4 @@
-//! How many datagrams an agreement takes: as many as the theory says, and in bounded memory whatever comes.
+//! The number of datagrams of an agreement is that of the theory, and memory is bounded for any input.
 
 use crate::harness::registrar::{Registrar, agree, register, unregister};
 use crate::harness::{self, Wire, World};

@@ -11,7 +11,7 @@ fn world(robots: usize, seed: u64, wire: Wire) -> World {
 }
 
 #[test]
-fn quiet_memories_say_little_and_no_more_where_there_are_more() {
+fn quiet_memories_have_little_traffic_independent_of_the_fleet_size() {
     for robots in [2, 10, 50] {
         let mut world = world(robots, 1, Wire::perfect());
         world.command(0, write(0, 1));

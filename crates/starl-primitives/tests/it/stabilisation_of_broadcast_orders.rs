@@ -1,5 +1,5 @@
-//! From any state at all broadcasts in causal and in total order come to keep their promises again
-//! (self-stabilisation, Dijkstra 1974), and how long that takes.
+//! From any state broadcasts in causal and in total order recover their guarantees (self-stabilisation, Dijkstra 1974);
+//! the time is measured.
 
 use crate::harness::teller::{Id, Step, Teller, causal_violation, runs, tell, total_violation};
 use crate::harness::{Wire, World};

@@ -11,7 +11,7 @@ use starl_core::event::messaging::MessageNumber;
 use starl_core::event::{BroadcastEvent, TransferEvent};
 use starl_core::{Robot, RobotId};
 
-/// A message that has arrived and is not handed out yet.
+/// A message that has arrived and is not delivered yet.
 #[derive(Clone, Debug)]
 pub(super) struct Held {
     pub arrival: Arrival,
@@ -23,11 +23,11 @@ pub(super) struct Held {
     pub looks: Look,
 }
 
-/// That a message comes after another one.
+/// A dependency of a message on another.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Need {
     pub after: After,
-    /// Whether the other one was sent in a life that is over, so that it will not come.
+    /// Whether the other was sent in a life that is over, so that it will not arrive.
     pub is_over: bool,
 }
 
@@ -46,7 +46,7 @@ impl Causal {
         self.looks.wrapping_sub(held.looks)
     }
 
-    /// Something that a message comes after and has to wait for.
+    /// A dependency for which the message must wait.
     pub(super) fn missing(&self, held: &Held) -> Option<After> {
         let mut all = held.after.iter();
         let need = all.find(|need| !self.is_settled(held, need))?;
@@ -81,7 +81,7 @@ impl Causal {
         first.is_some_and(|first| first.arrival.number <= after.number)
     }
 
-    /// Hands out all that waits for nothing.
+    /// Delivers all messages without open dependencies.
     pub(super) fn hand_out_ready(&mut self, robot: &mut Robot<'_>) {
         loop {
             let mut firsts = self

@@ -29,7 +29,7 @@ pub(super) struct Leading {
     pub told: u64,
     /// The decided index at the last ticks, and the round then, the oldest first.
     pub past: [(u64, u64); 4],
-    /// Counts what it has sent, datagrams that were sent together once.
+    /// Counts the rounds of datagrams; datagrams that were sent together count once.
     pub round: u64,
     /// Counts its calls.
     pub calls: u64,
@@ -89,7 +89,7 @@ impl Follower {
 }
 
 impl Member {
-    /// Whether more may be put into the log before what is in it is decided.
+    /// Whether more entries may be added to the log before the present ones are decided.
     pub fn has_room(&self) -> bool {
         self.commit >= self.log.last() || self.log.bytes() < 2 * MOST_BYTES
     }
@@ -132,8 +132,8 @@ impl Member {
         (body, end)
     }
 
-    /// Up to where entries need not be kept: all that are heard of have handed them out, or there are
-    /// too many.
+    /// The index up to which entries can be dropped: all members that are heard have delivered them, or there are too
+    /// many.
     pub fn floor(&self) -> u64 {
         let Role::Leading(leading) = &self.role else {
             return 0;

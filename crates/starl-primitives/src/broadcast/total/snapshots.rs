@@ -1,8 +1,7 @@
-//! How a robot goes on from a place in the log that it did not come to by itself: one that is let in, or one
-//! that was away for longer than the log is kept.
+//! How a robot continues from a position in the log that it has not reached itself: an admitted robot, or one that was
+//! away for longer than the log is kept.
 //!
-//! Invariant: nothing that a member has acknowledged to a leader that may still count on it is dropped from its
-//! log.
+//! Invariant: a member does not drop entries that it has acknowledged to a leader that may still rely on them.
 
 use super::life::{Life, LifeName};
 use super::log::Log;
@@ -25,7 +24,7 @@ pub(super) struct Place {
 }
 
 impl Total {
-    /// Sends a life what it has to know to go on from here.
+    /// Sends a life the state from which it can continue.
     pub(super) fn send_snapshot(&mut self, robot: &mut Robot<'_>, to: Life) {
         let Some(member) = &mut self.member else {
             return;

@@ -1,4 +1,4 @@
-//! A robot asks, repeats, enters, renews what it holds and gives it back.
+//! The requesting side: request, repeat, enter, renew and release.
 
 use super::super::Resources;
 use super::super::common::{Alarm, Common};
@@ -48,7 +48,7 @@ impl Arbitration {
         }
     }
 
-    /// The participants have changed: what was granted by the old ones does not count among the new ones.
+    /// The participants have changed: grants of the old ones do not count among the new ones.
     pub(super) fn change_list(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         let Some(request) = self.request.take() else {
             return;
@@ -79,7 +79,7 @@ impl Arbitration {
         self.repeat(common, robot);
     }
 
-    /// Repeats the request, or renews what is held; the first time too.
+    /// Sends the request, repeats it, or renews the lease.
     pub(super) fn repeat(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         let (now, enough) = (robot.now(), self.enough(common));
         let mut post = Post::default();
@@ -116,7 +116,7 @@ impl Arbitration {
         self.deliver(common, robot, post);
     }
 
-    /// Gives back all that was granted.
+    /// Releases everything granted.
     pub(super) fn give_back(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         let mut post = Post::default();
         if let Some(request) = self.request.take() {

@@ -11,7 +11,7 @@ use starl_core::random::hash_key;
 use starl_core::{Robot, RobotId};
 
 impl Arbitration {
-    /// Begins what has to be begun: see [`recovery`]. Called with every input.
+    /// Starts the necessary steps: see [`recovery`]. Called with every input.
     pub fn look(&mut self, common: &mut Common, robot: &mut Robot<'_>) {
         let is_same = match &common.participants {
             None => self.everyone == robot.fleet(),
@@ -50,7 +50,7 @@ impl Arbitration {
         self.deliver(common, robot, post);
     }
 
-    /// An answer has come.
+    /// An answer has arrived.
     pub(super) fn hear_answer(
         &mut self,
         common: &mut Common,

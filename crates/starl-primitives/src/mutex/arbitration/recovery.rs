@@ -1,4 +1,4 @@
-//! How an arbiter that remembers nothing comes to be one: it asks the others what it had granted.
+//! How an arbiter without memory becomes ready: it asks the others for its earlier grants.
 //!
 //! A robot cannot tell its first start from a restart, so every robot does this once. Until it is ready it
 //! grants nothing.
@@ -33,7 +33,7 @@ pub(super) struct Recovery {
     /// None before it has begun.
     begun: Option<Begun>,
     pub is_ready: bool,
-    /// Whether it has been ready since the robot started, so that it knows what it has granted.
+    /// Whether it has been ready since the robot's start, so that it knows its grants.
     pub remembers: bool,
 }
 
@@ -91,7 +91,7 @@ impl Recovery {
         self.begun.as_mut().filter(|_| !is_ready)
     }
 
-    /// Whether it has asked for so long.
+    /// Whether it has asked for this long.
     pub fn has_asked_for(&self, span: Duration, now: Time) -> bool {
         let begun = self.begun.as_ref();
         begun.is_some_and(|begun| now.since(begun.since) >= span)
@@ -158,7 +158,7 @@ impl Recovery {
         Some(next.since(now).max(least))
     }
 
-    /// Takes an answer, with the life of a robot that has forgotten; false if it is to another question.
+    /// Handles an answer, with the life of a robot that has forgotten; false if it answers another question.
     pub fn hear(&mut self, from: RobotId, nonce: u32, forgot: Option<u32>) -> bool {
         match self.asking() {
             Some(begun) if begun.nonce == nonce => {

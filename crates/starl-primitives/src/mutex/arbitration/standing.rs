@@ -16,11 +16,11 @@ pub(super) struct Standing {
     pub behind: Option<RobotId>,
     /// Whether it is its turn, and nothing in the way.
     pub is_next: bool,
-    /// Later requests that have been granted some of what it wants.
+    /// Later requests that have been granted some of its resources.
     pub granted_before_it: Vec<RobotId>,
 }
 
-/// All waiting requests, the earliest first; `tells` if robots are told for which they wait.
+/// All waiting requests, the earliest first; `tells` if waiting robots learn for which robots they wait.
 pub(super) fn standings(entries: &BTreeMap<RobotId, Entry>, tells: bool) -> Vec<Standing> {
     let mut order: Vec<(RobotId, &Entry)> =
         entries.iter().map(|(&id, entry)| (id, entry)).collect();

@@ -24,7 +24,7 @@ impl Registrar {
         Registrar::made(is_busy, true, options)
     }
 
-    /// Robots that register when they are told to, and have nothing but the registration.
+    /// Robots that register on command, with the registration as their only primitive.
     #[allow(dead_code, reason = "the benchmarks use it")]
     pub fn bare(options: Options) -> impl Fn() -> Box<dyn Program> {
         Registrar::made(false, false, options)

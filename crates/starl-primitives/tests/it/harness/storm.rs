@@ -156,7 +156,7 @@ impl Aftermath {
         has_cycle(&next).then(|| "there is no order that all were handed".into())
     }
 
-    /// How many messages were handed to all robots that were up from then on.
+    /// The number of messages delivered to all robots that were up from then on.
     pub fn handed_to_all(&self, since: Time) -> usize {
         let mut count: BTreeMap<Id, usize> = BTreeMap::new();
         let mut fresh = BTreeSet::new();
