@@ -70,7 +70,7 @@ impl Checker {
             .collect()
     }
 
-    /// Arguments by the shapes of a signature's parameters; those left out are none.
+    /// Arguments by the shapes of a signature's parameters; omitted ones are none.
     pub fn shaped_arguments(
         &mut self,
         signature: &Signature,
@@ -234,7 +234,7 @@ impl Checker {
             .note(form)
     }
 
-    /// Notes what the names of arguments stand for.
+    /// Resolves the names of arguments.
     pub fn resolve_names(
         &mut self,
         arguments: &[ast::Argument],
@@ -261,7 +261,7 @@ impl Checker {
         });
     }
 
-    /// Looks for errors in the arguments of what cannot be called.
+    /// Checks the arguments of something that cannot be called.
     pub fn check_anyway(&mut self, arguments: &[ast::Argument]) {
         for argument in arguments {
             let can_be_checked =

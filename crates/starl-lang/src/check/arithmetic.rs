@@ -13,7 +13,7 @@ use crate::syntax::ast::BinaryOperator;
 
 /// The note on two different types with the same name.
 pub(super) const SAME_NAME: &str =
-    "these are two types that are declared apart; declare one, with a name, and use it twice";
+    "these are two different types; declare one with a name, and use it for both";
 
 impl Checker {
     /// An operator of arithmetic, between values that were checked.
@@ -48,12 +48,12 @@ impl Checker {
             if let Type::Optional(inner) = &side.ty
                 && (result(operator, inner, inner).is_some() || is_ordered(inner))
             {
-                let message = format!("what `{sign}` joins may be none");
+                let message = format!("an operand of `{sign}` may be none");
                 let problem = Diagnostic::new(Code::MayBeNone, side.span, message);
                 let problem = problem.found(self.name_of(&side.ty));
-                self.report(problem.note(
-                    "ask first with `if some x = ...`, or say what it is then with `?? ...`",
-                ));
+                self.report(
+                    problem.note("test it with `if some x = ...`, or give a default with `?? ...`"),
+                );
                 return;
             }
         }
@@ -78,7 +78,7 @@ impl Checker {
         let message = match (compares, left.ty == right.ty) {
             (true, true) => format!("`{sign}` does not compare {l}"),
             (true, false) => format!("`{sign}` does not compare {l} with {r}"),
-            (false, _) => format!("`{sign}` does not join {l} and {r}"),
+            (false, _) => format!("`{sign}` does not apply to {l} and {r}"),
         };
         let problem = Diagnostic::new(Code::OperatorTypes, span, message);
         let look_the_same = l == r && left.ty != right.ty;
@@ -89,13 +89,13 @@ impl Checker {
             (Type::Point, Type::Int, _) if is_scaling => self.as_float(problem, right),
             (Type::Int, Type::Point, BinaryOperator::Multiply) => self.as_float(problem, left),
             (Type::String, _, BinaryOperator::Add) => problem.fix(around(
-                "make a text of it with `String(...)`",
+                "convert it with `String(...)`",
                 right.span,
                 "String(",
                 ")",
             )),
             (_, Type::String, BinaryOperator::Add) => problem.fix(around(
-                "make a text of it with `String(...)`",
+                "convert it with `String(...)`",
                 left.span,
                 "String(",
                 ")",
@@ -141,7 +141,7 @@ pub(super) fn resolve(operator: BinaryOperator) -> Option<Operator> {
     })
 }
 
-/// The type of what an operator of arithmetic gives; none if it does not join the two.
+/// The result type of an arithmetic operator; none if it does not apply to the two.
 pub(super) fn result(operator: BinaryOperator, left: &Type, right: &Type) -> Option<Type> {
     use BinaryOperator::{Add, Divide, Multiply, Remainder, Subtract};
     use Type::{Duration, Float, Int, List, Point, String, Time};

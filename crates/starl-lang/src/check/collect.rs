@@ -366,7 +366,7 @@ impl Checker {
             || matches!(name.text.as_str(), "List" | "Set" | "Map" | "role")
             || Primitive::named(&name.text).is_some();
         if reserved {
-            let message = format!("`{}` has a meaning of its own", name.text);
+            let message = format!("`{}` is a built-in name", name.text);
             let problem = Diagnostic::new(Code::DuplicateName, name.span, message);
             self.report(problem.note("choose another name"));
             return;

@@ -11,8 +11,8 @@ use crate::ir::ConstantId;
 use crate::syntax::ast::{self, AstNode};
 
 impl Checker {
-    /// Orders the constants so that each comes after those that its value needs, by way of functions
-    /// too. One that needs itself is reported.
+    /// Orders the constants so that each follows those that its value needs, also through functions. A constant that
+    /// needs itself is reported.
     pub fn order_constants(&mut self) {
         let mut sizes = Vec::new();
         for number in 0..self.program.constants.len() {
@@ -96,7 +96,7 @@ impl Checker {
     fn report_cycle(&mut self, id: ConstantId) {
         let constant = &self.program[id];
         self.file = constant.site.file;
-        let message = format!("the value of `{}` needs itself", constant.name);
+        let message = format!("the value of `{}` depends on itself", constant.name);
         let problem = Diagnostic::new(Code::ConstantCycle, constant.site.span, message);
         self.report(problem);
         self.file = 0;

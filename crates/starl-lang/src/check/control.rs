@@ -1,8 +1,7 @@
 //! Warnings about the program's states: the values of its enum variables, and the actions between them.
 //!
-//! A state is entered where the variable gets it by name. It is left by actions and handlers that give
-//! the variable another value and may do so in that state. Of a variable that gets a value which cannot be
-//! told nothing is said.
+//! A state is entered by an assignment of its name. It is left by actions and handlers that assign another value and
+//! may run in that state. A variable that gets an unknown value has no such warnings.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;

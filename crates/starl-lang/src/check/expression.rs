@@ -105,16 +105,16 @@ impl Checker {
             Some(ty @ Type::Optional(_)) => made(ExpressionKind::None, ty.clone(), span),
             Some(ty) => {
                 let problem =
-                    Diagnostic::new(Code::WrongType, span, "`none` is no value of this type");
+                    Diagnostic::new(Code::WrongType, span, "`none` is not a value of this type");
                 let name = self.name_of(ty);
                 let note = format!("only an optional, `{name}?`, may be none");
                 self.report(problem.expected(name).found("none").note(note));
                 broken(span)
             }
             None => {
-                let message = "it cannot be known what is none here";
+                let message = "the type of this `none` is unknown";
                 let problem = Diagnostic::new(Code::UnclearType, span, message);
-                self.report(problem.note("say it with a type, as in `let x: Point? = none`"));
+                self.report(problem.note("declare its type, as in `let x: Point? = none`"));
                 broken(span)
             }
         }
@@ -172,7 +172,7 @@ impl Checker {
         }
         // The operand of a negation is never none.
         let expected = expected.map(comparable);
-        let operand = self.value(node.operand(), expected.as_ref(), "what is negated");
+        let operand = self.value(node.operand(), expected.as_ref(), "the operand");
         match operand.ty {
             Type::Int | Type::Point => {
                 let ty = operand.ty.clone();
@@ -186,7 +186,7 @@ impl Checker {
             },
             Type::Error => broken(span),
             Type::Duration => {
-                let message = "there are no negative durations";
+                let message = "durations cannot be negative";
                 self.error(Code::OperatorTypes, span, message);
                 broken(span)
             }
@@ -253,7 +253,7 @@ impl Checker {
             };
             let message = format!("`{word}` cannot stand here");
             let problem = Diagnostic::new(Code::MisplacedQuantifier, span, message);
-            let note = "it stands in properties: a robot knows of others only what they tell it";
+            let note = "it is allowed only in properties: a robot knows only what others send it";
             self.report(problem.note(note));
             return broken(span);
         }
@@ -264,7 +264,7 @@ impl Checker {
         let robot = self.body.robot;
         // A value is one robot's also where it asks about all.
         self.body.robot = robot.filter(|_| self.value.is_some());
-        let condition = self.expect(node.condition(), &Type::Bool, "what is said of the robots");
+        let condition = self.expect(node.condition(), &Type::Bool, "the condition");
         self.body.robot = robot;
         self.body.leave(mark);
         let kind = ExpressionKind::Quantifier {

@@ -1,5 +1,4 @@
-//! Whether a condition can hold, as far as can be told from the program's text and the value of one
-//! enum variable.
+//! Whether a condition can hold, judged from the program's text and the value of one enum variable.
 
 use alloc::collections::BTreeSet;
 
@@ -8,7 +7,7 @@ use crate::ir::{Expression, ExpressionKind, Operator, Type, VariableId};
 /// An assumption: the value of an enum variable.
 pub(crate) type Assumption = Option<(VariableId, u16)>;
 
-/// Whether the condition holds; none if that depends on more than what is assumed.
+/// Whether the condition holds; none if that depends on more than the assumption.
 pub(crate) fn truth(condition: &Expression, assumed: Assumption) -> Option<bool> {
     match &condition.kind {
         ExpressionKind::Bool(value) => Some(*value),

@@ -1,4 +1,4 @@
-//! Where the files that a program names come from: imported libraries and models.
+//! The source of the files that a program names: imported libraries and models.
 
 use alloc::string::String;
 use alloc::vec::Vec;

@@ -284,8 +284,7 @@ impl Checker {
         if self.body.place != Where::Property {
             let message = format!("`{name}` of another robot is not known here");
             let problem = Diagnostic::new(Code::ForeignVariable, at, message);
-            let note =
-                "robots know of each other what they tell: by messages, or by `allread` variables";
+            let note = "robots learn about each other by messages, or by `allread` variables";
             self.report(problem.note(note));
             return broken(span);
         }
@@ -327,7 +326,7 @@ impl Checker {
         found
     }
 
-    /// Notes what a property says of a robot.
+    /// Records an attribute of a robot in a property.
     pub fn resolve_robot_member(&mut self, at: Span, member: RobotMember) {
         self.resolve(
             at,
@@ -362,8 +361,7 @@ impl Checker {
             let inner = self.name_of(inner);
             let problem = problem.expected(inner).found(found);
             self.report(
-                problem
-                    .note("ask first with `if some x = ...`, or say what it is then with `?? ...`"),
+                problem.note("test it with `if some x = ...`, or give a default with `?? ...`"),
             );
             return;
         }

@@ -1,12 +1,12 @@
-//! The static checker: from a tree to a resolved, typed program, and all that is wrong with it.
+//! The static checker: from a tree to a resolved, typed program and its problems.
 //!
-//! [`check`] never fails: it gives a program, perhaps with errors in it, and diagnostics of each file.
-//! A part with an error gets the type [`Type::Error`], which fits everywhere, so that one mistake is reported once.
+//! [`check`] never fails: it returns a program, which may contain errors, and the diagnostics of each file. A part with
+//! an error gets the type [`Type::Error`], which fits everywhere, so that a mistake is reported once.
 //!
-//! The way is: load the files (`load`), note what is declared (`collect`), give declarations their types
-//! (`types`), check what is in them (`declaration`, `statement`, `expression`, `property`), then look at
-//! the whole for what cannot be meant (`usage`, `control`). Types flow down as well as up: an expression is
-//! checked with the type that is expected of it, where that is known, and gives its type.
+//! The steps are: load the files (`load`), collect the declarations (`collect`), resolve their types (`types`), check
+//! their contents (`declaration`, `statement`, `expression`, `property`), then look for probable mistakes in the whole
+//! program (`usage`, `control`). Types flow down and up: an expression is checked with the expected type, if known, and
+//! returns its own type.
 
 mod arguments;
 mod arithmetic;

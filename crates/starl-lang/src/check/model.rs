@@ -12,7 +12,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BindingId, Expression, ExpressionKind, Model, Operator};
 use starl_policy::Network;
 
-/// A model is asked about a list whose length is known.
+/// An evaluation of a model with a list of known length.
 pub(super) struct Evaluation {
     binding: BindingId,
     numbers: usize,

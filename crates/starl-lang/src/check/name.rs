@@ -202,9 +202,9 @@ impl Checker {
         if self.body.place != Where::Property || !OF_SENSORS.contains(&name) {
             return false;
         }
-        let message = format!("a property cannot ask for `{name}`");
+        let message = format!("a property cannot use `{name}`");
         let problem = Diagnostic::new(Code::InvalidProperty, span, message);
-        let note = "only a robot itself reads its sensors; keep what matters in a variable";
+        let note = "only the robot itself reads its sensors; store the reading in a variable";
         self.report(problem.note(note));
         true
     }
@@ -218,20 +218,20 @@ impl Checker {
         }
         let what = place.what();
         if purity == Purity::Property {
-            let message = format!("only a property can ask for `{name}`");
+            let message = format!("only a property can use `{name}`");
             let problem = Diagnostic::new(Code::StateOutOfReach, span, message);
             self.report(problem.note("no robot knows it"));
         } else if purity == Purity::Query {
-            let message = format!("{what} cannot ask for `{name}`");
+            let message = format!("{what} cannot use `{name}`");
             let problem = Diagnostic::new(Code::StateOutOfReach, span, message);
             self.report(match place {
                 Where::Function => problem.note(
-                    "a function depends on its arguments and on constants; hand the value to it",
+                    "a function depends on its arguments and on constants; pass the value to it",
                 ),
                 Where::Binding => {
                     problem.note("it is made of constants, parameters, `me` and `peers`")
                 }
-                _ => problem.note("it is the same for all robots and all runs"),
+                _ => problem.note("a constant is the same for all robots and all runs"),
             });
         } else {
             let message = format!("{what} cannot call `{name}`, which does something");
@@ -297,7 +297,7 @@ impl Checker {
         broken(span)
     }
 
-    /// Adds the name that was probably meant, among all that can be seen here.
+    /// Suggests the name that was probably meant, among all visible names.
     pub fn suggest(&self, problem: Diagnostic, name: &str, span: Span) -> Diagnostic {
         if let Some((_, meant)) = FOREIGN.iter().find(|(word, _)| *word == name) {
             return problem.replace(format!("did you mean `{meant}`?"), span, *meant);

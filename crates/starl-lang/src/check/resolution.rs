@@ -93,7 +93,7 @@ fn number_of(primitive: &Primitive) -> Option<usize> {
         .position(|other| other.name() == primitive.name())
 }
 
-/// The names of all files with what they stand for.
+/// The names of all files with their meanings.
 #[derive(Clone, Debug, Default)]
 pub struct Resolutions {
     /// Names that are used, in the order in which they were looked at.
@@ -103,13 +103,13 @@ pub struct Resolutions {
 }
 
 impl Checker {
-    /// Notes what a name of the present file stands for.
+    /// Records the meaning of a name in the current file.
     pub fn resolve(&mut self, span: Span, symbol: Symbol) {
         let site = self.site(span);
         self.resolutions.uses.push((site, symbol));
     }
 
-    /// The same for what is declared.
+    /// The same for a declaration.
     pub fn resolve_entity(&mut self, span: Span, entity: Entity) {
         if let Some(symbol) = entity.symbol() {
             self.resolve(span, symbol);

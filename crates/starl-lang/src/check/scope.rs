@@ -21,7 +21,7 @@ pub(super) enum Entity {
     Function(FunctionId),
     /// An imported library, by its file.
     Library(u32),
-    /// Something whose declaration has an error, so that nothing more is said of it.
+    /// A declaration with an error, about which nothing more is reported.
     Broken,
 }
 

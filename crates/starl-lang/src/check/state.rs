@@ -15,7 +15,7 @@ use crate::diagnostic::{Code, Span, has_errors};
 use crate::ir::{ConstantId, EnumId, FunctionId, Program, RecordId, Site, Type};
 use crate::syntax::ast;
 
-/// A file with what it declares.
+/// A file with its declarations.
 pub(super) struct File {
     pub checked: CheckedFile,
     pub scope: Scope,
@@ -102,26 +102,26 @@ pub(super) struct Checker {
     pub needs: BTreeSet<(Needed, Needed)>,
     /// The constant or function that is being checked.
     pub user: Option<Needed>,
-    /// Types whose keys are to be looked at when all types are known: where, in which file.
+    /// Types whose keys must be checked when all types are known, with their positions.
     pub keys: Vec<(Site, Type)>,
     /// Which enums have a variant with this name.
     pub variants: BTreeMap<String, Vec<(EnumId, u16)>>,
     /// Of how many parts the records are made.
     pub sizes: BTreeMap<RecordId, u32>,
-    /// The evaluations of models whose count of numbers is known.
+    /// The evaluations of models with lists of known length.
     pub evaluations: Vec<Evaluation>,
     /// The names of the actions.
     pub actions: BTreeSet<String>,
     /// Locals that are declared to be read and are not, in the program itself.
     pub unused_locals: Vec<(Code, Span, String)>,
     pub resolutions: Resolutions,
-    /// Where a name stands in the program of which an editor wants to know what it may be.
+    /// The position of the name that an editor wants to complete.
     pub probe: Option<u32>,
     /// The result: the context of that name.
     pub surroundings: Option<Surroundings>,
     /// The parameters that it may be the name of.
     pub probed_parameters: Vec<String>,
-    /// The type of values that stand in the place of properties, each about one robot.
+    /// The type of values that replace properties, each of one robot.
     pub value: Option<Type>,
 }
 

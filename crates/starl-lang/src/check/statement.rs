@@ -209,7 +209,7 @@ impl Checker {
             (None, Some(value)) => {
                 let at = value.span();
                 self.infer(Some(value), None);
-                let message = "there is nothing here that a value could be returned to";
+                let message = "only a function returns a value";
                 let problem = Diagnostic::new(Code::ReturnValue, at, message);
                 let rest = Span::new(span.start, at.end);
                 self.report(problem.replace("write `return` alone", rest, "return"));
@@ -251,7 +251,7 @@ impl Checker {
             let message = "only the effect of an action can be atomic";
             let problem = Diagnostic::new(Code::MisplacedAtomic, word, message);
             self.report(problem.note(
-                "`init` and handlers run at once; keep what is to be done in a variable, and do it in an \
+                "`init` and handlers cannot wait; store the request in a variable, and carry it out in an \
                  action",
             ));
         }
@@ -275,11 +275,11 @@ impl Checker {
         if let Some(id) = shared.iter().find(is_open) {
             let name = self.program[*id].name.clone();
             let message = format!("this `atomic` does not keep other robots out of `{name}`");
-            let note = format!("it does if that is declared `allwrite[linearizable] {name}`");
+            let note = format!("declare it `allwrite[linearizable] {name}`");
             self.report(problem(message).note(note));
         } else if shared.iter().all(|id| self.program[*id].is_single_writer) {
             let message = "this `atomic` touches no variable that all robots write";
-            let note = "an effect runs as one in any case; `atomic` keeps other robots out";
+            let note = "an effect always runs as a whole; `atomic` is for variables that other robots write too";
             self.report(problem(message.into()).note(note));
         }
     }
@@ -303,8 +303,7 @@ impl Checker {
             );
             let note = match self.body.is_action {
                 true => {
-                    "its latest value is at hand only while others are kept out: put what uses it under \
-                     `atomic`, for which the action then waits"
+                    "its latest value is available only in an action with `atomic`: put the statements that use it under `atomic`"
                 }
                 false => {
                     "`init` and handlers cannot wait for it; use it in an action with `atomic`"
@@ -321,9 +320,9 @@ fn sibling(value: &Expression) -> Option<&'static str> {
         return None;
     };
     match method.name() {
-        "union" | "intersection" | "difference" | "reversed" | "sorted" | "slice" => {
-            Some("it changes nothing and gives a new value; write `x = x.method()` to keep that")
-        }
+        "union" | "intersection" | "difference" | "reversed" | "sorted" | "slice" => Some(
+            "it returns a new value and does not change `x`; write `x = x.method()` to keep the value",
+        ),
         _ => None,
     }
 }

@@ -23,7 +23,7 @@ pub enum Surroundings {
     Member {
         /// The type.
         of: Type,
-        /// Whether it stands in a property.
+        /// Whether it is in a property.
         in_property: bool,
     },
     /// It is a part of a library, a bound primitive or an enum.
@@ -43,7 +43,7 @@ pub enum Surroundings {
 pub struct Reach {
     /// The locals, the innermost last.
     pub locals: Vec<Local>,
-    /// The type that is expected, if one is.
+    /// The expected type, if any.
     pub expected: Option<Type>,
     /// The highest purity of the built-in functions and primitives that may be used.
     pub purity: Purity,
@@ -53,7 +53,7 @@ pub struct Reach {
     pub sees_parameters: bool,
     /// Whether bound primitives are seen.
     pub sees_primitives: bool,
-    /// Whether it stands in a property.
+    /// Whether it is in a property.
     pub in_property: bool,
     /// If it is an argument: the parameters that are not given yet.
     pub parameters: Vec<String>,
@@ -74,7 +74,7 @@ impl Checker {
         span.start <= probe && probe < span.end
     }
 
-    /// Notes what the probe may be, the first time that it is come upon.
+    /// Records the context of the probe, when it is first reached.
     pub fn note_probe(&mut self, surroundings: Surroundings) {
         self.surroundings.get_or_insert(surroundings);
     }

@@ -141,7 +141,7 @@ impl Checker {
                 if let Some(extra) = extra {
                     let mark = Span::new(span.end - extra, span.end);
                     let problem =
-                        Diagnostic::new(Code::TypeArguments, mark, "this is optional already");
+                        Diagnostic::new(Code::TypeArguments, mark, "this type is already optional");
                     self.report(problem.replace("write one `?`", mark, ""));
                 }
                 Type::optional(inner)

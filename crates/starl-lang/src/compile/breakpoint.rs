@@ -26,12 +26,12 @@ pub fn with_condition(
     Ok(bytecode)
 }
 
-/// Compiles a program, which has no errors and no properties, with a value of each robot: an expression that may ask
-/// what a property may, and whose value has the type. The function with this number takes a robot and gives the value;
-/// places of its instructions are bytes of the expression.
+/// Compiles a program, which has no errors and no properties, with a value of each robot: an expression that may read
+/// everything that a property may, and whose value has the type. The function with the returned number takes a robot
+/// and returns the value; positions of its instructions are bytes of the expression.
 ///
 /// # Errors
-/// The problems of the expression; places are bytes of it.
+/// The problems of the expression; positions are bytes of it.
 pub fn with_value(
     program: &str,
     expression: &str,

@@ -154,7 +154,7 @@ impl<'p> Unit<'p> {
         number
     }
 
-    /// The next routine that is to be compiled, and its number.
+    /// The next routine to compile, and its number.
     pub fn next_routine(&mut self) -> Option<(Routine, u32)> {
         self.queue.pop_front()
     }
@@ -165,7 +165,7 @@ impl<'p> Unit<'p> {
         (self.functions.len() - 1) as u32
     }
 
-    /// Puts a function at its number, or notes why there is none.
+    /// Stores a function under its number, or the reason why there is none.
     pub fn define(&mut self, number: u32, function: Compiled<Finished>) {
         match function {
             Ok(function) => self.functions[number as usize] = Some(function),

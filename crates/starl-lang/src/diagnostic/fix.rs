@@ -15,7 +15,7 @@ pub struct Edit {
 }
 
 impl Edit {
-    /// Puts `text` in the place of what `span` marks.
+    /// Replaces the text at `span` by `text`.
     #[must_use]
     pub fn new(span: Span, text: impl Into<String>) -> Self {
         Self {
@@ -30,7 +30,7 @@ impl Edit {
 pub struct Fix {
     /// The instruction shown to users.
     pub message: String,
-    /// The same for a program: replacements by rising place, none overlapping another.
+    /// The same as edits, sorted by position and without overlaps.
     pub edits: Vec<Edit>,
 }
 

@@ -135,8 +135,7 @@ impl Diagnostic {
         self.code.severity()
     }
 
-    /// All that is said besides the message, a line each: what is said at the place, what should stand there and what
-    /// does, and more that is worth knowing.
+    /// The lines below the message: the note at the position, the expected and the actual form, and further notes.
     pub fn remarks(&self) -> impl Iterator<Item = String> {
         let should = self.expected.iter().map(|what| format!("expected: {what}"));
         let stands = self.found.iter().map(|what| format!("found: {what}"));

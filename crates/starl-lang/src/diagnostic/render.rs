@@ -11,7 +11,7 @@ use codespan_reporting::term::{self, Config, termcolor};
 use super::excerpt::{self, Excerpt};
 use super::{Diagnostic, Severity, Span};
 
-/// Whether a terminal is told to colour the text.
+/// Whether the text is coloured for a terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colour {
     /// Plain text.
@@ -24,7 +24,7 @@ pub enum Colour {
 const MOST: usize = 100;
 
 /// The diagnostics of one file in the order given, each as a few lines with an empty one after it. Lines that are too
-/// long for a screen are cut. `name` is what the file is called there.
+/// long for a screen are cut. `name` is the name of the file in the text.
 #[must_use]
 pub fn render(name: &str, source: &str, diagnostics: &[Diagnostic], colour: Colour) -> String {
     let visible = visible(source);
@@ -47,7 +47,7 @@ pub fn render(name: &str, source: &str, diagnostics: &[Diagnostic], colour: Colo
         text.push_str(&part.unwrap_or_else(|| format!("{}: {}\n", shown.message, name)));
     }
     if let more @ 1.. = diagnostics.len().saturating_sub(MOST) {
-        text.push_str(&format!("{more} more of {name} are left out\n\n"));
+        text.push_str(&format!("{more} more problems of {name} are not shown\n\n"));
     }
     text
 }

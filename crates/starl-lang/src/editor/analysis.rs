@@ -13,7 +13,7 @@ use crate::ir::Site;
 /// The number of the prelude's file.
 pub(super) const PRELUDE_FILE: u32 = 1;
 
-/// A program or a library, checked together with what it imports. Its own file has the number 0.
+/// A program or a library, checked together with its imports. Its own file has the number 0.
 #[derive(Clone, Debug)]
 pub struct Analysis {
     /// The result of the checker.
@@ -50,7 +50,7 @@ impl Analysis {
         &self.diagnostics
     }
 
-    /// Every name of the text by rising place.
+    /// Every name of the text, sorted by position.
     #[must_use]
     pub fn occurrences(&self) -> &[Occurrence] {
         self.index.of_file(0)
@@ -83,7 +83,7 @@ impl Analysis {
         super::words::at(&self.checked.files[0].parse, offset)
     }
 
-    /// Where something is declared; none for what is built in.
+    /// The declaration of a symbol; none for a built-in one.
     #[must_use]
     pub fn definition(&self, symbol: Symbol) -> Option<Site> {
         let program = &self.checked.program;
@@ -125,7 +125,7 @@ impl Analysis {
         found.map_or(start, |(_, site)| site)
     }
 
-    /// Where something is named, in all files, by rising place.
+    /// The uses of a symbol in all files, sorted by position.
     #[must_use]
     pub fn references(&self, symbol: Symbol) -> Vec<Occurrence> {
         let names = self.index.all().iter();

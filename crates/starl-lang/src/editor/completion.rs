@@ -82,7 +82,7 @@ impl Completion {
 pub struct Completions {
     /// The word that is replaced, perhaps empty.
     pub span: Span,
-    /// By rising rank, and then by label.
+    /// Sorted by rank, then by label.
     pub items: Vec<Completion>,
     /// Whether brackets stand behind the word already.
     pub has_brackets: bool,

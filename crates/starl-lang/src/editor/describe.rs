@@ -219,8 +219,8 @@ fn local(checked: &Checked, site: Site) -> Description {
 pub(super) fn local_kind(name: &SyntaxNode) -> &'static str {
     match name.parent().map(|parent| parent.kind()) {
         Some(SyntaxKind::Parameter) => "a parameter",
-        Some(SyntaxKind::LoopVariables) => "what a loop is at",
-        Some(SyntaxKind::HandlerParameterList) => "what the handler was given",
+        Some(SyntaxKind::LoopVariables) => "a loop variable",
+        Some(SyntaxKind::HandlerParameterList) => "a parameter of the handler",
         Some(SyntaxKind::QuantifierExpression) => "a robot",
         Some(SyntaxKind::SomeExpression) => "the value of an optional",
         _ => "a local variable",

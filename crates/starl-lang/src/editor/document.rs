@@ -1,4 +1,4 @@
-//! Texts as editors have them: how they are named, what they are, how they change.
+//! Texts in editors: their names, kinds and changes.
 
 use alloc::string::String;
 

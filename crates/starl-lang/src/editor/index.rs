@@ -1,4 +1,4 @@
-//! Every name of the files, in order, with what it stands for.
+//! Every name of the files, in order, with its meaning.
 
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
@@ -21,7 +21,7 @@ pub struct Occurrence {
     pub is_definition: bool,
 }
 
-/// The names of all files by rising place, each once.
+/// The names of all files, sorted by position, each once.
 #[derive(Clone, Debug)]
 pub(super) struct Index {
     occurrences: Vec<Occurrence>,

@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 use crate::diagnostic::{Edit, Span};
 use crate::format::format;
 
-/// The changes that lay the text out, by rising place; none if it is laid out already.
+/// The changes that format the text, sorted by position; none if it is already formatted.
 #[must_use]
 pub fn layout(text: &str) -> Vec<Edit> {
     let formatted = format(text);

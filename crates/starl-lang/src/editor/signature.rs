@@ -12,7 +12,7 @@ use crate::syntax::{SyntaxKind, SyntaxNode};
 /// The signature of a call.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CallHelp {
-    /// How what is called is declared.
+    /// The declaration of the called function.
     pub signature: String,
     /// Its documentation, in Markdown.
     pub documentation: String,

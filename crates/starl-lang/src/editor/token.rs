@@ -71,7 +71,7 @@ pub struct Token {
     pub modifiers: TokenModifiers,
 }
 
-/// The words of a text by rising place; those of which nothing is known are left out, and so are signs.
+/// The words of a text, sorted by position, without unknown words and without signs.
 #[must_use]
 pub fn tokens(analysis: &Analysis) -> Vec<Token> {
     let mut names = analysis.occurrences().iter().copied().peekable();
@@ -133,7 +133,7 @@ fn name_token(analysis: &Analysis, name: Occurrence) -> Token {
         Symbol::Local(site) => {
             let node = node_at(&analysis.checked, site);
             match node.as_ref().map(local_kind) {
-                Some("a parameter" | "what the handler was given") => TokenKind::Parameter,
+                Some("a parameter" | "a parameter of the handler") => TokenKind::Parameter,
                 _ => TokenKind::Variable,
             }
         }

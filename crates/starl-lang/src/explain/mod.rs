@@ -38,7 +38,7 @@ pub struct State {
     pub name: String,
     /// Whether a robot may start in it.
     pub is_initial: bool,
-    /// Whether a robot may come into it.
+    /// Whether a robot may reach it.
     pub is_reached: bool,
     /// Whether something leads out of it: into another state, or to the end of the program.
     pub is_left: bool,
@@ -71,13 +71,13 @@ pub enum Target {
 pub struct Cause {
     /// Whether it is a handler rather than an action.
     pub is_handler: bool,
-    /// The role whose robots do it, if not all do.
+    /// The role whose robots take it, if not all.
     pub role: Option<String>,
     /// The action's name, or that of the message or event.
     pub name: String,
 }
 
-/// Why there is no state machine to show.
+/// The reason why there is no state machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refusal {
     /// A library has no state.

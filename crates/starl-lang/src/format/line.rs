@@ -35,7 +35,7 @@ pub(super) enum Sort {
     Comment,
     /// The second or a later part of something with parts, such as `else`.
     Part,
-    /// A line that goes on with the one above.
+    /// A line that continues the one above.
     Continuation,
     /// Anything else.
     Other,

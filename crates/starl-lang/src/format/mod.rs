@@ -1,4 +1,4 @@
-//! Laying a program out in the one canonical way.
+//! The formatter, with one canonical layout.
 //!
 //! As in gofmt, tokens stay on their lines: only the white space between them changes, so the meaning and the comments
 //! stay the same. Each block indents its lines by four spaces. A declaration with errors stays as it is, because the

@@ -8,12 +8,12 @@ use rowan::{NodeOrToken, WalkEvent};
 use crate::diagnostic::{Code, Severity, Span};
 use crate::syntax::{Parse, SyntaxElement, SyntaxKind, SyntaxKind::*, SyntaxNode, SyntaxToken};
 
-/// Something that is written, and how it stands in the source.
+/// A written piece, and its place in the source.
 pub(super) struct Piece {
     pub content: Content,
     /// How many line ends are before it.
     pub breaks: usize,
-    /// Whether it goes on with what began in a line above.
+    /// Whether it continues a construct from a line above.
     pub continues: bool,
     /// How many blocks it is in.
     pub depth: usize,

@@ -65,10 +65,10 @@ pub struct Variable {
     pub initial: Option<Expression>,
     /// Locals of the initial value (of its comprehensions).
     pub locals: Vec<Local>,
-    /// The role that it is declared in, by the role's variant: it gets its first value again whenever
-    /// the robot enters the role, as part of [`Role::entry`]. None outside of roles.
+    /// The role that it is declared in, by the role's variant: it gets its initial value again whenever the robot
+    /// enters the role, as part of [`Role::entry`]. None outside of roles.
     pub role: Option<u16>,
-    /// Whether it is saved where the robot has storage, and begins with what was saved.
+    /// Whether it is saved if the robot has storage, and begins with the saved value.
     pub is_stable: bool,
     /// Where it is declared.
     pub site: Site,
@@ -162,7 +162,7 @@ pub struct Local {
     pub span: Span,
 }
 
-/// Statements that run as one.
+/// Statements that run as a unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Procedure {
     /// The local variables.

@@ -67,7 +67,7 @@ pub enum StatementKind {
     },
     /// `return value`; without a value outside of functions.
     Return(Option<Expression>),
-    /// A call; what it gives is dropped.
+    /// A call whose result is dropped.
     Evaluate(Expression),
     /// `atomic`: the statements run while this robot alone writes the shared variables.
     Atomic {
@@ -95,7 +95,7 @@ pub struct Place {
     pub root: Root,
     /// The way from the variable to its part.
     pub path: Vec<Step>,
-    /// The type of what is written.
+    /// The type of the written value.
     pub ty: super::Type,
     /// Where it is.
     pub span: Span,

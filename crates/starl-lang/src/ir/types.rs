@@ -9,7 +9,7 @@ use super::{EnumId, RecordId, Site};
 /// A type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Type {
-    /// Of what has an error that was reported; it fits everywhere.
+    /// The type of something with a reported error; it fits everywhere.
     Error,
     /// `Bool`
     Bool,
@@ -86,7 +86,7 @@ impl Type {
         Self::Map(Box::new(key), Box::new(value))
     }
 
-    /// `of?`; of what is optional already the same.
+    /// `of?`; an optional type stays the same.
     #[must_use]
     pub fn optional(of: Self) -> Self {
         match of {

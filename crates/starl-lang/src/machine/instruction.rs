@@ -21,7 +21,7 @@
 //! holders changes it), a *shift* of n bytes is n over 64. Moving a block costs an eighth of its
 //! registers.
 //!
-//! Where an error is possible it is said; the machine stops there, and nothing after it happens.
+//! Possible errors are listed with each instruction; the machine stops at an error.
 
 use crate::machine::operand::*;
 use serde::{Deserialize, Serialize};

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The first object operand that stands for a state variable rather than a register.
+/// The first object operand that names a state variable instead of a register.
 pub const FIRST_STATE_OPERAND: u8 = 128;
 
 /// The use of one operand by an instruction, as the verifier sees it.
@@ -34,7 +34,7 @@ pub enum Use {
 pub trait Operand: Copy {
     /// The text form.
     fn write(self, out: &mut dyn core::fmt::Write) -> core::fmt::Result;
-    /// The operand that a word of text stands for; `label` finds the place of a label.
+    /// Reads an operand from a word of text; `label` finds the place of a label.
     fn read(word: &str, label: &dyn Fn(&str) -> Option<u32>) -> Option<Self>;
     /// The use of the operand.
     fn used(self) -> Use;

@@ -20,8 +20,7 @@ pub struct Bytecode {
     pub name: String,
     /// All functions' instructions, one function after the other.
     pub code: Vec<Instruction>,
-    /// Where instructions come from: the first instruction of each run of instructions that come
-    /// from one place, in ascending order.
+    /// The source positions of instructions: the first instruction of each run with one position, in ascending order.
     pub spans: Vec<(u32, Span)>,
     /// The source files, by the numbers that spans have; none of bytecode that was written by hand.
     pub files: Vec<SourceFile>,
@@ -106,7 +105,7 @@ pub struct Span {
     pub end: u32,
 }
 
-/// A source file, as far as it takes to say where something is.
+/// A source file with the data for positions.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SourceFile {
     /// Its name, for instance `race.starl`.
@@ -136,7 +135,7 @@ pub struct Variable {
     pub parameter: Parameter,
     /// The values that the host may set; any value of its type if none.
     pub range: Option<Range>,
-    /// Whether the host saves it where the robot has storage; the start asks for what was saved.
+    /// Whether the host saves it if the robot has storage; the start requests the saved value.
     pub is_stable: bool,
 }
 
@@ -218,10 +217,10 @@ pub struct Action {
     pub effect: u32,
     /// The primitives that it must have for itself while it runs: linearizable variables.
     pub atomic: Vec<u32>,
-    /// Whether it is a check: its guard holds where the program's variables are not as they always are, and its
-    /// effect starts the program again. Checks come before all other actions.
+    /// Whether it is a check: its guard holds when the invariant is violated, and its effect restarts the program.
+    /// Checks precede all other actions.
     pub is_check: bool,
-    /// For how long its guard has to have held: a function like a guard whose results are a Bool and a Duration.
+    /// The time for which its guard must have held: a function like a guard whose results are a Bool and a Duration.
     pub hold: Option<u32>,
     /// The least time from one firing to the next, in the same way.
     pub every: Option<u32>,
@@ -240,13 +239,13 @@ impl Action {
 pub struct Handler {
     /// The name of the message, event or input.
     pub event: String,
-    /// Where it comes from.
+    /// Its origin.
     pub origin: Origin,
     /// The procedure.
     pub function: u32,
 }
 
-/// Where an event comes from.
+/// The origin of an event.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Origin {
@@ -285,7 +284,7 @@ pub struct Property {
 }
 
 impl Property {
-    /// Whether it may be that nothing is claimed although nothing has changed, but for time.
+    /// Whether the verdict may change with time alone.
     pub(crate) fn is_timed(&self) -> bool {
         self.assumption.is_some() || matches!(self.claim, Claim::EventuallyAlways { .. })
     }
@@ -343,7 +342,7 @@ pub struct Program {
 }
 
 impl Program {
-    /// Verifies bytecode and resolves what it imports.
+    /// Verifies bytecode and resolves its imports.
     pub fn load(bytecode: Bytecode, host: &dyn Resolve) -> Result<Program, LoadError> {
         let tables = verify::verify(&bytecode)?;
         let resolve = |import: &Import| match host.resolve(import) {
@@ -399,14 +398,14 @@ impl Program {
         State::new(&self.state)
     }
 
-    /// Where an instruction comes from.
+    /// The source position of an instruction.
     pub fn span(&self, position: u32) -> Option<Span> {
         let spans = &self.bytecode.spans;
         let after = spans.partition_point(|(first, _)| *first <= position);
         Some(spans.get(after.checked_sub(1)?)?.1)
     }
 
-    /// Where an instruction comes from, as a person finds it: `race.starl:12:5`.
+    /// The source position of an instruction as text: `race.starl:12:5`.
     pub fn source(&self, position: u32) -> Option<String> {
         let span = self.span(position)?;
         let file = self.bytecode.files.get(span.file as usize)?;

@@ -1,8 +1,8 @@
-//! Messages as they travel: a tag that says which message it is, then its fields.
+//! The encoding of messages: a tag that identifies the message, then its fields.
 //!
-//! The tag is a hash of the message's name and of the types of its fields, so that robots whose
-//! programs declare a message alike understand each other whatever else their programs hold. Bytes may
-//! come from anywhere: what is no message of the program is none, and nothing happens.
+//! The tag is a hash of the message's name and of the types of its fields, so that robots whose programs declare the
+//! same message can exchange it, whatever else their programs contain. Bytes are untrusted: anything but a message of
+//! the program is ignored.
 
 use super::shape::Declared;
 use crate::machine::{Bytecode, Layout, Object, ObjectType, Origin, Program, Type};
@@ -112,7 +112,7 @@ impl Inbox {
         ends.find_map(|end| Some(self.decode(program, end)?.handlers))
     }
 
-    /// The message that these bytes are; none if they are no message of the program.
+    /// Decodes a message; none if the bytes are not a message of the program.
     pub fn decode(&self, program: &Program, bytes: &[u8]) -> Option<Arrival<'_>> {
         let (tag, fields) = bytes.split_first_chunk::<TAG>()?;
         let tag = u32::from_le_bytes(*tag);

@@ -28,9 +28,8 @@ use starl_core::{
 
 /// A StarL program on one robot.
 ///
-/// Events of primitives are handled before anything else; a message or an order runs its handlers as it comes,
-/// and actions wait for the next activation. A run-time error stops the robot and ends its program with
-/// the place in the source.
+/// Events of primitives are handled first; a message or an order runs its handlers on arrival, and actions wait for the
+/// next activation. A run-time error stops the robot and ends its program with the place in the source.
 #[derive(Clone)]
 pub struct RobotProgram {
     pub(super) code: Code,
@@ -127,7 +126,7 @@ impl RobotProgram {
         self.phase != Phase::New
     }
 
-    /// Runs a part of the program, after the handlers of what primitives have reported.
+    /// Runs a part of the program, after the handlers of pending events.
     pub(super) fn run(&mut self, robot: &mut Robot<'_>, mut part: Part<'_>) {
         if self.phase == Phase::Failed {
             return;
@@ -214,11 +213,11 @@ pub(super) enum Part<'a> {
     Actions(&'a mut Turn),
     /// An action with `atomic` whose writes are stored.
     Perform(u32, Script),
-    /// All handlers of a message; nothing, if it is no message of the program.
+    /// All handlers of a message; none if it is not a message of the program.
     Message(&'a Message),
     /// All handlers of an order.
     Order(Arrival<'a>),
-    /// Nothing more than the handlers of what primitives have reported.
+    /// Only the handlers of pending events.
     Nothing,
 }
 

@@ -1,8 +1,8 @@
-//! Stable variables: where the robot has storage, each is saved under its name when it has changed, and begins with
-//! what was saved.
+//! Stable variables: if the robot has storage, each is saved under its name when it has changed, and begins with the
+//! saved value.
 //!
-//! A saved value begins with a tag, a hash of the variable's name and type. So a value that another version of the
-//! program saved with another type is not taken for one of this type.
+//! A saved value begins with a tag, a hash of the variable's name and type. So a value saved by another version of the
+//! program with another type is not used.
 
 use super::code::Code;
 use super::messages::tag;
@@ -70,7 +70,7 @@ impl Kept {
         })
     }
 
-    /// Saves what has changed since it was saved last.
+    /// Saves the variables that have changed since the last save.
     pub fn save(&mut self, code: &Code, state: &State, version: u64, robot: &mut Robot<'_>) {
         if core::mem::replace(&mut self.version, version) == version {
             return;
@@ -87,7 +87,7 @@ impl Kept {
         }
     }
 
-    /// All of it that makes a difference to what is saved from now on.
+    /// The part of the state on which later saves depend.
     pub fn digests(&self) -> &[Option<u64>] {
         &self.digests
     }

@@ -32,7 +32,7 @@ impl Stage {
         role
     }
 
-    /// The name of its value; none if a fault has given it what is no value of the enum.
+    /// The name of its value; none if a fault has given it an invalid value.
     pub fn read<'a>(&self, bytecode: &'a Bytecode, state: &State) -> Option<&'a str> {
         let variants = &bytecode.enums.get(usize::from(self.kind))?.variants;
         let value = usize::try_from(*state.scalars.get(self.scalar)?).ok()?;

@@ -16,7 +16,7 @@ pub struct Workbench {
     pub memo: Memo,
 }
 
-/// Values that robots of one fleet have in common, made once for all of them.
+/// Values shared by the robots of one fleet, created once.
 #[derive(Clone, Default)]
 pub struct Memo {
     way_points: Object,

@@ -137,7 +137,7 @@ impl SyntaxKind {
             )
     }
 
-    /// Whether a line that ends with it goes on in the next one, if that is indented deeper.
+    /// Whether a line that ends with it continues in the next one, if that is indented deeper.
     #[must_use]
     pub fn continues_line(self) -> bool {
         matches!(

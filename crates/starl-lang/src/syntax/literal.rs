@@ -104,7 +104,7 @@ fn split(text: &str) -> (&str, Option<&'static Unit>) {
     (digits, unit(name))
 }
 
-/// A flaw of a string literal: which bytes of it, and what is wrong with them.
+/// A flaw of a string literal: its bytes and the problem.
 pub(crate) type StringFlaw = (core::ops::Range<usize>, &'static str);
 
 /// The value of a string literal in double quotes, and the flaws of its escapes, which are left out.

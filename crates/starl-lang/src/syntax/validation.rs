@@ -6,7 +6,7 @@ use super::SyntaxKind::*;
 use super::SyntaxNode;
 use crate::diagnostic::{Code, Diagnostic, Span};
 
-/// Adds what is wrong with the tree.
+/// Adds the problems of the tree.
 pub(super) fn validate(root: &SyntaxNode, diagnostics: &mut Vec<Diagnostic>) {
     for node in root
         .descendants()
@@ -18,7 +18,7 @@ pub(super) fn validate(root: &SyntaxNode, diagnostics: &mut Vec<Diagnostic>) {
                 node.text_range().into(),
                 "`some` cannot stand here",
             );
-            let note = "it stands in the condition of `if`, `elif` or `pre`, alone or joined to others by `and`";
+            let note = "it is allowed in the condition of `if`, `elif` or `pre`, alone or joined to others by `and`";
             diagnostics.push(problem.note(note));
         }
     }
@@ -43,8 +43,7 @@ fn decides(node: &SyntaxNode) -> bool {
     }
 }
 
-/// Forgets the brackets that are not closed on a line whose end is a string that does not end: it has
-/// swallowed what closes them.
+/// Drops reports of unclosed brackets on a line that ends in an unterminated string: it contains the closing brackets.
 pub(super) fn forget_swallowed(text: &str, diagnostics: &mut Vec<Diagnostic>) {
     let is_open = |problem: &&Diagnostic| {
         problem.code == Code::MalformedString && problem.span.of(text).starts_with('"')

@@ -1,4 +1,4 @@
-//! Whatever the text, checking it ends, and what is said of it lies in it.
+//! Checking ends for every text, and its diagnostics are within the text.
 
 use crate::common::{generator, mutation, written};
 use starl_lang::check::{Checked, check};

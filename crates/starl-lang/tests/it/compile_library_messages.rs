@@ -8,7 +8,7 @@ const TALK: &str = "library talk\n\nmessage Hello(to: RobotId)\n";
 const PROGRAM: &str = "program Greets\n\nimport talk\n\nmessage Hello(number: Int)\n\nradio = Broadcast()\n\ngreet()\n    eff radio.broadcast(talk.Hello(me)); radio.broadcast(Hello(3))\n\non talk.Hello(from, to)\n    log(\"{} {}\", from, to)\n\non Hello(_, number)\n    log(\"{}\", number)\n";
 
 #[test]
-fn two_messages_of_one_name_are_told_apart() {
+fn two_messages_of_one_name_are_distinguished() {
     let libraries = |name: &str| (name == "talk").then(|| TALK.to_string());
     let checked = check(PROGRAM, &libraries);
     let bytecode = compile(&checked).expect("robots have all that it needs");

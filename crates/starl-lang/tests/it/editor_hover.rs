@@ -73,7 +73,7 @@ fn shows(context: &str, word: &str, signature: &str, documentation: &str) {
 }
 
 #[test]
-fn of_what_the_program_declares() {
+fn of_the_programs_declarations() {
     shows("program", "Race", "program Race", "A race.");
     shows(
         "loc: Loc",
@@ -162,7 +162,7 @@ fn of_locals_their_types() {
 }
 
 #[test]
-fn of_what_every_program_has_what_the_tables_say() {
+fn of_built_in_names_the_tables_text() {
     let told = |context, word| {
         let (signature, documentation) = shown(context, word);
         assert!(!documentation.is_empty(), "nothing is said of {word}");
@@ -193,7 +193,7 @@ fn of_what_every_program_has_what_the_tables_say() {
 }
 
 #[test]
-fn of_what_a_library_has() {
+fn of_a_librarys_declarations() {
     let (signature, documentation) = shown("geometry.midpoint", "midpoint");
     assert_eq!(signature, "function midpoint(a: Point, b: Point) -> Point");
     assert!(documentation.contains("half-way"), "{documentation}");
@@ -218,7 +218,7 @@ fn of_a_library_beside_the_program() {
 }
 
 #[test]
-fn nothing_of_what_has_no_meaning() {
+fn nothing_without_a_meaning() {
     let analysis = Analysis::new("program P\nx: Int = unknown\n", &Beside(&[]));
     assert!(analysis.hover(21).is_none());
     assert!(analysis.hover(1_000).is_none());

@@ -31,7 +31,7 @@ fn each_edit_is_of_white_space() {
 }
 
 #[test]
-fn what_is_laid_out_stays() {
+fn formatted_text_does_not_change() {
     for (name, text) in common::LISTINGS {
         let tidy = format(text);
         assert_eq!(layout(&tidy), [], "{name}");

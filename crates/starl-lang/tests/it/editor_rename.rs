@@ -53,7 +53,7 @@ fn to_its_own_name_changes_nothing() {
 }
 
 #[test]
-fn what_is_no_name_is_refused() {
+fn invalid_names_are_rejected() {
     for name in ["", "1a", "a b", "a-b", "\u{e4}", "a\n"] {
         let reason = refused(COUNTER, name);
         assert!(reason.contains("is no name"), "{reason}");
@@ -85,7 +85,7 @@ fn a_name_that_would_hide_another_is_refused() {
 }
 
 #[test]
-fn a_name_that_others_would_be_taken_for_is_refused() {
+fn a_name_that_captures_others_is_rejected() {
     let text = "program P\nenum A {one, two}\nenum B {three$0, four}\na: A = two\ngo()\n    eff emit(\"x\", a = one, b = four); a = two\n    pre a == two\nb: B = three\n";
     let reason = refused(text, "one");
     assert!(
@@ -150,7 +150,7 @@ fn a_field_of_an_input_keeps_its_name_where_another_role_would_differ() {
 }
 
 #[test]
-fn where_it_is_not_known_what_the_name_means_it_stays() {
+fn a_name_of_unknown_meaning_is_not_renamed() {
     let text = "program P\ncount$0: Int = 0\ngo()\n    eff count = 1\n) count +\nstop_it()\n    eff count = 1\n";
     let reason = refused(text, "number");
     assert!(reason.ends_with("fix the errors first"), "{reason}");

@@ -1,4 +1,4 @@
-//! Whatever is renamed in the listings, the program checks as before, and renaming it back gives the text.
+//! After any renaming in the listings the program checks as before, and renaming back restores the text.
 
 use crate::common::{EVERY_FORM, LISTINGS};
 use crate::editor_support::edited;

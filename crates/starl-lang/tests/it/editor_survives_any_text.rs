@@ -1,4 +1,4 @@
-//! Whatever the text, and wherever the cursor, the services answer and stay within the text.
+//! For every text and cursor, the services answer, with positions within the text.
 
 use crate::common::{self, mutation};
 use crate::editor_support::edited;

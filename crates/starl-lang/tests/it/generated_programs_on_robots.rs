@@ -1,5 +1,5 @@
-//! Random well-typed programs on robots that talk to each other: nothing panics, no value is of a wrong
-//! type, the same happens again, and a copy goes on as what it was copied from.
+//! Random well-typed programs on robots that communicate: there is no panic and no value of a wrong type, runs repeat,
+//! and a copy continues like the original.
 
 use crate::robot_support::World;
 use crate::support::{generate, hold};

@@ -1,5 +1,5 @@
-//! The grammar of the language reference is that of the parser: what it derives is read without an error,
-//! and it derives every program that is written down.
+//! The grammar of the language reference is that of the parser: texts that it derives are parsed without an error, and
+//! it derives every program of the tests.
 #![allow(clippy::disallowed_methods, reason = "a test reads its page")]
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,7 +12,7 @@ use starl_lang::syntax::{SyntaxKind, parse};
 /// The right side of a production.
 #[derive(Debug)]
 enum Form {
-    /// A word or a sign that stands for itself.
+    /// A literal word or sign.
     Word(String),
     /// A class of words, such as NAME.
     Class(String),
@@ -344,7 +344,7 @@ fn is_name(word: &str) -> bool {
 }
 
 #[test]
-fn the_grammar_derives_what_is_read() {
+fn the_grammar_derives_every_parsed_program() {
     let grammar = grammar();
     let page = include_str!("../../../../docs/reference/language.md");
     let blocks = page.split("\n```starl\n").skip(1);

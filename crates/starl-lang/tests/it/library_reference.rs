@@ -93,7 +93,7 @@ fn page() -> String {
 }
 
 #[test]
-fn it_lists_all_that_there_is() {
+fn it_is_complete() {
     let page = page();
     if std::env::var_os("BLESS").is_some() {
         fs::write(path(), &page).expect("the page can be written");

@@ -1,4 +1,4 @@
-//! Fuel, memory and call depth bound whatever a program does.
+//! Fuel, memory and call depth limit every program.
 
 use crate::machine_support::{RACE, TestHost, call, call_within, ints, program};
 use starl_lang::machine::{Fault, Limits, Machine, Workspace};
@@ -140,7 +140,7 @@ fn copies_count_as_if_they_were_made() {
 }
 
 #[test]
-fn values_that_are_gone_do_not_count() {
+fn dropped_values_do_not_count() {
     let program = program(
         "type Text\n text \"0123456789012345678901234567890123456789\"\n\
          function f function (Int) (Int) registers 3 objects 1\n int r1 0\nagain:\n\

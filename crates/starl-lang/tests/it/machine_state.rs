@@ -1,5 +1,5 @@
-//! A robot's program is its state: it can be copied, compared, digested, stored and gone on with at
-//! any time, and it is small.
+//! A robot's program is its state: it can be copied, compared, digested, stored and continued at any time, and it is
+//! small.
 
 use crate::machine_support::{self, RACE, TestHost, program};
 use starl_core::{Digest, Point, message};

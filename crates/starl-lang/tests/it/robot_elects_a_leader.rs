@@ -1,4 +1,4 @@
-//! LeaderElection in programs: all robots show one leader, are told of it at once, and get another when it
+//! LeaderElection in programs: all robots show one leader, get its event immediately, and get another leader when it
 //! resigns or fails.
 
 use crate::robot_support::{World, compile};

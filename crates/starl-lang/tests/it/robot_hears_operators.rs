@@ -75,7 +75,7 @@ fn an_order_runs_the_handler_of_its_name_with_its_fields() {
 }
 
 #[test]
-fn an_int_is_taken_for_a_float() {
+fn an_int_is_accepted_for_a_float() {
     let (texts, log) = heard(&[order("go", &[("speed", 2_i64.into())])]);
     assert_eq!((&texts[..], log), ("[\"go 2.0\"]", vec![]));
 }

@@ -1,4 +1,4 @@
-//! Whatever the network brings, a program hears its own messages and nothing else, and runs on.
+//! A program handles only its own messages, ignores all other bytes from the network, and continues.
 
 use crate::robot_support::{self, World, compile};
 use starl_core::{Destination, Input, Message, Payload, Port, Random, RobotId};

@@ -63,7 +63,7 @@ fn without_storage_neither_survives() {
 }
 
 #[test]
-fn without_storage_it_makes_no_difference() {
+fn without_storage_it_has_no_effect() {
     let mut plain = World::of(&compile(&COUNTER.replace("stable ", "")), 1);
     let mut stable = World::of(&compile(COUNTER), 1);
     for world in [&mut plain, &mut stable] {

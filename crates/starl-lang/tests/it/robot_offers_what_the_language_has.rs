@@ -1,5 +1,5 @@
-//! The tables of the robot's functions and the language's tables of built-in names and primitives say
-//! the same: names, types of arguments and results, what changes something and what only tells.
+//! The tables of the robot's functions and the language's tables of built-in names and primitives agree: names, types
+//! of arguments and results, effects and queries.
 
 use starl_lang::check::{BUILTINS, Builtin, PRIMITIVES, Purity, Shape, Signature};
 use starl_lang::machine::{

@@ -1,4 +1,4 @@
-//! Properties: each kind, for rows of robots and for the fleet, and what is said when one does not hold.
+//! Properties: each kind, for rows of robots and for the fleet, and the messages of violations.
 
 use crate::robot_support::{self, compile};
 use starl_core::{Duration, Point, Pose, RobotId, Time};
@@ -6,7 +6,7 @@ use starl_lang::machine::{State, Value};
 use starl_lang::robot::Code;
 use starl_lang::robot::properties::{Fleet, Judge, Reason, Standing, Violation};
 
-/// Robots whose state is what the test says.
+/// Robots whose state the test sets.
 pub struct Given {
     code: Code,
     ids: Vec<RobotId>,
@@ -230,7 +230,7 @@ eventually some_day: exists r: r.done
 ";
 
 #[test]
-fn what_is_to_come_is_open_until_it_comes_or_is_too_late() {
+fn an_eventual_condition_is_open_until_it_is_true_or_late() {
     let mut fleet = Given::new(EVENTUALLY, 2);
     let mut judge = fleet.judge();
     let standings = |judge: &Judge| [0, 1, 2].map(|property| judge.standing(property));
@@ -336,7 +336,7 @@ fn what_follows_must_follow_in_time() {
 }
 
 #[test]
-fn what_cannot_be_judged_is_said_with_its_place() {
+fn evaluation_errors_are_reported_with_their_position() {
     let source = "program Hard
 
 numbers: List[Int]
@@ -380,7 +380,7 @@ always listed: forall r: r in peers and now >= now and robot_name(r).size() == 6
 }
 
 #[test]
-fn judging_only_what_has_changed_makes_no_difference() {
+fn judging_only_changed_robots_gives_the_same_verdicts() {
     let source = "program Changes
 
 x: Int = 0

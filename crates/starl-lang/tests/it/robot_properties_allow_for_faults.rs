@@ -21,7 +21,7 @@ always alone: forall r: r.x < 10 assuming crashed == 0
 ";
 
 #[test]
-fn robots_that_are_down_do_not_count_unless_that_is_said() {
+fn robots_that_are_down_are_excused_by_default() {
     let mut fleet = Given::new(SAFE, 3);
     let mut judge = fleet.judge();
     fleet.up[1] = false;
@@ -83,7 +83,7 @@ fn a_run_in_which_nothing_was_overwritten_is_judged_from_its_start() {
 }
 
 #[test]
-fn nothing_is_judged_where_what_is_assumed_is_not_so() {
+fn nothing_is_judged_while_the_assumption_is_false() {
     let mut fleet = Given::new(SAFE, 2);
     let mut judge = fleet.judge();
     fleet.up[1] = false;
@@ -138,7 +138,7 @@ fn times_count_from_the_last_fault() {
 }
 
 #[test]
-fn what_has_come_is_to_stay_from_then_on() {
+fn eventually_always_must_stay_true() {
     let mut fleet = Given::new(LIVE, 1);
     let mut judge = fleet.judge();
     fleet.set(0, "done", Value::Bool(true));

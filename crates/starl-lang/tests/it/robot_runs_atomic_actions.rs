@@ -88,7 +88,7 @@ fn without_atomic_increments_are_lost() {
 }
 
 #[test]
-fn partitions_delay_it_are_told_and_lose_nothing() {
+fn partitions_delay_actions_are_reported_and_lose_nothing() {
     let code = compile(COUNT);
     for seed in 0..20 {
         let mut world = World::over_bad_network(&code, 5, seed, 200);
@@ -174,7 +174,7 @@ fn what_a_robot_adds_before_it_crashes_counts_once_or_not_at_all() {
 }
 
 #[test]
-fn after_a_corruption_it_goes_on() {
+fn after_a_corruption_it_continues() {
     let code = compile(COUNT);
     for seed in 0..40 {
         let mut world = World::of(&code, 3);
@@ -230,7 +230,7 @@ count()
 "#;
 
 #[test]
-fn what_is_written_together_is_seen_together_even_if_robots_crash() {
+fn writes_of_one_action_are_seen_together_even_if_robots_crash() {
     let code = compile(TRANSFER);
     for seed in 0..20 {
         let mut world = World::over_bad_network(&code, 3, seed, 200);

@@ -1,4 +1,4 @@
-//! The programs of the language's listings run, as far as robots have the primitives for them.
+//! The programs of the language's listings run on robots with their primitives.
 
 use crate::robot_support::{World, compile};
 use starl_lang::machine::Value;

@@ -1,4 +1,4 @@
-//! Shared variables: what one robot writes the others come to read.
+//! Shared variables: the writes of one robot reach the others.
 
 use crate::robot_support::{World, compile};
 use starl_core::{Duration, Event, Port, Time};

@@ -123,7 +123,7 @@ fn many_problems_on_a_line_are_read_in_no_time() {
 }
 
 #[test]
-fn what_is_too_long_is_not_read() {
+fn too_long_texts_are_not_read() {
     let text = "x".repeat(MAX_LENGTH + 1);
     let parse = parse(&text);
     assert_eq!(parse.diagnostics()[0].code, Code::TooLong);

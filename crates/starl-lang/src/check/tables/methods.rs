@@ -22,7 +22,7 @@ macro_rules! methods {
                 }
             }
 
-            /// Whether it changes what it is called on.
+            /// Whether it changes its receiver.
             #[must_use]
             pub const fn changes(self) -> bool {
                 match self {
@@ -92,7 +92,7 @@ impl Method {
         &text[..text.find(['[', '.']).unwrap_or(0)]
     }
 
-    /// The methods of a type, by the type's name without what it holds.
+    /// The methods of a type, by the type's name without type arguments.
     pub fn of(receiver: &str) -> impl Iterator<Item = Self> {
         (METHODS.iter().copied()).filter(move |method| method.receiver_name() == receiver)
     }

@@ -1,7 +1,7 @@
-//! Primitives (thesis, chapter 3): how they are bound, asked and told, and what they report.
+//! Primitives (thesis, chapter 3): their constructors, flags, methods and events.
 //!
-//! A primitive is one entry here and its implementation at the host; the checker and the compiler know
-//! no primitive by name. The compiler calls a member as `Primitive.member` with the instance's number.
+//! A primitive is one entry here and its implementation at the host; the checker and the compiler do not refer to
+//! primitives by name. The compiler calls a member as `Primitive.member` with the instance's number.
 
 use super::Purity::{self, Effect, Query};
 use super::Signature;
@@ -24,7 +24,7 @@ pub struct Primitive {
 pub struct Member {
     /// Its signature.
     pub text: &'static str,
-    /// Whether it does something or only tells.
+    /// Whether it has an effect or is a query.
     pub purity: Purity,
     /// The documentation shown to users.
     pub documentation: &'static str,
@@ -33,9 +33,9 @@ pub struct Member {
 /// Something that a primitive reports.
 #[derive(Debug, PartialEq)]
 pub struct Event {
-    /// Its name and what it carries.
+    /// Its name and fields.
     pub text: &'static str,
-    /// When it comes, as one tells a person.
+    /// The documentation shown to users.
     pub documentation: &'static str,
 }
 

@@ -70,8 +70,8 @@ impl<'p> Unit<'p> {
         Ok(body.finish("start", Vec::new(), Vec::new()))
     }
 
-    /// Starts the program again where a check is false: primitives stop, variables get their initial values, and `init`
-    /// runs. The role stays.
+    /// Restarts the program when a check is false: primitives stop, variables get their initial values, and `init`
+    /// runs. The role does not change.
     pub fn reset(&mut self) -> Compiled<Finished> {
         let program = self.program;
         let site = Site {

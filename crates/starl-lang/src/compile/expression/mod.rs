@@ -1,7 +1,7 @@
-//! Expressions: which part of the compiler each kind belongs to.
+//! Expressions: dispatches each kind to its part of the compiler.
 //!
-//! A value is computed `into` registers, or wherever it is best with `value`. Registers are *fresh* if
-//! what they hold is not read any more: then they may be written before all operands are read.
+//! A value is computed `into` given registers, or into registers chosen by `value`. Registers are *fresh* if their
+//! content is not read any more: then they may be written before all operands are read.
 
 pub(in crate::compile) mod arithmetic;
 mod builtin;

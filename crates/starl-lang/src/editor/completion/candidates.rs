@@ -24,7 +24,7 @@ const ARGUMENT: u8 = 4;
 pub(super) const COMMON: u8 = 5;
 const WORD: u8 = 6;
 
-/// Collects what may stand in a context of a checked text.
+/// Collects the candidates in a context of a checked text.
 pub(super) struct Candidates<'a> {
     pub checked: &'a Checked,
     pub items: Vec<Completion>,
@@ -90,7 +90,7 @@ impl<'a> Candidates<'a> {
         }
     }
 
-    /// Adds what a name stands for.
+    /// Adds the meaning of a name.
     pub fn symbol(&mut self, symbol: Symbol, rank: u8) {
         let Some((label, call)) = self.named(symbol) else {
             return;

@@ -1,4 +1,4 @@
-//! Which words of the language may stand at a place, and what the checker knows of it.
+//! The keywords allowed at a position, and the checker's knowledge of it.
 
 use crate::check::Surroundings;
 use crate::syntax::{SyntaxKind, SyntaxNode, SyntaxToken};

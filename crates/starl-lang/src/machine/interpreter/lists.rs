@@ -268,7 +268,7 @@ impl View<'_> {
     }
 }
 
-/// Inserts a block; gives what it costs.
+/// Inserts a block; returns the cost.
 pub(in crate::machine) fn insert(
     list: &mut List,
     at: usize,

@@ -239,8 +239,8 @@ impl<'a> Machine<'a> {
         result
     }
 
-    /// Whether a claim, a function of kind property, holds of these robots, whose states the host
-    /// gives. Changes nothing.
+    /// Evaluates a claim, a function of kind property, for these robots, whose states the host provides. Changes
+    /// nothing.
     pub fn holds(
         program: &Program,
         function: u32,

@@ -13,7 +13,7 @@ use core::cmp::Ordering;
 use starl_core::{Area, ConvexPolygon, Point, RobotId};
 
 impl View<'_> {
-    /// Executes an instruction on objects or a call of the host; gives what it costs beyond one.
+    /// Executes an instruction on objects or a call of the host; returns the cost beyond one.
     pub fn execute(&mut self, instruction: Instruction) -> Result<u64, Fault> {
         use Instruction::*;
         match instruction {

@@ -108,7 +108,7 @@ impl<'a> View<'a> {
         Ok(cost + self.put(to, object)?)
     }
 
-    /// Changes an object in place and counts the memory that it grows by. The change gives its cost.
+    /// Changes an object in place and counts the memory that it grows by. The change returns its cost.
     pub fn change(
         &mut self,
         operand: ObjectInOut,
@@ -142,7 +142,7 @@ impl<'a> View<'a> {
         self.block_of(scalars, layout.scalars.len(), objects, layout.objects.len())
     }
 
-    /// The registers of a value of so many scalars and objects.
+    /// The registers of a value with this number of scalars and objects.
     pub fn block_of(
         &self,
         scalars: operand::Block,

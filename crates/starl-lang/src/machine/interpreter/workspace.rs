@@ -67,8 +67,8 @@ impl Workspace {
         }
     }
 
-    /// Makes room for windows that begin at these registers and for so many calls; false if they lie
-    /// beyond the bounds.
+    /// Makes room for windows that begin at these registers and for this number of calls; false if they exceed the
+    /// bounds.
     #[cold]
     pub(in crate::machine) fn grow(
         &mut self,

@@ -5,7 +5,7 @@
 //! variable-length numbers, lengths before texts and collections, records as their fields. A message
 //! of scalars and texts is thus the same as that of a native program whose message is the like struct.
 //!
-//! Bytes may come from anywhere: what is no value of the type is refused.
+//! Bytes are untrusted: anything but a value of the type is rejected.
 
 use crate::machine::program::Program;
 use crate::machine::types::{Layout, ObjectType, Parts, Type};

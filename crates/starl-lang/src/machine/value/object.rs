@@ -92,8 +92,7 @@ impl Object {
         }
     }
 
-    /// A list to be changed, made new for blocks of this layout if there is none; none if the object
-    /// is no list.
+    /// The list, mutable; created for blocks of this layout if the object is empty; none if the object is not a list.
     pub fn list_mut(&mut self, layout: &Layout) -> Option<&mut List> {
         let new = || Arc::new(Body::List(List::new(layout)));
         match Arc::make_mut(self.0.get_or_insert_with(new)) {
@@ -119,7 +118,7 @@ impl Object {
         }
     }
 
-    /// A map to be changed, made new if there is none; none if the object is no map.
+    /// The map, mutable; created if the object is empty; none if the object is not a map.
     pub fn map_mut(&mut self) -> Option<&mut Map> {
         let new = || Arc::new(Body::Map(Box::default()));
         match Arc::make_mut(self.0.get_or_insert_with(new)) {
@@ -128,7 +127,7 @@ impl Object {
         }
     }
 
-    /// A text to be changed, made new if there is none; none if the object is no text.
+    /// The text, mutable; created if the object is empty; none if the object is not a text.
     pub fn text_mut(&mut self) -> Option<&mut String> {
         let new = || Arc::new(Body::Text(String::new()));
         match Arc::make_mut(self.0.get_or_insert_with(new)) {

@@ -213,7 +213,7 @@ fn entry_points(bytecode: &Bytecode) -> Result<(), LoadError> {
             let time = function(bytecode, time, FunctionKind::Guard)?;
             check(
                 time.arguments.is_empty() && time.results == [Type::Bool, Type::Duration],
-                "an action's time is no Duration",
+                "an action's time is not a Duration",
             )?;
         }
     }

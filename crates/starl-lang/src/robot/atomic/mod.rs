@@ -61,14 +61,14 @@ enum Stage {
     Locking(u32),
     /// It has, or had, the lock and waits for the values.
     Claiming(u32, OperationId),
-    /// It is known what it writes, and that is being stored.
+    /// Its writes are known, and are being stored.
     Storing(u32, OperationId),
 }
 
 /// The next step of an action.
 #[derive(Debug)]
 pub enum Step {
-    /// Find out what it writes, given the values ([`Atomic::open`]), and store that ([`Atomic::store`]).
+    /// Compute its writes from the values ([`Atomic::open`]), and store them ([`Atomic::store`]).
     Try(u32, Values),
     /// It takes place, by this script. [`Atomic::release`] ends it.
     Perform(u32, Script),
@@ -102,7 +102,7 @@ impl Atomic {
         }
     }
 
-    /// A variable's value: while an action is tried the latest, else what is known here.
+    /// A variable's value: the latest while an action is tried, else the known one.
     pub fn value(&self, group: &str, variable: &str) -> Option<Payload> {
         match &self.open {
             Some(open) if *open.group == *group => open.values.get(variable).cloned(),
@@ -132,12 +132,12 @@ impl Atomic {
         self.open.take().map(|open| open.values).unwrap_or_default()
     }
 
-    /// Whether what the robot waits for cannot come, as far as it knows.
+    /// Whether the robot knows that it waits for something impossible at present.
     pub fn is_blocked(&self) -> bool {
         self.mutex.failed() || self.register.failed()
     }
 
-    /// The action whose writes are being stored: what it depends on must not change.
+    /// The action whose writes are being stored: its dependencies must not change.
     pub fn stores(&self) -> Option<u32> {
         match self.stage {
             Stage::Storing(action, _) => Some(action),
@@ -159,7 +159,7 @@ impl Atomic {
         }
     }
 
-    /// Ends a pass: begins an action, or gives up the one whose guard holds no longer.
+    /// Ends a pass: begins an action, or gives up one whose guard no longer holds.
     pub fn take_turn(&mut self, robot: &mut Robot<'_>, code: &Code, turn: Turn) {
         match self.stage {
             Stage::Idle => {
@@ -188,7 +188,7 @@ impl Atomic {
         }
     }
 
-    /// Goes on as far as can be without waiting, or without the program.
+    /// Continues as far as possible without waiting, or without the program.
     pub fn go_on(&mut self, robot: &mut Robot<'_>, code: &Code) -> Option<Step> {
         while self.is_ready(code) {
             match self.stage {
@@ -223,10 +223,10 @@ impl Atomic {
         None
     }
 
-    /// An action was tried: has stored what it writes, if its guard did hold.
+    /// Starts storing the writes of a tried action, if its guard held.
     ///
     /// # Errors
-    /// Where that is too long.
+    /// The value is too long.
     pub fn store(
         &mut self,
         robot: &mut Robot<'_>,
@@ -256,7 +256,7 @@ impl Atomic {
         Ok(())
     }
 
-    /// Gives up whatever the robot waits for, and gives back what it holds.
+    /// Gives up the action that the robot waits for, and releases its lock.
     pub fn release(&mut self, robot: &mut Robot<'_>, code: &Code) {
         if let Stage::Claiming(_, operation) | Stage::Storing(_, operation) = self.stage {
             self.register.withdraw(robot, operation);

@@ -23,8 +23,7 @@ pub enum Script {
     None,
     /// Calls take effect, and their results are recorded.
     Noted(Vec<Given>),
-    /// Queries give what is noted, and so do others after they have done what they are for; those that
-    /// remain.
+    /// Calls return the recorded results; calls other than queries take effect too. Contains the remaining results.
     Followed(alloc::collections::VecDeque<Given>),
 }
 

@@ -20,7 +20,7 @@ use starl_core::Command;
 pub struct Builtin {
     /// Its name, arguments and results.
     pub signature: Signature,
-    /// Whether what it tells depends on its arguments alone, and on what is the same from one input to the next.
+    /// Whether its result can change only with its arguments or with an input.
     pub is_steady: bool,
     /// The function that runs it.
     pub run: Run,

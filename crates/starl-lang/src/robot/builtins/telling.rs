@@ -108,7 +108,7 @@ pub fn draw_nothing(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Ca
     draw(host, call, |_| MarkShape::Nothing)
 }
 
-/// The program ends here, whatever statements follow.
+/// The program ends here, without the following statements.
 pub fn fail(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {
     host.failure = Some(Arguments::of(call).text().into());
     Err("the program cannot go on".into())

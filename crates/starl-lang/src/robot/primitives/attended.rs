@@ -1,8 +1,8 @@
-//! Primitives between the host and the program: what they report is not lost, and those that have nothing to
-//! do are left alone.
+//! The link between the host and a program's primitives: their reports are collected, and primitives without work are
+//! skipped.
 //!
-//! Invariant: a primitive that has something to report has taken an input, has been called by the program, or
-//! was corrupted since its reports were taken down.
+//! Invariant: a primitive with new reports has handled an input, has been called by the program, or was corrupted since
+//! its reports were last collected.
 
 use super::{Bound, KINDS, Report};
 use crate::robot::code::Instance;
@@ -42,8 +42,8 @@ impl fmt::Debug for Seat {
     }
 }
 
-/// A primitive whose reports are taken down after each input. Where the program handles them the
-/// robot delivers an empty message to itself, so that they are handled at once.
+/// A primitive whose reports are collected after each input. If the program handles them the robot delivers an empty
+/// message to itself, so that they are handled immediately.
 pub struct Attended<'a> {
     /// The primitive.
     pub seat: &'a mut Seat,

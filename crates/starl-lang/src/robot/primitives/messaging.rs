@@ -1,7 +1,7 @@
 //! Broadcast, Geocast and Unicast in programs.
 //!
-//! A program knows its messages by numbers of its own, which count from 1 whatever their receivers:
-//! those of the protocol count for each receiver by itself. Only messages on their way are remembered.
+//! A program identifies its messages by its own numbers, which count from 1 over all receivers; the protocol counts
+//! separately for each receiver. Only outstanding messages are stored.
 
 use super::{Arguments, Attention, Context, Event, Instance, Kind, Member, Report, method, query};
 use crate::machine::HostCall;

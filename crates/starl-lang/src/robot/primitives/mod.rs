@@ -1,9 +1,7 @@
-//! Primitives as programs see them: what can be bound, what a bound one is asked and told, what it
-//! reports.
+//! Primitives in programs: constructors, flags, methods and events.
 //!
-//! A kind is one file here with an implementation of [`Kind`], and one line of [`KINDS`]; everything
-//! else is the same for all of them. The language's own table of primitives says the same of each kind
-//! to the checker.
+//! A kind is one file here with an implementation of [`Kind`], and one line of [`KINDS`]; everything else is the same
+//! for all of them. The checker has the same information in the language's own table of primitives.
 
 mod attended;
 mod barrier;
@@ -58,9 +56,9 @@ pub struct Event {
 pub struct Report {
     /// Which of the kind's events.
     pub event: usize,
-    /// The scalars of what it carries.
+    /// The scalars of its fields.
     pub scalars: Vec<u64>,
-    /// The objects of what it carries.
+    /// The objects of its fields.
     pub objects: Vec<Object>,
 }
 
@@ -93,8 +91,8 @@ impl Needs {
     }
 }
 
-/// Which of the inputs that come all the time a kind does something at. A fleet is large and most
-/// primitives wait for messages: those that have nothing to do are not looked at.
+/// The frequent inputs that a kind of primitive needs. A fleet is large and most primitives wait for messages:
+/// primitives without work are skipped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Attention {
     /// Position estimates.
@@ -154,7 +152,7 @@ pub trait Kind: Clone + fmt::Debug + Send + Sync + Sized + 'static {
     /// overwritten there.
     fn corrupt(&mut self, random: &mut Random);
 
-    /// Hands over what has happened since the last call.
+    /// Passes the reports since the last call to `take`.
     fn take_reports(&mut self, take: &mut dyn FnMut(Report)) {
         let _ = take;
     }
@@ -164,7 +162,7 @@ pub trait Kind: Clone + fmt::Debug + Send + Sync + Sized + 'static {
         let _ = robot;
     }
 
-    /// Stops everything that it does for the program, which starts again. It keeps what it knows of other robots.
+    /// Stops its work for the program, which restarts. It keeps its knowledge of other robots.
     fn reset(&mut self, robot: &mut Robot<'_>) {
         let _ = robot;
     }

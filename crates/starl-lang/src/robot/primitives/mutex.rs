@@ -41,8 +41,8 @@ impl Kind for Mutex {
                 let cost = 10 + resources.len() as u64;
                 match mutex.acquire(context.robot, resources) {
                     Ok(()) => Ok(cost),
-                    Err(AcquireError::HoldsOthers) => Err("this robot holds resources already; \
-                        release them first, or ask for all that are needed at once"
+                    Err(AcquireError::HoldsOthers) => Err("this robot already holds resources; \
+                        release them first, or request all needed resources at once"
                         .into()),
                 }
             },

@@ -1,6 +1,6 @@
 //! The failure detector in programs: the robots that it suspects, and its events.
 //!
-//! There is one detector for all primitives of a program; any number of these look at it.
+//! There is one detector for all primitives of a program; any number of instances read it.
 
 use super::{Arguments, Attention, Context, Event, Instance, Kind, Member, Needs, Report, query};
 use crate::robot::shape::Shape;

@@ -165,7 +165,7 @@ impl fmt::Display for Violation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.reason {
             Reason::Untrue => f.write_str("is not true")?,
-            Reason::NotInTime { within } => write!(f, "has not come true within {within}")?,
+            Reason::NotInTime { within } => write!(f, "has not become true within {within}")?,
             Reason::NotFollowed { since, within } => {
                 write!(f, "the consequence is not true within {within} of {since}")?;
             }

@@ -127,7 +127,7 @@ impl VariableDeclaration {
 }
 
 impl SharedDeclaration {
-    /// Whether each robot writes an element of its own (`allread`), rather than all the same variable.
+    /// Whether each robot writes its own element (`allread`), instead of all the same variable.
     #[must_use]
     pub fn is_single_writer(&self) -> bool {
         let first = tokens(&self.0).next();
@@ -277,13 +277,13 @@ impl CheckDeclaration {
 }
 
 impl PropertyDeclaration {
-    /// Whether it must come true some time, rather than be true always.
+    /// Whether it must become true at some time, instead of being always true.
     #[must_use]
     pub fn is_eventual(&self) -> bool {
         self.word() == "eventually"
     }
 
-    /// Whether it must come true some time and stay so.
+    /// Whether it must become true at some time and stay true.
     #[must_use]
     pub fn is_eventually_always(&self) -> bool {
         self.is_eventual() && word(&self.0, "always").is_some()

@@ -13,7 +13,7 @@ nodes! {
 /// The value of a literal.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Literal {
-    /// An Int; 2^63, which is no Int, only where `-` stands before it.
+    /// An Int; 2^63, which is not an Int, only after `-`.
     Int(u64),
     /// A Float; a length in metres, an angle in radians.
     Float(f64),

@@ -1,8 +1,8 @@
-//! Which line ends matter, and which lines open and close blocks.
+//! Finds the significant line ends, and the begins and ends of blocks.
 //!
-//! The parser sees the tokens without trivia, and between them where a block begins ([`Indent`]) and
-//! ends ([`Dedent`]). Those two have no text; each says before which token it stands, so that a comment
-//! belongs to the block whose indentation it has.
+//! The parser sees the tokens without trivia, and between them where a block begins ([`Indent`]) and ends ([`Dedent`]).
+//! Those two have no text; each refers to the token after it, so that a comment belongs to the block with its
+//! indentation.
 
 mod brackets;
 mod continuation;

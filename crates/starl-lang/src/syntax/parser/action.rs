@@ -80,7 +80,7 @@ fn no_parameters(parser: &mut Parser<'_>) {
         parser.finish();
         let span = Span::new(first.start, parser.end_of_last());
         let problem = Diagnostic::new(Code::ActionParameters, span, "an action has no parameters");
-        let note = "what its guard finds can be kept with `some x = ...` in the `pre`";
+        let note = "`some x = ...` in the `pre` names a value for the effect";
         parser.report(problem.note(note).replace("remove them", span, ""));
     }
     parser.close(RightParen, open);
@@ -249,7 +249,7 @@ fn outside_eff(parser: &mut Parser<'_>, seen: &mut Seen) {
     let problem = Diagnostic::new(
         Code::MissingEff,
         first,
-        "the statements of an action stand after `eff`",
+        "the statements of an action follow `eff`",
     );
     parser.report(match seen.eff {
         Some(eff) => problem.label(eff, "its `eff` is here; indent the statement under it"),

@@ -58,7 +58,7 @@ pub(super) fn opens_block(parser: &mut Parser<'_>, owner: &str) -> bool {
         if parser.at(LeftBrace) {
             parser.diagnostics.last_mut().into_iter().for_each(|last| {
                 last.notes
-                    .push("a block is made by indentation, without braces".into());
+                    .push("a block is indented and has no braces".into());
             });
         }
         parser.skip_to_line_end();
@@ -85,7 +85,7 @@ fn missing(parser: &mut Parser<'_>, owner: &str) {
         let problem = problem.label(next, "this line is not indented deeper");
         let edits = [Edit::new(Span::empty(start), "    ")].into();
         problem.fix(Fix {
-            message: "indent what belongs to it by 4 more spaces".into(),
+            message: "indent its block by 4 more spaces".into(),
             edits,
         })
     } else {
@@ -138,7 +138,7 @@ fn on_line(parser: &mut Parser<'_>, first: statement::Place) {
 
 /// Warns of the statement that is next, before which `if` and a semicolon stand on the line.
 fn after_inline_if(parser: &mut Parser<'_>) {
-    let message = "this is done whether the condition holds or not";
+    let message = "this runs whether the condition is true or not";
     let problem = Diagnostic::new(Code::AfterInlineIf, parser.span(), message);
     let note = "`then` and `else` take one statement: put this one on a line of its own, or both in a block";
     parser.report(problem.note(note));
@@ -185,7 +185,7 @@ fn move_operator(parser: &mut Parser<'_>, problem: Diagnostic) {
     ]
     .into();
     let message = format!("move `{text}` to the end of the line above");
-    let problem = problem.note("a line goes on in the next if it ends in an operator");
+    let problem = problem.note("a line that ends in an operator continues in the next");
     parser.report(problem.fix(Fix { message, edits }));
 }
 

@@ -55,7 +55,7 @@ pub(super) mod power {
     pub const SIGN: u8 = 9;
 }
 
-/// An expression, or a report that there is none.
+/// Parses an expression, or reports that it is missing.
 pub(super) fn expression(parser: &mut Parser<'_>) -> Shape {
     expression_parsed(parser).shape
 }
@@ -214,7 +214,7 @@ pub(super) fn starts(kind: SyntaxKind) -> bool {
 }
 
 impl Parser<'_> {
-    /// Whether an expression can begin with what is next.
+    /// Whether an expression can begin with the next token.
     pub fn starts_operand(&self) -> bool {
         starts(self.current())
     }

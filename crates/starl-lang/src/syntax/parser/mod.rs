@@ -38,7 +38,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 /// that recursive walks need little stack.
 pub const MAX_DEPTH: u32 = 200;
 
-/// The tree of a text and what is wrong with it.
+/// The tree of a text and its problems.
 pub(crate) fn parse(
     text: &str,
     tokens: &Tokens,

@@ -17,7 +17,7 @@ pub(super) fn starts(kind: SyntaxKind) -> bool {
     )
 }
 
-/// An operand with all that follows it directly: fields, arguments, indices, `!`.
+/// An operand with its suffixes: fields, arguments, indices, `!`.
 pub(super) fn postfix(parser: &mut Parser<'_>, start: Checkpoint) -> Parsed {
     let mut parsed = simple(parser);
     loop {

@@ -1,4 +1,4 @@
-//! Reporting what is wrong.
+//! Reporting problems.
 
 use alloc::string::String;
 
@@ -38,7 +38,7 @@ impl Parser<'_> {
         );
     }
 
-    /// Whether a character without meaning, which is reported, is right before what comes next.
+    /// Whether an invalid character, which is reported, directly precedes the next token.
     pub fn follows_unknown(&self) -> bool {
         let next = self
             .lexemes

@@ -158,11 +158,11 @@ pub(super) fn foreign_statement(parser: &Parser<'_>) -> Option<&'static str> {
         }
         "switch" | "match" | "case" if heads && !calls(parser) => "write `if` and `elif`",
         "break" | "continue" if alone => {
-            "a `for` runs over the whole of its collection: put an `if` in it, or `return`"
+            "a `for` always iterates over its whole collection: use an `if` in it, or `return`"
         }
         "pass" | "skip" if alone => "leave the block out",
         "try" | "except" | "catch" if alone || next == SyntaxKind::Colon => {
-            "a run-time error stops the robot's program: ask before, as with `if some`"
+            "a run-time error stops the robot's program: test before, for example with `if some`"
         }
         _ => return None,
     })

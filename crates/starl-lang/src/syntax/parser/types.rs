@@ -2,7 +2,7 @@
 
 use super::{Code, Diagnostic, Parser, SyntaxKind::*, record};
 
-/// A type, or a report that there is none.
+/// Parses a type, or reports that it is missing.
 pub(super) fn any(parser: &mut Parser<'_>) {
     let start = parser.checkpoint();
     if parser.deeper(single).is_none_or(|found| !found) {
@@ -62,7 +62,7 @@ fn angle_arguments(parser: &mut Parser<'_>) {
     let problem = Diagnostic::new(
         Code::Unexpected,
         open,
-        "what a type holds stands in square brackets",
+        "type arguments are in square brackets",
     );
     parser.start(TypeArguments);
     parser.bump();

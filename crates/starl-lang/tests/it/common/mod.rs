@@ -28,8 +28,8 @@ pub fn written() -> impl Iterator<Item = (&'static str, &'static str)> {
     LISTINGS.iter().copied().chain([("every_form", EVERY_FORM)])
 }
 
-/// Reads a text and holds it to what is promised of any: the tree's text is the text, every diagnostic
-/// lies in it, and nothing is left out without an error.
+/// Parses a text and checks the guarantees for every text: the tree's text is the text, every diagnostic is within it,
+/// and nothing is omitted without an error.
 pub fn parsed(text: &str) -> Parse {
     let parse = parse(text);
     assert_eq!(
@@ -68,7 +68,7 @@ pub fn parsed(text: &str) -> Parse {
     parse
 }
 
-/// Whether it has errors, aside from warnings and from tabs, which formatting fixes.
+/// Whether it has errors other than tabs, which formatting fixes.
 pub fn is_wrong(parse: &Parse) -> bool {
     parse.diagnostics().iter().any(|diagnostic| {
         diagnostic.severity() == Severity::Error && diagnostic.code != Code::TabIndentation

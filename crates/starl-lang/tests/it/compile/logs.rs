@@ -3,7 +3,7 @@
 use super::support::effect;
 
 #[test]
-fn each_place_stands_for_the_next_value() {
+fn each_placeholder_shows_the_next_value() {
     let told = effect(
         "s: String = \"x\"",
         "log(\"a\")\nlog(\"{}\", 1)\nlog(\"{}{}\", 1, s)\nlog(\"<{}> and {}.\", s, [s])\nlog(\"\")\nlog(s)\nlog(s + s)",

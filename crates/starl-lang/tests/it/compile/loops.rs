@@ -62,7 +62,7 @@ fn over_ranges() {
 }
 
 #[test]
-fn what_is_run_over_stays_as_it_was() {
+fn a_loop_iterates_over_the_original_collection() {
     assert_eq!(
         told("for x in a\n    a.add(x * 2)\nlog(\"{}\", a)"),
         ["[3, 1, 2, 6, 2, 4]"]

@@ -1,4 +1,4 @@
-//! A robot for compiled programs that writes down what it is told, and ways to run programs on it.
+//! A robot for compiled programs that records calls, and functions that run programs on it.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ pub struct Stopped {
     pub place: String,
 }
 
-/// A robot: its program, its state, and what it was told.
+/// A robot: its program, its state, and its recorded calls.
 pub struct Robot {
     pub program: Program,
     pub state: State,

@@ -10,7 +10,7 @@ use starl_lang::machine::{
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// A host with a few functions, which writes down what was called.
+/// A host with a few functions, which records its calls.
 #[derive(Default)]
 pub struct TestHost {
     pub calls: Vec<String>,

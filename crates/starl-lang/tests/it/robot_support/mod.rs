@@ -18,8 +18,8 @@ pub fn load(text: &str) -> Code {
     Code::load(bytecode).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Robots on a floor, which are where they are told to go at once, hear where they are before each activation, and
-/// have a network that delivers in a millisecond.
+/// Robots on a floor that move instantly, get their estimate before each activation, and have a network that delivers
+/// in a millisecond.
 #[derive(Clone)]
 pub struct World(Fleet);
 
@@ -53,7 +53,7 @@ impl World {
         World::new((0..robots).map(|_| program(code)).collect())
     }
 
-    /// The same, where messages get lost, come twice, and take from 1 ms to this long.
+    /// The same with a network that loses and duplicates messages, and delays them from 1 ms to this time.
     pub fn over_bad_network(code: &Code, robots: u32, seed: u64, longest_ms: u64) -> World {
         let mut world = World::of(code, robots);
         world.random = Random::keyed(seed, &[3]);
@@ -120,7 +120,7 @@ impl World {
         self.0.restart(robot, agent(program, robot));
     }
 
-    /// A robot stands here; it hears of it before it is activated.
+    /// Moves a robot; it gets its new estimate before its activation.
     pub fn put(&mut self, robot: usize, position: Point) {
         let now = self.now;
         self.robots[robot].travel.place(now, position);

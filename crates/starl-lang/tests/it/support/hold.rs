@@ -62,7 +62,7 @@ pub fn can_be_written(bytecode: &Bytecode) {
     assert_eq!(assemble(&written).as_ref(), Ok(bytecode), "{written}");
 }
 
-/// It does on the machine what it means, and never goes wrong.
+/// Its behaviour on the machine is that of the reference interpreter, without internal errors.
 pub fn means(checked: &Checked, bytecode: &Bytecode) -> Compared {
     let loaded = run::load(bytecode);
     let compared = compare(&checked.program, bytecode, &loaded);

@@ -58,7 +58,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Another run that goes on from here.
+    /// A copy of the run that continues from here.
     pub fn split(&self) -> Run<'a> {
         let host = TestHost {
             program: self.host.program,
@@ -176,9 +176,9 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Runs a program to the end of the inputs or its first error, and sees that it never goes wrong: no
-/// malformed value, no more fuel or memory than it may use, the same when it is done again or when a copy
-/// goes on. Gives what stopped it.
+/// Runs a program to the end of the inputs or its first error, and checks that there is no internal error: no malformed
+/// value, no more fuel or memory than allowed, and the same result in a repetition and in a continued copy. Returns the
+/// error.
 pub fn never_goes_wrong(program: &Program) -> Option<RuntimeError> {
     let required =
         |variable: &starl_lang::machine::Variable| variable.parameter == Parameter::Required;

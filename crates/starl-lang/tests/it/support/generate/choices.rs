@@ -1,4 +1,4 @@
-//! Where a generator's choices come from: bytes, one for each choice.
+//! The choices of a generator, from bytes: one for each choice.
 //!
 //! Invariant: equal bytes give equal choices, and after the last byte every choice is the first, which is the simplest.
 //! So shorter or smaller bytes make a simpler program.

@@ -20,12 +20,12 @@ mod types;
 pub use choices::Choices;
 use model::{Local, Model, Place, Type};
 
-/// A program that these bytes stand for.
+/// The program generated from these bytes.
 pub fn program(bytes: &[u8]) -> String {
     generate(bytes, false)
 }
 
-/// The same with parentheses around all that has an operator.
+/// The same with parentheses around every operation.
 pub fn program_with_parentheses(bytes: &[u8]) -> String {
     generate(bytes, true)
 }

@@ -36,7 +36,7 @@ impl Type {
         Type::Map(Box::new(key), Box::new(value))
     }
 
-    /// `of?`; of what is optional already the same.
+    /// `of?`; an optional type stays the same.
     pub fn optional(of: Type) -> Type {
         match of {
             Type::Optional(_) => of,

@@ -126,7 +126,7 @@ pub fn position(list: &[Value], element: &Value) -> Outcome<Option<usize>> {
     Ok(None)
 }
 
-/// An index of a list with so many elements.
+/// An index of a list with this number of elements.
 pub fn index(at: i64, length: usize) -> Outcome<usize> {
     match usize::try_from(at) {
         Ok(index) if index < length => Ok(index),

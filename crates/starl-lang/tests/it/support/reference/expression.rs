@@ -296,7 +296,7 @@ impl<'a> Reference<'a> {
         self.ask(&name, arguments, ty)
     }
 
-    /// Arguments for the host: an optional one that is left out is none.
+    /// Arguments for the host: an omitted optional one is none.
     pub fn arguments(
         &mut self,
         signature: &Signature,

@@ -105,7 +105,7 @@ impl<'a> Reference<'a> {
         Ok(())
     }
 
-    /// Binds primitives, gives variables their values, and does what is done at the start.
+    /// Binds primitives, initializes variables, and runs `init`.
     pub fn start(&mut self) -> Outcome<()> {
         self.begin(0);
         let program = self.program;

@@ -127,7 +127,7 @@ impl<'a> Reference<'a> {
         Ok(None)
     }
 
-    /// Does what is done on entering the role that the robot has.
+    /// Runs the entry of the robot's role.
     pub fn enter_role(&mut self) -> Outcome<()> {
         let roles = self.program.roles.as_ref().expect("roles");
         let Value::Variant(role) = self.variables[roles.variable.index()] else {
