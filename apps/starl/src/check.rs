@@ -178,6 +178,7 @@ impl Findings {
         let errors = console::counted(self.errors, "error");
         let warnings = console::counted(self.warnings, "warning");
         match (self.errors, self.warnings) {
+            (0, 0) if self.files == 0 => String::new(),
             (0, 0) => format!("{files}: no problems\n"),
             (0, _) => format!("{more}{files}: {warnings}\n"),
             (_, 0) => format!("{more}{files}: {errors}\n"),

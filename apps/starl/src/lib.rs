@@ -155,7 +155,7 @@ fn refuse(error: &clap::Error) -> ExitCode {
     {
         // A field and its value as two words: the parser would say that `-- -1` passes a value.
         let message = format!(
-            "{word} belongs to no option; fields are set in one word, as in --set parameters.count={word}"
+            "{word} does not belong to an option; join a value to its option, as in --set parameters.count={word}"
         );
         console::error(&message);
         return ExitCode::from(2);

@@ -7,6 +7,7 @@ use crate::progress::Progress;
 use clap::ValueEnum;
 use starl_core::event::{Event, Level};
 use starl_core::{Record, RobotId};
+use starl_sim::read::suggest;
 use starl_sim::scenario::Fleet;
 use std::fmt::Write;
 
@@ -54,7 +55,11 @@ impl Log {
         let robots = || (0..fleet.len() as u32).map(RobotId);
         let find = |name: &String| {
             let found = robots().find(|&robot| fleet.name(robot) == *name);
-            found.ok_or_else(|| Failure(format!("--log-robots: there is no robot {name}")))
+            found.ok_or_else(|| {
+                let names: Vec<&str> = robots().map(|robot| fleet.name(robot)).collect();
+                let help = suggest::help(name, &names, "the robots are").unwrap_or_default();
+                Failure(format!("--log-robots: there is no robot {name}; {help}"))
+            })
         };
         let only = match &arguments.log_robots[..] {
             [] => None,

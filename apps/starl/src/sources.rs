@@ -198,7 +198,7 @@ fn programs(folder: &Path, files: &mut Vec<PathBuf>, failures: &mut Vec<Failure>
     let mut entries = match entries {
         Ok(entries) => entries,
         Err(error) => {
-            let message = format!("cannot be read: {}", reason(&error));
+            let message = format!("cannot be read: {}; check the path", reason(&error));
             failures.push(Failure::file(folder, message));
             return;
         }

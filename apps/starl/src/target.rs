@@ -240,7 +240,7 @@ pub fn no_example(name: &str, other: &str) -> Failure {
 /// The text of a file.
 pub fn text(path: &Path) -> Result<String, Failure> {
     let bytes = disk::read(path)
-        .map_err(|error| Failure::file(path, format!("cannot be read: {error}")))?;
+        .map_err(|error| Failure::file(path, format!("cannot be read: {error}; check the path")))?;
     String::from_utf8(bytes).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();

@@ -200,7 +200,11 @@ impl<'a> Folder<'a> {
     /// The text of the program.
     fn text(&self, path: &str) -> Result<String, String> {
         let bytes = self.loader.load(path);
-        let bytes = bytes.map_err(|reason| format!("{path:?} cannot be read: {reason}"))?;
+        let bytes = bytes.map_err(|reason| {
+            format!(
+                "{path:?} cannot be read: {reason}; its path is relative to the scenario's folder"
+            )
+        })?;
         self.keep(path, bytes)
     }
 
