@@ -13,7 +13,7 @@ use starl_core::{
     Agent, Destination, Duration, Estimate, Event, Input, Message, MotionRequest, Port, Random,
     RobotId, Sensors, Time, TimerKey,
 };
-use starl_host::{Clock, Happening as Call, Hardware, Node, Outlet, PlanJob, Snapshot, Workspace};
+use starl_host::{Clock, Hardware, Node, NodeInput as Call, Outlet, PlanJob, Snapshot, Workspace};
 use starl_motion::Neighbour;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -30,9 +30,9 @@ pub(crate) struct Local {
     history: u128,
 }
 
-/// Something that happens to one robot.
+/// An input of one robot.
 #[derive(Clone, Debug)]
-pub(crate) enum Happening {
+pub(crate) enum RobotInput {
     Activate,
     Timer(TimerKey),
     Message(Message),
@@ -120,11 +120,11 @@ impl Local {
             history: 0,
         };
         local.node.crash();
-        local.turn(&Happening::Restart, surroundings)
+        local.turn(&RobotInput::Restart, surroundings)
     }
 
     /// The result of an event.
-    pub fn turn(&self, happening: &Happening, surroundings: &Surroundings) -> Turn {
+    pub fn turn(&self, happening: &RobotInput, surroundings: &Surroundings) -> Turn {
         let mut turn = Turn {
             local: self.clone(),
             sent: Vec::new(),
@@ -132,16 +132,16 @@ impl Local {
             motions: 0,
         };
         match happening {
-            Happening::Activate => turn.feed(Input::Activate, surroundings),
-            Happening::Timer(key) => turn.feed(Input::Timer(*key), surroundings),
-            Happening::Message(message) => {
+            RobotInput::Activate => turn.feed(Input::Activate, surroundings),
+            RobotInput::Timer(key) => turn.feed(Input::Timer(*key), surroundings),
+            RobotInput::Message(message) => {
                 turn.feed(Input::Message(message.clone()), surroundings);
             }
-            Happening::Suspect(peer) => turn.feed(Input::Suspected(*peer), surroundings),
-            Happening::Trust(peer) => turn.feed(Input::Trusted(*peer), surroundings),
-            Happening::Tick => turn.local.clock += 1,
-            Happening::Crash => turn.crash(),
-            Happening::Restart => turn.start(surroundings),
+            RobotInput::Suspect(peer) => turn.feed(Input::Suspected(*peer), surroundings),
+            RobotInput::Trust(peer) => turn.feed(Input::Trusted(*peer), surroundings),
+            RobotInput::Tick => turn.local.clock += 1,
+            RobotInput::Crash => turn.crash(),
+            RobotInput::Restart => turn.start(surroundings),
         }
         turn
     }

@@ -5,7 +5,7 @@
 
 use crate::code::{Code, Kind, MOST_DATAGRAMS};
 use crate::doubt::Doubt;
-use crate::robot::{Happening, Local, Surroundings};
+use crate::robot::{Local, RobotInput, Surroundings};
 use crate::step::Datagram;
 use crate::table::{Rows, Table};
 use crate::texts::Texts;
@@ -135,25 +135,25 @@ impl Robots {
         self.outcomes[number as usize]
     }
 
-    pub(crate) fn happening(&self, local: u32, code: Code) -> Happening {
+    pub(crate) fn happening(&self, local: u32, code: Code) -> RobotInput {
         let peer = RobotId(code.which());
         match code.kind() {
             Kind::Timer => {
                 let armed = self.states[local as usize].timers(&self.surroundings);
                 match armed.get(code.which() as usize) {
-                    Some((key, _)) => Happening::Timer(*key),
+                    Some((key, _)) => RobotInput::Timer(*key),
                     None => unreachable!("only timers that are armed fire"),
                 }
             }
             Kind::Deliver | Kind::Duplicate | Kind::Lose => {
-                Happening::Message(self.datagram(code.number()).message())
+                RobotInput::Message(self.datagram(code.number()).message())
             }
-            Kind::Crash => Happening::Crash,
-            Kind::Restart | Kind::RestartDeaf => Happening::Restart,
-            Kind::Suspect => Happening::Suspect(peer),
-            Kind::Trust => Happening::Trust(peer),
-            Kind::Tick | Kind::TickAll => Happening::Tick,
-            Kind::Activate => Happening::Activate,
+            Kind::Crash => RobotInput::Crash,
+            Kind::Restart | Kind::RestartDeaf => RobotInput::Restart,
+            Kind::Suspect => RobotInput::Suspect(peer),
+            Kind::Trust => RobotInput::Trust(peer),
+            Kind::Tick | Kind::TickAll => RobotInput::Tick,
+            Kind::Activate => RobotInput::Activate,
         }
     }
 

@@ -66,9 +66,9 @@ impl Condition {
     }
 }
 
-/// Something that happens to a robot.
+/// An input of a node.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Happening {
+pub enum NodeInput {
     /// The robot's software starts. Due once in each life, at [`Node::next_timeout`].
     Start,
     /// The estimate given by [`Node::locate`] is new.
@@ -186,8 +186,8 @@ impl Node {
         &self.timers
     }
 
-    /// When the node wants to be called next: with [`Happening::Start`] if it has not started in this life,
-    /// else with [`Happening::Timeout`]. [`Time::NEVER`] if the robot is down or its program has failed.
+    /// When the node wants to be called next: with [`NodeInput::Start`] if it has not started in this life,
+    /// else with [`NodeInput::Timeout`]. [`Time::NEVER`] if the robot is down or its program has failed.
     #[inline]
     pub fn next_timeout(&self) -> Time {
         if !self.runs() {
@@ -251,7 +251,7 @@ impl Node {
     }
 
     /// Sets the robot's position estimate, with the time of the robot's own clock. The software receives it by
-    /// [`Happening::Located`] or [`Happening::Start`].
+    /// [`NodeInput::Located`] or [`NodeInput::Start`].
     #[inline]
     pub fn locate(&mut self, at: Time, estimate: Estimate, outlet: &mut impl Outlet) {
         self.estimate = Estimate {
@@ -267,19 +267,19 @@ impl Node {
     pub fn handle(
         &mut self,
         at: Time,
-        happening: Happening,
+        happening: NodeInput,
         snapshot: &Snapshot<'_>,
         outlet: &mut impl Outlet,
     ) {
         match happening {
-            Happening::Start => {
+            NodeInput::Start => {
                 if !self.condition.started && !self.condition.down {
                     self.condition.started = true;
                     self.show_fresh(at, outlet);
                     self.feed(at, &Input::Start, snapshot, outlet);
                 }
             }
-            Happening::Located => {
+            NodeInput::Located => {
                 self.feed(at, &Input::Estimate, snapshot, outlet);
                 if self.pilot.is_some() {
                     self.steer(at, snapshot, outlet);
@@ -288,18 +288,18 @@ impl Node {
                     }
                 }
             }
-            Happening::Datagram { sequence, message } => {
+            NodeInput::Datagram { sequence, message } => {
                 self.receive(at, sequence, message, snapshot, outlet);
             }
-            Happening::Planned { job, path } => {
+            NodeInput::Planned { job, path } => {
                 if let Some(place) = self.plans.iter().position(|plan| plan.0 == job) {
                     let (_, ticket) = self.plans.remove(place);
                     self.feed(at, &Input::Planned { ticket, path }, snapshot, outlet);
                 }
             }
-            Happening::Stored { job } => self.stored(at, job, snapshot, outlet),
-            Happening::Timeout => self.time_out(at, snapshot, outlet),
-            Happening::Input(input) => {
+            NodeInput::Stored { job } => self.stored(at, job, snapshot, outlet),
+            NodeInput::Timeout => self.time_out(at, snapshot, outlet),
+            NodeInput::Input(input) => {
                 if let Input::Timer(key) = input {
                     self.timers.cancel(key);
                 }

@@ -19,7 +19,7 @@ pub struct Datagram {
 }
 
 /// A path that a node wants. The host finds it, at once or later, and hands it back as
-/// [`crate::Happening::Planned`].
+/// [`crate::NodeInput::Planned`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanJob {
     /// Names the job among all jobs of this node.
@@ -30,7 +30,7 @@ pub struct PlanJob {
     pub estimate: Estimate,
 }
 
-/// A write requested by a node. Writes are atomic. The host reports a completed write by [`crate::Happening::Stored`];
+/// A write requested by a node. Writes are atomic. The host reports a completed write by [`crate::NodeInput::Stored`];
 /// a node requests one write at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StoreJob {

@@ -6,7 +6,7 @@ use starl_core::{Event, Point, Time};
 use starl_host::{Datagram, Observed, Outlet, PlanJob, StoreJob, Workspace};
 use starl_motion::Neighbour;
 
-pub(crate) struct Desk<'a> {
+pub(crate) struct RuntimeOutlet<'a> {
     pub workspace: &'a mut Workspace,
     pub recorder: &'a mut dyn Recorder,
     pub surroundings: &'a Surroundings,
@@ -22,7 +22,7 @@ pub(crate) struct Desk<'a> {
     pub failure: Option<String>,
 }
 
-impl Desk<'_> {
+impl RuntimeOutlet<'_> {
     /// Where the other robots are by now.
     fn near(&self, reach: f64) -> impl Iterator<Item = Neighbour> {
         let others = self.surroundings.others(self.now);
@@ -30,7 +30,7 @@ impl Desk<'_> {
     }
 }
 
-impl Outlet for Desk<'_> {
+impl Outlet for RuntimeOutlet<'_> {
     fn workspace(&mut self) -> &mut Workspace {
         self.workspace
     }

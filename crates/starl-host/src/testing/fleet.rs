@@ -1,9 +1,9 @@
 //! The fleet of the test host, and its virtual time.
 
-use super::desk::Desk;
+use super::outlet::FleetOutlet;
 use super::unit::Unit;
 use super::wire::{Mail, Wire};
-use crate::{Happening, Node, PlanJob, Snapshot, Store, Workspace};
+use crate::{Node, NodeInput, PlanJob, Snapshot, Store, Workspace};
 use alloc::collections::{BTreeMap, VecDeque};
 use alloc::vec;
 use alloc::vec::Vec;
@@ -89,7 +89,7 @@ impl Fleet {
     pub fn start(&mut self, robot: usize) {
         self.robots[robot].next_location = self.now;
         self.locate(robot);
-        self.handle(robot, Happening::Start);
+        self.handle(robot, NodeInput::Start);
     }
 
     /// A robot crashes and stops where it is.
@@ -115,14 +115,16 @@ impl Fleet {
     /// Overwrites the state of a robot's program.
     pub fn corrupt(&mut self, robot: usize, random: &mut Random) {
         self.record(robot, Event::Fault(Fault::CorruptState));
-        self.call(robot, |node, now, _, desk| node.corrupt(now, random, desk));
+        self.call(robot, |node, now, _, outlet| {
+            node.corrupt(now, random, outlet)
+        });
     }
 
     /// Moves a robot to a position, and sends it the estimate.
     pub fn place(&mut self, robot: usize, position: Point) {
         self.robots[robot].travel.place(self.now, position);
         self.locate(robot);
-        self.handle(robot, Happening::Located);
+        self.handle(robot, NodeInput::Located);
     }
 
     /// Where a robot is.
@@ -132,24 +134,24 @@ impl Fleet {
 
     /// Hands an input to a robot now.
     pub fn input(&mut self, robot: usize, input: &Input) {
-        self.handle(robot, Happening::Input(input.clone()));
+        self.handle(robot, NodeInput::Input(input.clone()));
     }
 
     /// Lets something happen to a robot now.
-    pub fn handle(&mut self, robot: usize, happening: Happening) {
+    pub fn handle(&mut self, robot: usize, happening: NodeInput) {
         if self.positioning.is_none() && self.robots[robot].travel.is_under_way() {
             self.locate(robot);
         }
         let mut happenings = VecDeque::from([happening]);
         while let Some(happening) = happenings.pop_front() {
-            let jobs = self.call(robot, |node, now, snapshot, desk| {
-                node.handle(now, happening, snapshot, desk);
+            let jobs = self.call(robot, |node, now, snapshot, outlet| {
+                node.handle(now, happening, snapshot, outlet);
             });
             for PlanJob { job, request, .. } in jobs {
                 let path = vec![request.target];
                 if self.planning.is_zero() {
                     let path = Some(path);
-                    happenings.push_back(Happening::Planned { job, path });
+                    happenings.push_back(NodeInput::Planned { job, path });
                 } else {
                     let key = (self.now + self.planning, robot, job);
                     self.plans.insert(key, path);
@@ -224,7 +226,7 @@ impl Fleet {
             Due::Plan => {
                 if let Some(((_, robot, job), path)) = self.plans.pop_first() {
                     let path = Some(path);
-                    self.handle(robot, Happening::Planned { job, path });
+                    self.handle(robot, NodeInput::Planned { job, path });
                 }
             }
             Due::Location(robot) => {
@@ -234,21 +236,21 @@ impl Fleet {
                     None => unit.travel.arrive(self.now),
                 }
                 self.locate(robot);
-                self.handle(robot, Happening::Located);
+                self.handle(robot, NodeInput::Located);
             }
             Due::Stored(robot) => {
                 let store = self.robots[robot].store.as_mut();
                 if let Some(job) = store.and_then(Store::finish) {
-                    self.handle(robot, Happening::Stored { job });
+                    self.handle(robot, NodeInput::Stored { job });
                 }
             }
             Due::Datagram => {
                 if let Some((to, datagram)) = self.mail.take() {
                     let (sequence, message) = (datagram.sequence, datagram.message);
-                    self.handle(to.index(), Happening::Datagram { sequence, message });
+                    self.handle(to.index(), NodeInput::Datagram { sequence, message });
                 }
             }
-            Due::Timeout(robot) => self.handle(robot, Happening::Timeout),
+            Due::Timeout(robot) => self.handle(robot, NodeInput::Timeout),
         }
     }
 
@@ -261,7 +263,9 @@ impl Fleet {
         let unit = &self.robots[robot];
         if !unit.node.condition().down {
             let estimate = unit.estimate(self.now);
-            self.call(robot, |node, now, _, desk| node.locate(now, estimate, desk));
+            self.call(robot, |node, now, _, outlet| {
+                node.locate(now, estimate, outlet)
+            });
         }
     }
 
@@ -269,7 +273,7 @@ impl Fleet {
     fn call(
         &mut self,
         robot: usize,
-        call: impl FnOnce(&mut Node, Time, &Snapshot<'_>, &mut Desk<'_>),
+        call: impl FnOnce(&mut Node, Time, &Snapshot<'_>, &mut FleetOutlet<'_>),
     ) -> Vec<PlanJob> {
         let unit = &mut self.robots[robot];
         let snapshot = Snapshot {
@@ -285,7 +289,7 @@ impl Fleet {
             way_points: &self.way_points,
             obstacles: &self.obstacles,
         };
-        let mut desk = Desk {
+        let mut outlet = FleetOutlet {
             robot: self.fleet[robot],
             fleet: &self.fleet,
             wire: &self.wire,
@@ -299,7 +303,7 @@ impl Fleet {
             records: &mut self.records,
             workspace: &mut self.workspace,
         };
-        call(&mut unit.node, self.now, &snapshot, &mut desk);
-        desk.plans
+        call(&mut unit.node, self.now, &snapshot, &mut outlet);
+        outlet.plans
     }
 }

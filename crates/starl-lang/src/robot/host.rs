@@ -5,7 +5,7 @@ use super::atomic::{self, Script};
 use super::code::{Code, Instance};
 use super::joint::OnRobot;
 use super::messages::Outgoing;
-use super::primitives::{KINDS, Seat, Slot};
+use super::primitives::{KINDS, PrimitiveSlot, Slot};
 use super::services::Services;
 use super::workbench::Memo;
 use crate::machine::{Host, HostCall};
@@ -84,16 +84,16 @@ impl RobotHost<'_, '_> {
         }
         self.context.instance = Some(form);
         let mut arguments = Arguments::after_instance(call);
-        let mut seat = Seat::new((kind_of.bind)(form, &mut self.context, &mut arguments)?);
-        if seat.port.is_some_and(|port| self.is_taken(port, instance)) {
+        let mut slot = PrimitiveSlot::new((kind_of.bind)(form, &mut self.context, &mut arguments)?);
+        if slot.port.is_some_and(|port| self.is_taken(port, instance)) {
             return Err("another primitive of the program has this name".into());
         }
-        if let Some(primitive) = seat.bound.primitive() {
+        if let Some(primitive) = slot.bound.primitive() {
             // It hears of the start, as those do that are there before it.
             primitive.handle(self.context.robot, &Input::Start);
         }
         if let Some(slot) = self.bound.get_mut(instance) {
-            *slot = Some(seat);
+            *slot = Some(slot);
         }
         Ok(1)
     }
@@ -103,8 +103,8 @@ impl RobotHost<'_, '_> {
         let mut others = self.bound.iter().enumerate();
         self.context.services.listen_at(self.context.code, port)
             || others.any(|(other, slot)| {
-                let seat = slot.as_ref().filter(|_| other != instance);
-                seat.is_some_and(|seat| seat.port == Some(port))
+                let slot = slot.as_ref().filter(|_| other != instance);
+                slot.is_some_and(|slot| slot.port == Some(port))
             })
     }
 
@@ -116,9 +116,9 @@ impl RobotHost<'_, '_> {
         }
         self.context.instance = form;
         match self.bound.get_mut(instance) {
-            Some(Some(seat)) => {
-                seat.is_stirred |= !call.import.query;
-                seat.bound
+            Some(Some(slot)) => {
+                slot.is_stirred |= !call.import.query;
+                slot.bound
                     .call(usize::from(member), &mut self.context, call)
             }
             _ => Err("the primitive is not bound yet".into()),

@@ -116,13 +116,13 @@ impl RobotProgram {
     pub fn primitives_state(&self) -> Vec<PrimitiveState> {
         let bound = self.code.instances().iter().zip(&self.bound);
         let mut primitives: Vec<PrimitiveState> = bound
-            .map(|(instance, seat)| PrimitiveState {
+            .map(|(instance, slot)| PrimitiveState {
                 name: instance.variable.clone(),
                 kind: KINDS
                     .get(usize::from(instance.kind))
                     .map_or(String::new(), |kind| kind.name.to_string()),
-                port: seat.as_ref().and_then(|seat| seat.port),
-                state: seat.as_ref().map(|seat| format!("{seat:?}")),
+                port: slot.as_ref().and_then(|slot| slot.port),
+                state: slot.as_ref().map(|slot| format!("{slot:?}")),
             })
             .collect();
         let services = &self.services;

@@ -168,8 +168,8 @@ impl RobotProgram {
             robot.emit_fields("reset", fields.into_iter().collect());
         }
         if has_fired || is_told {
-            let seats = self.bound.iter().flatten();
-            let mut targets = seats.filter_map(|seat| seat.bound.target());
+            let slots = self.bound.iter().flatten();
+            let mut targets = slots.filter_map(|slot| slot.bound.target());
             self.target = targets.next().or(self.target);
             self.version += 1;
         }
@@ -315,10 +315,10 @@ impl Primitives for RobotProgram {
     fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
         let forms = self.code.instances().iter();
         for ((number, form), slot) in forms.enumerate().zip(&mut self.bound) {
-            let Some(seat) = slot else { continue };
-            let Some(port) = seat.port else { continue };
+            let Some(slot) = slot else { continue };
+            let Some(port) = slot.port else { continue };
             visit(&mut Attended {
-                seat,
+                slot,
                 port,
                 form,
                 number: number as u32,
@@ -404,9 +404,9 @@ impl Program for RobotProgram {
         self.version += 1;
         self.rests = false;
         corruption::corrupt(self.code.program(), &mut self.state, random);
-        for seat in self.bound.iter_mut().flatten() {
-            seat.is_stirred = true;
-            seat.bound.corrupt(random);
+        for slot in self.bound.iter_mut().flatten() {
+            slot.is_stirred = true;
+            slot.bound.corrupt(random);
         }
         for (pace, action) in self
             .paces

@@ -1,7 +1,7 @@
 //! The discovery of hidden obstacles by robots.
 
-use super::mind::{Knowledge, Senses};
 use super::shared::Shared;
+use super::simulated_robot::{Knowledge, Senses};
 use starl_core::event::Hit;
 use starl_core::geometry::Bounds;
 use starl_core::{Obstacle, RobotId};

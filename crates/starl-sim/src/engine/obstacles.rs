@@ -79,8 +79,8 @@ impl Simulation {
     /// Brings what single robots know up to date with the obstacles that stand.
     fn forget_vanished(&mut self) {
         let shared = &self.shared;
-        for mind in self.shards.iter_mut().flat_map(|shard| &mut shard.minds) {
-            if let Some(knowledge) = &mut mind.senses.knowledge {
+        for member in self.shards.iter_mut().flat_map(|shard| &mut shard.members) {
+            if let Some(knowledge) = &mut member.senses.knowledge {
                 let met = |index: &u32| shared.standing.binary_search(index).ok();
                 knowledge.met.retain(|index| met(index).is_some());
                 let extra = knowledge.met.iter().filter_map(met);

@@ -281,9 +281,9 @@ pub static BUILTINS: &[Builtin] = &[
         Ok(1)
     }),
     effect("stop", &[], None, |host, _| {
-        for seat in host.bound.iter_mut().flatten() {
-            seat.is_stirred = true;
-            seat.bound.halt(host.context.robot);
+        for slot in host.bound.iter_mut().flatten() {
+            slot.is_stirred = true;
+            slot.bound.halt(host.context.robot);
         }
         host.context.robot.halt();
         Ok(1)
@@ -331,9 +331,9 @@ pub static BUILTINS: &[Builtin] = &[
     }),
     // Not in the language's table: a program that starts again does this first.
     effect("reset", &[], None, |host, _| {
-        for seat in host.bound.iter_mut().flatten() {
-            seat.is_stirred = true;
-            seat.bound.reset(host.context.robot);
+        for slot in host.bound.iter_mut().flatten() {
+            slot.is_stirred = true;
+            slot.bound.reset(host.context.robot);
         }
         Ok(1)
     }),

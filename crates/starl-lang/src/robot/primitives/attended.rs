@@ -14,7 +14,7 @@ use starl_core::{Input, Payload, Port, Primitive, Robot};
 
 /// A bound primitive, with what spares looking into it.
 #[derive(Clone)]
-pub struct Seat {
+pub struct PrimitiveSlot {
     /// The primitive.
     pub bound: Box<dyn Bound>,
     /// Where it listens; nowhere, if it has no state machine of its own.
@@ -23,11 +23,11 @@ pub struct Seat {
     pub is_stirred: bool,
 }
 
-impl Seat {
+impl PrimitiveSlot {
     /// A place for a primitive.
-    pub fn new(mut bound: Box<dyn Bound>) -> Seat {
+    pub fn new(mut bound: Box<dyn Bound>) -> PrimitiveSlot {
         let port = bound.primitive().map(|primitive| primitive.port());
-        Seat {
+        PrimitiveSlot {
             bound,
             port,
             is_stirred: true,
@@ -36,7 +36,7 @@ impl Seat {
 }
 
 /// Shows the primitive alone: the rest follows from it, or makes no difference.
-impl fmt::Debug for Seat {
+impl fmt::Debug for PrimitiveSlot {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.bound.fmt(f)
     }
@@ -46,7 +46,7 @@ impl fmt::Debug for Seat {
 /// message to itself, so that they are handled immediately.
 pub struct Attended<'a> {
     /// The primitive.
-    pub seat: &'a mut Seat,
+    pub slot: &'a mut PrimitiveSlot,
     /// Where it listens.
     pub port: Port,
     /// The instance in the program.
@@ -67,16 +67,16 @@ impl Primitive for Attended<'_> {
     fn handle(&mut self, robot: &mut Robot<'_>, input: &Input) {
         let kind = KINDS.get(usize::from(self.form.kind));
         let is_needed = kind.is_none_or(|kind| kind.attention.is_paid_to(input));
-        if !is_needed && !self.seat.is_stirred {
+        if !is_needed && !self.slot.is_stirred {
             return;
         }
-        self.seat.is_stirred = false;
-        if let Some(primitive) = self.seat.bound.primitive() {
+        self.slot.is_stirred = false;
+        if let Some(primitive) = self.slot.bound.primitive() {
             let rests = &mut *self.rests;
             Disturbing { primitive, rests }.handle(robot, input);
         }
         let before = self.reports.len();
-        self.seat.bound.take_reports(&mut |report| {
+        self.slot.bound.take_reports(&mut |report| {
             if self
                 .form
                 .handlers
@@ -92,7 +92,7 @@ impl Primitive for Attended<'_> {
     }
 
     fn save(&mut self, robot: &mut Robot<'_>) {
-        if let Some(primitive) = self.seat.bound.primitive() {
+        if let Some(primitive) = self.slot.bound.primitive() {
             primitive.save(robot);
         }
     }

@@ -9,7 +9,7 @@ use starl_motion::Neighbour;
 
 /// One robot's node with its network and motion state.
 #[derive(Clone)]
-pub struct Mind {
+pub struct SimulatedRobot {
     pub node: Node,
     pub senses: Senses,
     pub account: Account,
@@ -22,7 +22,7 @@ pub struct Mind {
     pub distance: f64,
 }
 
-impl Mind {
+impl SimulatedRobot {
     /// The robot's number.
     pub fn id(&self) -> RobotId {
         self.node.id()
