@@ -156,7 +156,7 @@ impl Sweep {
         Ok(true)
     }
 
-    /// Lets another sweep go on with the journal.
+    /// Lets another sweep continue with the journal.
     fn release(&self) {
         self.state().journal = None;
     }

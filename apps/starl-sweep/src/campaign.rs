@@ -81,7 +81,7 @@ impl Campaign {
     /// The campaign of a plan that [`Campaign::plan`] gave, in this process or in another.
     ///
     /// # Errors
-    /// Where a program is not known here.
+    /// If a program is not known here.
     pub fn of_plan(plan: CampaignPlan, registry: &Registry) -> Result<Campaign, Error> {
         let subject = |target: &Target| -> Result<Subject, Error> {
             let application = read(&target.inputs.request, &target.inputs, registry)?;

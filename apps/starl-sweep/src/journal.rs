@@ -72,7 +72,7 @@ impl Journal {
     /// Opens the journal at `path`, or begins one, and returns the rows that it has, by number.
     ///
     /// # Errors
-    /// Where the file belongs to another plan, is damaged, is in use by another process, or cannot be read or written.
+    /// If the file belongs to another plan, is damaged, is in use by another process, or cannot be read or written.
     pub fn open(path: &Path, plan: &Plan) -> Result<(Journal, BTreeMap<u64, Measured>), Error> {
         let mut options = OpenOptions::new();
         let options = options.read(true).write(true).create(true).truncate(false);
@@ -110,7 +110,7 @@ impl Journal {
     /// Adds a row. It is in the file when this returns.
     ///
     /// # Errors
-    /// Where the file cannot be written.
+    /// If the file cannot be written.
     pub fn write(&mut self, row: &Measured) -> Result<(), Error> {
         self.line(row)
     }

@@ -35,7 +35,7 @@ impl Plan {
     /// combinations name.
     ///
     /// # Errors
-    /// Where an axis is given twice, the profile does not exist, or some combination has errors: all of the first one that
+    /// If an axis is given twice, the profile does not exist, or some combination has errors: all of the first one that
     /// has.
     pub fn new(
         target: &str,

@@ -60,7 +60,7 @@ impl Task {
 /// Runs a task of programs that StarL ships with, or that are written in the language.
 ///
 /// # Errors
-/// Where the scenario or its programs have errors, which [`Plan::new`](crate::Plan::new) finds before.
+/// If the scenario or its programs have errors, which [`Plan::new`](crate::Plan::new) finds before.
 pub fn run_task(task: &Task) -> Result<Row, Error> {
     Runner::new(Registry::default()).run(task)
 }

@@ -56,13 +56,13 @@ pub enum Command {
     View(ViewArguments),
     /// Run one robot of a real fleet, until it is stopped
     Robot(RobotArguments),
-    /// Run a real fleet, ask how it is, stop it, and join what its robots recorded
+    /// Run a real fleet, show its status, stop it, and merge the traces of its robots
     Fleet {
         /// The subcommand.
         #[command(subcommand)]
         command: FleetCommand,
     },
-    /// Stand in for robots' hardware: the simulator's models behind the wire protocols of real devices
+    /// Emulate the hardware of robots: the simulator's models behind the wire protocols of real devices
     Emulate {
         /// The device to emulate.
         #[command(subcommand)]
@@ -393,7 +393,7 @@ pub struct ClusterArguments {
     /// on this machine; or `local` to start one here
     #[arg(long, value_name = "ADDRESS", conflicts_with = "threads")]
     pub cluster: Option<String>,
-    /// The Python with the package `starl` that speaks to the cluster [default: $STARL_PYTHON, or else python3]
+    /// The Python with the package `starl` that connects to the cluster [default: $STARL_PYTHON, or else python3]
     #[arg(long, value_name = "PATH", requires = "cluster")]
     pub python: Option<PathBuf>,
 }

@@ -68,7 +68,7 @@ fn one(source: &Source, only_check: bool) -> Result<Outcome, Failure> {
     })
 }
 
-/// Puts new content in the place of a file's old one; its permissions stay.
+/// Puts new content in place of a file's old one; its permissions stay.
 fn replace(path: &Path, content: &[u8]) -> Result<(), Failure> {
     let (output, mut file) = Output::create(path)?;
     let write = |file: &mut File| {

@@ -1,4 +1,4 @@
-//! Files that are written at the end of a run, or while it goes on.
+//! Files that are written at the end of a run, or while it continues.
 //!
 //! Invariant, but for traces: under the name that was asked for there is a whole file or what was there before, never
 //! half a file: what is written goes to a temporary file beside it, which takes the name at the end.

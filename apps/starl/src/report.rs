@@ -76,7 +76,7 @@ pub struct Breach {
     pub text: String,
 }
 
-/// A program that could not go on.
+/// A program that could not continue.
 #[derive(Clone, Debug, Serialize)]
 pub struct Failed {
     pub at_seconds: f64,

@@ -82,7 +82,7 @@ pub fn start_error(application: &Application, error: &StartError) -> Failure {
     resolved.problem(&field, &error.message, None).into()
 }
 
-/// Lets the run go on to its end, or until someone stops it.
+/// Lets the run continue to its end, or until someone stops it.
 fn drive(
     run: &mut Run,
     outputs: &mut Outputs,

@@ -268,7 +268,7 @@ fn verdict_line(
     Ok(())
 }
 
-/// More programs that cannot go on are counted, not listed.
+/// More programs that cannot continue are counted, not listed.
 const MOST_FAILURES_LISTED: usize = 8;
 
 fn failures(text: &mut String, report: &Report) -> fmt::Result {

@@ -112,8 +112,7 @@ pub fn tell(refusal: &Refusal, name: impl Fn(&Findings) -> String) -> Failure {
     Failure(sums.join("\n"))
 }
 
-/// Puts a program in the place of the scenario's own. The scenario's parameters were meant for that, so
-/// they go with it.
+/// Puts a program in place of the scenario's own. The scenario's parameters were meant for that, so they go with it.
 fn replacing(target: &str, key: &str, scenario: &Source, origin: &Origin) -> Vec<Override> {
     let mut overrides = vec![Override::named(target, "program", key)];
     if !names(scenario, origin, key) {

@@ -51,7 +51,7 @@ pub enum Effect {
     Save(Save),
     /// The program has reached its goal. It still answers messages.
     Finish,
-    /// The program cannot go on; the text says why. It is not called again.
+    /// The program cannot continue; the text says why. It is not called again.
     Fail(Name),
 }
 

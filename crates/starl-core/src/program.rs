@@ -15,7 +15,7 @@ pub enum Status {
     Running,
     /// It has reached its goal.
     Finished,
-    /// It cannot go on.
+    /// It cannot continue.
     Failed,
 }
 

@@ -16,7 +16,7 @@ pub struct Random {
     place: Place,
 }
 
-/// Where a stream is: enough to go on from there.
+/// Where a stream is: enough to continue from there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct Place {
     seed: u64,

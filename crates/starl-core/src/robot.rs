@@ -272,7 +272,7 @@ impl<'a> Robot<'a> {
         self.push(Effect::Finish);
     }
 
-    /// Says that the program cannot go on, and why.
+    /// Says that the program cannot continue, and why.
     pub fn fail(&mut self, reason: impl Into<Name>) {
         self.push(Effect::Fail(reason.into()));
     }

@@ -54,7 +54,7 @@ impl Batch {
     /// Environments with seed 0, the robots of each in a row. Seed and place them before the first step.
     ///
     /// # Errors
-    /// Where a setting is out of its range.
+    /// If a setting is out of its range.
     pub fn new(settings: Settings, environments: usize) -> Result<Batch, SettingsError> {
         settings.check()?;
         let common = Common {
@@ -105,7 +105,7 @@ impl Batch {
     /// Draws free places from the environment's random stream. Robots do not count as obstacles.
     ///
     /// # Errors
-    /// Where the region is too full.
+    /// If the region is too full.
     pub fn scatter(
         &mut self,
         environment: usize,

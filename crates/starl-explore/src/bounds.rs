@@ -41,8 +41,7 @@ pub enum Clocks {
     /// All clocks show zero, always, and a timer may fire at any time once it is armed.
     #[default]
     Still,
-    /// Clocks advance in ticks. A timer fires at the first tick at which it is due, before the clock goes
-    /// on.
+    /// Clocks advance in ticks. A timer fires at the first tick at which it is due, before the clock continues.
     Ticking {
         /// How long a tick is.
         tick: Duration,

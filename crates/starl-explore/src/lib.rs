@@ -50,10 +50,10 @@ pub struct Setup {
     pub invariants: Vec<Box<dyn Invariant>>,
 }
 
-/// The property that is violated where a program says that it cannot go on, or a run-time error stops it.
+/// The property that is violated where a program says that it cannot continue, or a run-time error stops it.
 pub const FAILED: &str = "explore.failed";
 
-/// A program that cannot go on, among events.
+/// A program that cannot continue, among events.
 fn failure(events: &[(RobotId, Event)], at: Time) -> Option<Violation> {
     events.iter().find_map(|(robot, event)| match event {
         Event::Failed(reason) => Some(Violation {

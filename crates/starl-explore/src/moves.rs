@@ -25,7 +25,7 @@ pub(crate) fn ready(local: &Local, surroundings: &Surroundings) -> Vec<u32> {
     ready.map(|(_, place)| place).collect()
 }
 
-/// Whether the clock of a robot in this state may go on.
+/// Whether the clock of a robot in this state may continue.
 pub(crate) fn may_tick(robots: &Robots, local: u32) -> bool {
     let Clocks::Ticking { ticks, .. } = robots.surroundings.clocks else {
         return false;

@@ -156,7 +156,7 @@ impl Local {
         !self.node.condition().down
     }
 
-    /// Whether it is up and its program can go on.
+    /// Whether it is up and its program can continue.
     pub fn runs(&self) -> bool {
         self.node.runs()
     }

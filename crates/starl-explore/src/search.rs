@@ -105,7 +105,7 @@ impl Search {
     /// A search from the state in which all robots have started.
     ///
     /// # Errors
-    /// Where there are more than 256 robots.
+    /// If there are more than 256 robots.
     pub fn new(setup: Setup) -> Result<Search, TooManyRobots> {
         let (walk, moment) = Walk::start(setup);
         Search::from(&walk, moment.violations)
@@ -114,7 +114,7 @@ impl Search {
     /// A search from the end state of a walk, in which this is violated.
     ///
     /// # Errors
-    /// Where there are more than 256 robots.
+    /// If there are more than 256 robots.
     pub fn from(walk: &Walk, violations: Vec<Violation>) -> Result<Search, TooManyRobots> {
         if walk.locals.len() > MOST_ROBOTS {
             return Err(TooManyRobots);

@@ -90,7 +90,7 @@ impl Walk {
     /// Takes a step.
     ///
     /// # Errors
-    /// Where it is not possible in this state.
+    /// If it is not possible in this state.
     pub fn step(&mut self, step: &Step) -> Result<Moment, Impossible> {
         self.steps += 1;
         let mut records = Vec::new();

@@ -55,7 +55,7 @@ pub struct Condition {
     pub down: bool,
     /// Its program has reached its goal. It still answers.
     pub finished: bool,
-    /// Its program cannot go on, and is not called any more.
+    /// Its program cannot continue, and is not called any more.
     pub failed: bool,
 }
 
@@ -152,7 +152,7 @@ impl Node {
         self.condition
     }
 
-    /// Whether the robot is up and its program can go on.
+    /// Whether the robot is up and its program can continue.
     #[inline]
     pub fn runs(&self) -> bool {
         !self.condition.down && !self.condition.failed

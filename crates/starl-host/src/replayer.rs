@@ -18,7 +18,7 @@ pub struct Replayer {
     lives: u32,
 }
 
-/// Why a replay cannot go on.
+/// Why a replay cannot continue.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Departure {
     /// The software asks for something else than it did.

@@ -71,7 +71,7 @@ impl Broadcast {
         let bound = match order {
             // That is another property: `broadcast.agreement`.
             Some(Order::Total) => return,
-            // Another message may have to be given up before this one is handed out.
+            // Another message may have to be given up before this one is delivered.
             Some(Order::Causal) => self.bound + self.bound,
             Some(Order::Fifo) | None => self.bound,
         };

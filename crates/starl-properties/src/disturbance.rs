@@ -40,7 +40,7 @@ impl Disturbance {
     ) {
         self.last = at;
         let is_corruption = robot.is_some() && change.is_corruption();
-        // Invented state may outlast a partition.
+        // Invented state may survive a partition.
         if is_corruption || self.is_made_up(at) {
             self.corrupted = Some(at);
         }

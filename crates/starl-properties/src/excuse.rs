@@ -15,7 +15,7 @@ use std::fmt;
 pub enum Excuse {
     /// A robot that is concerned was down, or had started again since.
     Down,
-    /// A program that is concerned could not go on.
+    /// A program that is concerned could not continue.
     Failed,
     /// Sensors were frozen.
     Sensors,

@@ -26,7 +26,7 @@ pub(super) enum Needs {
 pub(super) enum Change<'a> {
     /// A fault.
     Fault(&'a Fault),
-    /// Its program cannot go on.
+    /// Its program cannot continue.
     Failed,
     /// Its body is moved from outside.
     Pushed,

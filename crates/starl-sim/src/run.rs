@@ -45,7 +45,7 @@ impl Outcome {
     }
 }
 
-/// A program that cannot go on.
+/// A program that cannot continue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
     /// Since when.
@@ -215,7 +215,7 @@ impl Run {
         }
     }
 
-    /// All programs so far that cannot go on.
+    /// All programs so far that cannot continue.
     pub fn failures(&self) -> &[Failure] {
         &self.failures
     }

@@ -72,7 +72,7 @@ impl Ardrone {
     /// Opens the sockets. A drone that does not answer shows in [`Device::read`].
     ///
     /// # Errors
-    /// Where no socket can be opened, or the network has no way to the drone.
+    /// If no socket can be opened, or the network has no way to the drone.
     pub fn connect(options: &ArdroneOptions) -> Result<Ardrone, DeviceError> {
         let entries = vec![
             ("general:navdata_demo", "TRUE".to_string()),
@@ -101,7 +101,7 @@ impl Ardrone {
     /// Makes a drone that has cut its motors ready to take off again. Put it on the floor first.
     ///
     /// # Errors
-    /// Where the drone cannot be reached.
+    /// If the drone cannot be reached.
     pub fn clear_emergency(&mut self) -> Result<(), DeviceError> {
         self.fly = Some(false);
         let [on, off] = [true, false].map(|emergency| AtCommand::Reference {
@@ -221,8 +221,8 @@ impl Ardrone {
 }
 
 impl Device for Ardrone {
-    /// Takes `TakeOff`, `Land`, `Hover`, `Stop` (which hovers) and `Attitude`. Any other command makes it hover and is a
-    /// fault. A landing goes on until `TakeOff`: hovering would make a drone take off that has just landed.
+    /// Takes `TakeOff`, `Land`, `Hover`, `Stop` (which hovers) and `Attitude`. Any other command makes it hover and is
+    /// a fault. A landing continues until `TakeOff`: hovering would make a drone take off that has just landed.
     fn drive(&mut self, command: &Command, _: &Estimate) -> Result<(), DeviceError> {
         let understood = self.translate(command);
         let (tilt, fly) = understood.unwrap_or((None, self.fly));

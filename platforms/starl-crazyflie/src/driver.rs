@@ -65,7 +65,7 @@ impl Crazyflie {
     /// Opens the socket. A Crazyflie that does not answer shows in [`Device::read`].
     ///
     /// # Errors
-    /// Where no socket can be opened, or the network has no way to the Crazyflie.
+    /// If no socket can be opened, or the network has no way to the Crazyflie.
     pub fn connect(options: &CrazyflieOptions) -> Result<Crazyflie, DeviceError> {
         let any: IpAddr = match options.address {
             SocketAddr::V4(_) => Ipv4Addr::UNSPECIFIED.into(),
@@ -224,8 +224,8 @@ fn set_point(command: &Command) -> Option<SetPoint> {
 }
 
 impl Device for Crazyflie {
-    /// Takes `TakeOff`, `Land`, `Hover`, `Stop` (which hovers) and `Attitude`. Any other command makes it hover and is a
-    /// fault. A landing goes on until `TakeOff`.
+    /// Takes `TakeOff`, `Land`, `Hover`, `Stop` (which hovers) and `Attitude`. Any other command makes it hover and is
+    /// a fault. A landing continues until `TakeOff`.
     fn drive(&mut self, command: &Command, _: &Estimate) -> Result<(), DeviceError> {
         match command {
             Command::TakeOff => self.set_fly(true),

@@ -45,7 +45,7 @@ pub enum OpenInterface {
     Query(Vec<u8>),
     /// 148: send these packets every 15 ms.
     Stream(Vec<u8>),
-    /// 150: pause the stream or go on with it.
+    /// 150: pause the stream or continue with it.
     StreamOn(bool),
     /// 173: closes the interface; motors stop.
     Stop,

@@ -76,7 +76,7 @@ impl Guard {
     /// Starts a guard over the line at `path`.
     ///
     /// # Errors
-    /// Where `sh` cannot be started.
+    /// If `sh` cannot be started.
     pub fn start(path: &Path) -> io::Result<Guard> {
         let script = format!(
             "trap '' INT TERM HUP QUIT; [ -c \"$1\" ] && exec 3>\"$1\" || exit; cat; printf '{STOP}{STOP}' >&3"

@@ -28,7 +28,7 @@ impl EmulatedVrpn {
     /// Streams from `address`, on TCP and UDP; port 0 takes any port that is free for TCP.
     ///
     /// # Errors
-    /// Where the address is in use or not this machine's.
+    /// If the address is in use or not this machine's.
     pub fn start(world: World, address: SocketAddr) -> io::Result<EmulatedVrpn> {
         let listener = TcpListener::bind(address)?;
         let address = listener.local_addr()?;

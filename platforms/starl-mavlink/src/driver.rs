@@ -75,7 +75,7 @@ impl MavlinkVehicle {
     /// Opens a socket. A vehicle that is not there shows in [`Device::read`].
     ///
     /// # Errors
-    /// Where the address is in use or not this machine's.
+    /// If the address is in use or not this machine's.
     pub fn connect(options: &MavlinkOptions) -> Result<MavlinkVehicle, DeviceError> {
         Ok(MavlinkVehicle {
             link: Link::open(options.listen, options.vehicle)?,
@@ -90,7 +90,7 @@ impl MavlinkVehicle {
     /// Where it listens.
     ///
     /// # Errors
-    /// Where the system does not tell the port.
+    /// If the system does not tell the port.
     pub fn address(&self) -> std::io::Result<SocketAddr> {
         self.link.address()
     }
@@ -276,8 +276,8 @@ impl MavlinkVehicle {
 }
 
 impl Device for MavlinkVehicle {
-    /// Takes `TakeOff`, `Land`, `Hover`, `Stop` (which hovers) and `Attitude`. Any other command makes it hover and is a
-    /// fault. A landing goes on until `TakeOff`.
+    /// Takes `TakeOff`, `Land`, `Hover`, `Stop` (which hovers) and `Attitude`. Any other command makes it hover and is
+    /// a fault. A landing continues until `TakeOff`.
     fn drive(&mut self, command: &Command, _: &Estimate) -> Result<(), DeviceError> {
         self.greet()?;
         match command {

@@ -89,7 +89,7 @@ impl From<io::Error> for NatNetError {
     }
 }
 
-/// How often the server is asked to go on, and how long it may be silent.
+/// How often the server is asked to continue, and how long it may be silent.
 const KEEP_ALIVE: Duration = Duration::from_millis(500);
 const SILENCE: Duration = Duration::from_millis(1000);
 /// Versions whose frames are understood.
@@ -117,7 +117,7 @@ impl NatNet {
     /// Opens a socket and asks the server for its stream. A server that does not answer shows in [`NatNet::poll`].
     ///
     /// # Errors
-    /// Where no socket can be opened, or the network has no way to the server.
+    /// If no socket can be opened, or the network has no way to the server.
     pub fn connect(options: NatNetOptions) -> Result<NatNet, NatNetError> {
         let any: IpAddr = match options.server {
             SocketAddr::V4(_) => Ipv4Addr::UNSPECIFIED.into(),

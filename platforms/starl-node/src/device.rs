@@ -21,7 +21,7 @@ pub trait Device: Send {
     /// more than once.
     ///
     /// # Errors
-    /// Where the device cannot be reached.
+    /// If the device cannot be reached.
     fn stop(&mut self) -> Result<(), DeviceError>;
 
     /// The measurements since the last call; none if there are no new ones. Does not block.

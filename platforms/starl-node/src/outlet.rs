@@ -18,7 +18,7 @@ pub(crate) struct RuntimeOutlet<'a> {
     pub plans: Vec<(PlanJob, Vec<Neighbour>)>,
     /// To be stored.
     pub writes: Vec<StoreJob>,
-    /// Why the program cannot go on.
+    /// Why the program cannot continue.
     pub failure: Option<String>,
 }
 

@@ -3,7 +3,7 @@
 use starl_core::{Duration, Time};
 use std::fmt;
 
-/// How long a robot may go on without what it needs.
+/// How long a robot may continue without what it needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Safety {
     /// Without a fresh position.
@@ -28,7 +28,7 @@ pub enum Hazard {
     NoPosition,
     /// It hears no other robot.
     NoLink,
-    /// Its program cannot go on.
+    /// Its program cannot continue.
     Failed(String),
 }
 

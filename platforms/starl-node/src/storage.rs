@@ -105,7 +105,7 @@ impl Storage {
         Ok(())
     }
 
-    /// Puts a file in the place of the log that holds no value twice.
+    /// Puts a file in place of the log that holds no value twice.
     fn compact(&mut self) -> io::Result<()> {
         let mut path = self.path.clone().into_os_string();
         path.push(".new");

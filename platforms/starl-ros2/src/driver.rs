@@ -92,7 +92,7 @@ impl Ros2Robot {
     /// Begins to connect. A router or a robot that is not there shows in [`Device::read`], and may come later.
     ///
     /// # Errors
-    /// Where the endpoint or a name is malformed, or the system gives no thread.
+    /// If the endpoint or a name is malformed, or the system gives no thread.
     pub fn connect(options: &Ros2Options) -> Result<Ros2Robot, DeviceError> {
         let namespace = &options.namespace;
         let is_name = namespace.starts_with('/') && graph::is_name(namespace);

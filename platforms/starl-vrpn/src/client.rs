@@ -112,7 +112,7 @@ impl Vrpn {
     /// not block.
     ///
     /// # Errors
-    /// Where the server cannot be reached or has not told of the tracker for a second. Call again: it may come back.
+    /// If the server cannot be reached or has not told of the tracker for a second. Call again: it may come back.
     pub fn poll(&mut self) -> Result<Option<(Instant, Pose)>, VrpnError> {
         let mut seen = self.shared.seen();
         if let Some(pose) = seen.pose.take() {

@@ -149,7 +149,7 @@ impl Decoder {
     /// The next message; `None` if more bytes must come first.
     ///
     /// # Errors
-    /// Where the stream cannot be read on.
+    /// If the stream cannot be read on.
     pub fn pop(&mut self) -> Result<Option<Message>, Broken> {
         if !self.greeted {
             let sure = self.bytes.len().min(VERSION.len());

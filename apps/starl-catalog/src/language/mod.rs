@@ -74,7 +74,7 @@ impl Programs {
     /// Makes the program of a group of robots; none if the group names no program of this language.
     ///
     /// # Errors
-    /// Where the program does not take the parameters as they are.
+    /// If the program does not take the parameters as they are.
     pub fn make(&self, group: &Group, fleet: &Fleet) -> Option<Result<RobotProgram, Complaint>> {
         let compiled = self.0.get(&group.program)?;
         Some(values::program(&compiled.code, group, fleet))

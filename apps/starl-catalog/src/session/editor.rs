@@ -79,7 +79,7 @@ impl<'a> Document<'a> {
     /// The program or library at `path`.
     ///
     /// # Errors
-    /// Where there is none.
+    /// If there is none.
     pub fn open(files: &'a Files, path: &'a str) -> Result<Document<'a>, String> {
         if !path.ends_with(SUFFIX) {
             return Err(format!(

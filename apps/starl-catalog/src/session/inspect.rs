@@ -16,11 +16,11 @@ pub struct RobotReport {
     pub model: &'static str,
     /// The program that it runs, as the scenario names it.
     pub program: String,
-    /// `running`, `finished`, `failed` (its program cannot go on), `down` (it has crashed) or `left`.
+    /// `running`, `finished`, `failed` (its program cannot continue), `down` (it has crashed) or `left`.
     pub condition: &'static str,
     /// Whether its software has started in its present life.
     pub started: bool,
-    /// Why its program cannot go on.
+    /// Why its program cannot continue.
     pub failure: Option<String>,
     /// Its motors act as if told to stop.
     pub motors_stuck: bool,

@@ -60,7 +60,7 @@ pub struct Session {
     interrupt: Arc<AtomicBool>,
 }
 
-/// All that changes as time goes on. A copy goes on exactly as the original would.
+/// All that changes as time continues. A copy continues exactly as the original would.
 #[derive(Clone)]
 struct Live {
     run: Run,
@@ -278,7 +278,7 @@ impl Session {
     /// that moment must become false before it can stop the run.
     ///
     /// # Errors
-    /// Where there is no such moment.
+    /// If there is no such moment.
     pub fn restore(&mut self, number: u32) -> Result<Status, String> {
         let kept = self.kept.get(&number);
         self.live = kept.ok_or_else(|| unknown(number))?.clone();
@@ -289,7 +289,7 @@ impl Session {
     /// Deletes a snapshot.
     ///
     /// # Errors
-    /// Where there is no such moment.
+    /// If there is no such moment.
     pub fn forget(&mut self, number: u32) -> Result<(), String> {
         let kept = self.kept.remove(&number);
         kept.map(|_| ()).ok_or_else(|| unknown(number))

@@ -44,7 +44,7 @@ pub struct Report {
     pub properties: Vec<Property>,
     /// Every violation so far.
     pub violations: Vec<Violation>,
-    /// Every program so far that could not go on.
+    /// Every program so far that could not continue.
     pub failures: Vec<Failure>,
 }
 
@@ -112,7 +112,7 @@ pub struct Violation {
     pub text: String,
 }
 
-/// A program that could not go on.
+/// A program that could not continue.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Failure {
     /// Since when, seconds.
@@ -257,7 +257,7 @@ impl Violation {
 }
 
 impl Failure {
-    /// Every program so far that could not go on.
+    /// Every program so far that could not continue.
     pub fn all(run: &Run) -> Vec<Failure> {
         let failures = run.failures().iter();
         let told = failures.map(|failure| Failure {

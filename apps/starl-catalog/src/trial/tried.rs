@@ -30,7 +30,7 @@ pub struct Tried {
     pub collisions: u64,
     /// Every violation, those of the last step.
     pub violations: Vec<Violation>,
-    /// Every program that could not go on.
+    /// Every program that could not continue.
     pub failures: Vec<Failure>,
 }
 

@@ -1,10 +1,10 @@
-//! A car that breaks down on the intersection is not run into. Those whose ways are free go on, and those whose
-//! ways are not know that they are stuck. Nor is one that merely seems to have broken down.
+//! A car that breaks down on the intersection is not run into. Those whose ways are free continue, and those whose ways
+//! are not know that they are stuck. Nor is one that merely seems to have broken down.
 
 use crate::intersection_support::{Traffic, drive};
 use starl_sim::Outcome;
 
-/// Robot1, which comes from the south, breaks down in this manner at this time, and the others go on for 90 s.
+/// Robot1, which comes from the south, breaks down in this manner at this time, and the others continue for 90 s.
 fn break_down(kind: &str, at: &str) -> Traffic {
     let faults = format!("[[fault]]\nat = \"{at}\"\nkind = \"{kind}\"\nrobots = [\"Robot1\"]\n");
     let traffic = drive("intersection", &["duration=90s"], &faults);

@@ -120,8 +120,8 @@ fn nothing_is_held_twice_a_while_after_a_corruption_of_state() {
     }
 }
 
-/// Two robots tried other quorums while the network was parted, and what they gave back was not heard: of their old
-/// requests one was granted and the other waited for it.
+/// Two robots tried other quorums while the network was partitioned, and what they gave back was not heard: of their
+/// old requests one was granted and the other waited for it.
 #[test]
 fn requests_with_lost_releases_block_no_robot() {
     let faults = "

@@ -161,7 +161,7 @@ impl Handle {
         self.with(|robot| robot.sensors().bumper.is_some())
     }
 
-    /// Whether stable variables outlast a crash.
+    /// Whether stable variables survive a crash.
     #[getter]
     fn has_storage(&self) -> PyResult<bool> {
         let context = self.0.lock().unwrap_or_else(PoisonError::into_inner);

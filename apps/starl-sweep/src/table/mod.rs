@@ -123,7 +123,7 @@ impl Table {
     /// Writes the table.
     ///
     /// # Errors
-    /// Where the output cannot be written.
+    /// If the output cannot be written.
     pub fn write(&self, format: Format, output: &mut (impl Write + Send)) -> io::Result<()> {
         match format {
             #[cfg(feature = "parquet")]

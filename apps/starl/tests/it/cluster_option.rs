@@ -6,7 +6,7 @@ use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 
-/// An executable file in the place of the interpreter.
+/// An executable file in place of the interpreter.
 fn interpreter(folder: &Path, script: &str) -> String {
     let path = folder.join("python");
     fs::write(&path, format!("#!/bin/sh\n{script}\n")).expect("the folder can be written to");

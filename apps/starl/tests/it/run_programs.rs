@@ -233,7 +233,7 @@ fn a_run_time_error_names_robot_line_and_reason() {
     );
     assert_eq!(status(&output), 1);
     let text = stdout(&output);
-    // The robot at y = 1 divides by zero, or by -1 if it is a little below; the others go on.
+    // The robot at y = 1 divides by zero, or by -1 if it is a little below; the others continue.
     has(
         &text,
         &[

@@ -67,7 +67,7 @@ fn messages_that_are_too_long_are_refused() {
     let refused = engine.ask(&json!({ "check": { "files": { "a.starl": long } } }));
     let message = refused["error"]["message"].as_str().expect("a message");
     assert!(message.contains("at most 16777216"), "{message}");
-    // The connection goes on.
+    // The connection continues.
     assert_eq!(
         engine.ok(&json!({ "status": { "simulation": 0 } }))["now"],
         0.0

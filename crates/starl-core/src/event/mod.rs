@@ -112,7 +112,7 @@ pub enum Event {
     Discovered(Obstacle),
     /// The program has reached its goal.
     Finished,
-    /// The program cannot go on.
+    /// The program cannot continue.
     Failed(Name),
     /// A property does not hold.
     Violated {

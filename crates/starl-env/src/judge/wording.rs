@@ -141,7 +141,7 @@ impl Wording {
     /// The program around the expressions.
     ///
     /// # Errors
-    /// Where a name cannot be used.
+    /// If a name cannot be used.
     pub fn program(&self) -> Result<String, WordingError> {
         let mut program = String::from("program Task\n");
         let mut before = Vec::new();

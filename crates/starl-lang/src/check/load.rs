@@ -31,7 +31,7 @@ pub(super) fn load(source: &str, parsed: Parse, libraries: &dyn Libraries) -> Ch
     let is_library = loader.is_library(0);
     let mut way = Vec::new();
     if is_library {
-        // A library that imports itself by way of others is in a cycle too.
+        // A library that imports itself through others is in a cycle too.
         loader.by_name.insert(name.clone(), 0);
         way.push(name);
     }

@@ -72,8 +72,8 @@ fn written<'a>(
     }
 }
 
-/// The source with a sign in the place of each character that would not be seen, or that would change
-/// what a terminal does, of the same length in bytes.
+/// The source with a sign in place of each character that would not be seen, or that would change what a terminal does,
+/// of the same length in bytes.
 fn visible(source: &str) -> String {
     let sign = |character: char| match character {
         '\n' | '\r' | '\t' => character,

@@ -67,7 +67,7 @@ pub(super) fn lines(pieces: Vec<Piece>) -> Vec<Line> {
                 line.comment = Some(piece.content.text().into());
             }
             Some(before) => {
-                // After a comment between marks, which is an error, the line goes on.
+                // After a comment between marks, which is an error, the line continues.
                 let comment = line.comment.take();
                 if let Some(comment) = &comment {
                     line.text.push_str("  ");

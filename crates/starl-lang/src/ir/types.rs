@@ -110,7 +110,7 @@ impl Type {
 /// An enum. Its values are the numbers of its variants, from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Enum {
-    /// Its name; none of `enum {a, b}` in the place of a type.
+    /// Its name; none of `enum {a, b}` in place of a type.
     pub name: Option<String>,
     /// The names of its variants.
     pub variants: Vec<Variant>,

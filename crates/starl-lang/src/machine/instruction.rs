@@ -9,8 +9,8 @@
 //! value are in scalar registers and its objects in object registers, both in the order of the text
 //! ([`Layout`](crate::machine::Layout)).
 //!
-//! Operands `s0` to `s127` name objects of the robot's state in the place of object registers. The
-//! scalars of the state are read by `load` and written by `store`.
+//! Operands `s0` to `s127` name objects of the robot's state in place of object registers. The scalars of the state are
+//! read by `load` and written by `store`.
 //!
 //! A call shifts both windows: the callee's `r0` is the caller's register that the call names, so
 //! arguments are put there and results are found there, and nothing is copied. Registers of the caller

@@ -24,7 +24,7 @@ pub enum Use {
     ChangesObject(u8),
     /// Writes an object operand; the instruction's own rule says of which type.
     WritesObject(u8),
-    /// May go on at this instruction.
+    /// May continue at this instruction.
     JumpsTo(u32),
     /// A constant, index or width that the instruction's own rule checks.
     Number,
@@ -189,7 +189,7 @@ number! {
     ImportIndex(u32), "h", |number| Use::Number;
 }
 
-/// Where to go on: an index into the whole program's instructions.
+/// Where to continue: an index into the whole program's instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Target(pub u32);
 

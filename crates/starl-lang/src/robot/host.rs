@@ -35,7 +35,7 @@ pub struct RobotHost<'a, 'r> {
     pub context: Context<'a, 'r>,
     /// The bound primitives.
     pub bound: &'a mut [Slot],
-    /// Why the program cannot go on, once it has said so.
+    /// Why the program cannot continue, once it has said so.
     pub failure: Option<String>,
     /// Whether an action has fired.
     pub has_fired: bool,

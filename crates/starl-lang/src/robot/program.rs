@@ -69,7 +69,7 @@ pub(super) enum Phase {
     New,
     /// It runs.
     Running,
-    /// It has said that it cannot go on, or something went wrong.
+    /// It has said that it cannot continue, or something went wrong.
     Failed,
 }
 

@@ -56,7 +56,7 @@ kinds! {
     // Tokens without meaning.
     trivia {
         Whitespace,
-        // The end of a line that ends nothing: an empty line, a line in brackets, a line that goes on.
+        // The end of a line that ends nothing: an empty line, a line in brackets, a line that continues.
         LineBreak,
         Comment,
         DocComment,

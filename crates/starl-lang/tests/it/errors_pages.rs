@@ -48,7 +48,7 @@ fn written(parts: &[Part]) -> String {
     parts.iter().map(text).collect()
 }
 
-/// An example as it is checked. That of a file which is too long goes on where the page says so.
+/// An example as it is checked. That of a file which is too long continues where the page says so.
 fn example(block: &str) -> String {
     let goes_on = "// and so on, for 16 MiB\n";
     if block.ends_with(goes_on) {

@@ -188,7 +188,7 @@ fn a_changed_copy_leaves_the_original() {
 
 #[test]
 fn elements_of_several_scalars_and_objects() {
-    // Adds ("a", (x, x, x)) and ("b", (y, y, y)), puts the second in the place of the first, reads it.
+    // Adds ("a", (x, x, x)) and ("b", (y, y, y)), puts the second in place of the first, reads it.
     let code = format!(
         "{DECLARATIONS} text \"a\"\n text \"b\"\n\
          function test function (Float, Float) (Point, type0) registers 8 objects 3\n\

@@ -1,5 +1,5 @@
-//! A run-time error stops the program of one robot, and the robot itself, and says where in the source
-//! it happened. The others go on.
+//! A run-time error stops the program of one robot, and the robot itself, and says where in the source it happened. The
+//! others continue.
 
 use crate::robot_support::{World, compile};
 

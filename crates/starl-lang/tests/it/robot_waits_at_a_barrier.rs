@@ -1,4 +1,4 @@
-//! Barrier in programs: robots go on together.
+//! Barrier in programs: robots continue together.
 
 use crate::robot_support::{World, compile};
 use starl_lang::machine::Value;

@@ -135,8 +135,8 @@ fn a_passage_narrower_than_position_errors_is_closed() {
 
 #[test]
 fn no_robot_squeezes_past_a_robot_in_a_door() {
-    // A door of one metre, a dead robot beside one of its posts, 6 mm more than the body on either side;
-    // round the end of the wall is another way.
+    // A door of one metre, a crashed robot beside one of its posts, 6 mm more than the body on either side; round the
+    // end of the wall is another way.
     let model = model("create");
     let posts = vec![wall((-3.0, 0.0), (0.0, 0.0)), wall((1.0, 0.0), (4.0, 0.0))];
     let dead = Neighbour {

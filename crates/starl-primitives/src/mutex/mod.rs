@@ -97,7 +97,7 @@ impl Mutex {
     /// participants are asked. An empty set needs no request and counts as held.
     ///
     /// # Errors
-    /// Where the robot holds something.
+    /// If the robot holds something.
     pub fn acquire(
         &mut self,
         robot: &mut Robot<'_>,

@@ -176,7 +176,7 @@ impl Register {
         }
     }
 
-    /// Whether an operation cannot go on as it is, since others have promised a greater ballot.
+    /// Whether an operation cannot continue as it is, since others have promised a greater ballot.
     pub(super) fn is_refused(&self, robot: &Robot<'_>, number: u32) -> bool {
         let majority = self.majority(robot);
         self.operations.get(&number).is_some_and(|operation| {

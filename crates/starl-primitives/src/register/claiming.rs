@@ -13,12 +13,12 @@
 //! promised. A robot that restarts recovers promises like copies: for each promise that it gave, a robot of
 //! the majority that it hears knows as much (the module `recovery`).
 //!
-//! Some robots may have stored a refused write, and the robot that claimed the register after it may have
-//! read it there or not. To decide this, a copy names the latest ballot of each robot among those that have
-//! led to it. The writer claims the register itself, checks whether its ballot is among them, and has the
-//! copy stored again under its new ballot: from then on no earlier value can be chosen. An unfinished write
-//! of a dead robot becomes part of the next claim that finds it, or is never chosen. So the write is
-//! [`Status::Done`](super::Status::Done) or [`Status::Lost`](super::Status::Lost), and never both.
+//! Some robots may have stored a refused write, and the robot that claimed the register after it may have read it there
+//! or not. To decide this, a copy names the latest ballot of each robot among those that have led to it. The writer
+//! claims the register itself, checks whether its ballot is among them, and has the copy stored again under its new
+//! ballot: from then on no earlier value can be chosen. An unfinished write of a crashed robot becomes part of the next
+//! claim that finds it, or is never chosen. So the write is [`Status::Done`](super::Status::Done) or
+//! [`Status::Lost`](super::Status::Lost), and never both.
 
 use super::operation::{Kind, Operation, Phase};
 use super::tag::Tag;

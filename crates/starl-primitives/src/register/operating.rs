@@ -13,7 +13,7 @@ impl Register {
     /// Begins to read a register.
     ///
     /// # Errors
-    /// Where the name is too long, or too much is under way.
+    /// If the name is too long, or too much is under way.
     pub fn read(
         &mut self,
         robot: &mut Robot<'_>,

@@ -112,7 +112,7 @@ impl Registration {
         let concerns = |view: &View| view.id == id && view.roll.contains_key(&from);
         match &self.stage {
             Stage::Proposed { view, .. } if concerns(view) => {
-                // Two that compute lists at once do not go on at once.
+                // Two that compute lists at once do not continue at once.
                 let wait = self.options.settle.seconds() * robot.random().uniform();
                 self.open(robot, Duration::from_seconds_f64(wait));
             }

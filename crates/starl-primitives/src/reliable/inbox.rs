@@ -11,7 +11,7 @@ use alloc::collections::BTreeMap;
 use smallvec::SmallVec;
 use starl_core::{Payload, Time};
 
-/// Messages to hand out, by number.
+/// Messages to deliver, by number.
 pub(super) type Arrived = SmallVec<[(u32, Payload); 1]>;
 
 /// The state of one stream.
@@ -48,7 +48,7 @@ impl Inbox {
 /// Which messages of an incarnation have been taken.
 #[derive(Clone, Debug)]
 pub(super) struct Sequence {
-    /// Those that were handed out or will never come.
+    /// Those that were delivered or will never come.
     taken: Runs,
     /// Messages that wait for an earlier one.
     held: BTreeMap<u32, Payload>,
@@ -130,7 +130,7 @@ impl Sequence {
 mod tests {
     use super::*;
 
-    /// Whether the first message of an incarnation is handed out.
+    /// Whether the first message of an incarnation is delivered.
     fn takes_first(sequence: Option<Sequence>, incarnation: u32) -> bool {
         // It answers the present token, if it is not heard already.
         let mut lives = Handshake::asking(3);

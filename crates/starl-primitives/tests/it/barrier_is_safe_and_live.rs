@@ -188,7 +188,7 @@ fn waiting_for_a_dead_robot_is_reported_and_ends_when_it_returns() {
     }
 }
 
-/// Those that wait for a dead robot repeat their questions, and do not answer each other's again and again.
+/// Those that wait for a crashed robot repeat their questions, and do not answer each other's again and again.
 #[test]
 fn robots_that_do_not_know_fall_silent() {
     let mut world = idle(6, 1, Wire::perfect());

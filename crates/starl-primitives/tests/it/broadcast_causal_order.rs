@@ -52,7 +52,7 @@ fn the_order_is_kept_under_crashes_and_partitions() {
         sequences(&all, seed);
         assert_eq!(causal_violation(&all), None, "seed {seed}");
         passed_over += world.events("pass_over").len();
-        // It goes on when all are well.
+        // It continues when all are well.
         for robot in 0..robots {
             world.command(robot, tell(1007));
         }

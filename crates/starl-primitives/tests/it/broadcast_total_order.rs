@@ -51,7 +51,7 @@ fn the_order_is_one_under_crashes_and_partitions() {
         let runs = runs(&world, &starts);
         sequences(&runs, seed);
         assert_eq!(total_violation(&runs), None, "seed {seed}");
-        // It goes on when all are well.
+        // It continues when all are well.
         let before = world.records.len();
         for robot in 0..robots {
             assert!(

@@ -32,7 +32,7 @@ fn fleet(order: Order, robots: usize, seed: u64, wire: Wire, count: u32, period:
     )
 }
 
-/// Nothing is handed out twice or out of order.
+/// Nothing is delivered twice or out of order.
 fn judge(world: &World, order: Order, starts: &[(Time, u32)], seed: u64) -> usize {
     let runs = runs(world, starts);
     let all = sequences(&runs, seed);

@@ -1,5 +1,5 @@
-//! No robot waits for ever for a dead robot: a bounded number of copies, a bounded time, and then a
-//! failure that names it. Live robots are served meanwhile.
+//! No robot waits for ever for a crashed robot: a bounded number of copies, a bounded time, and then a failure that
+//! names it. Live robots are served meanwhile.
 
 use crate::harness::talker::{Talker, broadcast, geocast, unicast};
 use crate::harness::{Wire, World, int};

@@ -1,5 +1,5 @@
-//! A robot keeps its promise to a claim although it restarts without memory. An unfinished write of a dead
-//! robot is completed by the next robot that finds it, or never.
+//! A robot keeps its promise to a claim although it restarts without memory. An unfinished write of a crashed robot is
+//! completed by the next robot that finds it, or never.
 
 use crate::harness::keeper::{Keeper, claim, keeper, known, read, result, status, update, write};
 use crate::harness::{Wire, World};

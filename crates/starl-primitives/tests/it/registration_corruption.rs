@@ -8,8 +8,8 @@ use starl_primitives::registration::Options;
 const SECOND: Duration = Duration::from_seconds(1);
 const PERIOD: Option<Duration> = Some(Duration::from_millis(100));
 
-/// Corrupts some of four robots, of which three take part, and gives how long it takes until those three
-/// agree and go on agreeing for 10 s.
+/// Corrupts some of four robots, of which three take part, and gives how long it takes until those three agree and
+/// continue agreeing for 10 s.
 fn recovery(seed: u64, wire: Wire) -> Duration {
     let mut random = Random::keyed(seed, &[11]);
     let make = Registrar::boxed(false, Options::default());

@@ -128,8 +128,8 @@ fn writing_the_read_value_after_a_restart_is_a_write() {
     }
 }
 
-/// In both of its lives a robot whose clock is behind is told of the same reading of another clock, and goes on
-/// from there. The first life's write is known to one robot, which the second life does not hear.
+/// In both of its lives a robot whose clock is behind is told of the same reading of another clock, and continues from
+/// there. The first life's write is known to one robot, which the second life does not hear.
 #[test]
 fn two_lives_that_go_on_from_one_reading_give_their_writes_two_stamps() {
     let mut world = world(1, Wire::perfect());

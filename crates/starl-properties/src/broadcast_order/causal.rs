@@ -27,7 +27,7 @@ pub(super) struct Causality {
     settled: BTreeMap<RobotId, Past>,
     /// The lives of all robots in the order in which they first sent.
     lives: BTreeMap<Process, u64>,
-    /// By receiver and sender, the latest life of which something was handed out or passed over.
+    /// By receiver and sender, the latest life of which something was delivered or passed over.
     latest: BTreeMap<(RobotId, RobotId), u64>,
 }
 

@@ -31,7 +31,7 @@ fn repeated_contacts_are_one_collision_until_the_bodies_separate() {
     story.collided(350, 1, Hit::Robot(RobotId(0)));
     story.collided(550, 0, WITH_ROBOT_1);
     assert_only(&story.clone().verdict(2000), "no_collision", 150, &[0, 1]);
-    // 0.12 m between the bodies: they have parted.
+    // 0.12 m between the bodies: they have partitioned.
     story.moved(1100, 1, at(0.52, 0.0));
     story.collided(1150, 1, Hit::Robot(RobotId(0)));
     let verdict = story.verdict(2000);

@@ -116,7 +116,7 @@ fn robots_that_list_each_other_and_differ() {
         found.contains(&"registration.soundness".to_string()),
         "{found:?}"
     );
-    // Now 0 has accepted it, but goes on showing the old one.
+    // Now 0 has accepted it, but continues showing the old one.
     let mut story = robots(3);
     agree(&mut story, 400, (400, 0, &[0, 1, 2]));
     for robot in 0..3 {

@@ -25,7 +25,7 @@ use starl_core::{Duration, Time};
 
 pub use robots::keep_robots;
 
-/// How long to go on.
+/// How long to continue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Smaller scenarios that are tried at most; default 1,000.

@@ -41,7 +41,7 @@ impl EmulatedArdrone {
     /// Puts `body` behind these addresses; port 0 takes any free port.
     ///
     /// # Errors
-    /// Where an address is in use or not this machine's.
+    /// If an address is in use or not this machine's.
     pub fn start(
         body: BodyHandle,
         commands: SocketAddr,
@@ -77,7 +77,7 @@ impl EmulatedArdrone {
     /// Where it gives navdata.
     ///
     /// # Errors
-    /// Where the system does not tell the port.
+    /// If the system does not tell the port.
     pub fn navdata(&self) -> io::Result<SocketAddr> {
         self.sockets.navdata.local_addr()
     }

@@ -40,7 +40,7 @@ impl EmulatedCrazyflie {
     /// Puts `body` behind this address; port 0 takes any free port.
     ///
     /// # Errors
-    /// Where the address is in use or not this machine's.
+    /// If the address is in use or not this machine's.
     pub fn start(body: BodyHandle, address: SocketAddr) -> io::Result<EmulatedCrazyflie> {
         let socket = Arc::new(UdpSocket::bind(address)?);
         socket.set_read_timeout(Some(WAIT))?;
@@ -63,7 +63,7 @@ impl EmulatedCrazyflie {
     /// Where it listens.
     ///
     /// # Errors
-    /// Where the system does not tell the port.
+    /// If the system does not tell the port.
     pub fn address(&self) -> io::Result<SocketAddr> {
         self.socket.local_addr()
     }

@@ -53,7 +53,7 @@ impl EmulatedCreate {
     /// and removed at the end, so that a fleet file can name it; one that is left from a run that was killed is replaced.
     ///
     /// # Errors
-    /// Where the system has no pseudo-terminal left, or the link cannot be made.
+    /// If the system has no pseudo-terminal left, or the link cannot be made.
     pub fn start(body: BodyHandle, link: Option<&Path>) -> io::Result<EmulatedCreate> {
         let terminal = Arc::new(Terminal::open()?);
         if let Some(link) = link {

@@ -31,7 +31,7 @@ impl EmulatedVehicle {
     /// any client that sends it a heartbeat.
     ///
     /// # Errors
-    /// Where the address is in use or not this machine's.
+    /// If the address is in use or not this machine's.
     pub fn start(
         body: BodyHandle,
         autopilot: Autopilot,
@@ -55,7 +55,7 @@ impl EmulatedVehicle {
     /// Where it listens.
     ///
     /// # Errors
-    /// Where the system does not tell the port.
+    /// If the system does not tell the port.
     pub fn address(&self) -> io::Result<SocketAddr> {
         self.socket.local_addr()
     }

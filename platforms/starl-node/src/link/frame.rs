@@ -75,7 +75,7 @@ pub struct Status {
     pub up: starl_core::Duration,
     /// Whether its program has reached its goal.
     pub finished: bool,
-    /// Why its program cannot go on, if so.
+    /// Why its program cannot continue, if so.
     pub failed: Option<String>,
     /// Where it believes to be; none if it does not know.
     pub pose: Option<Pose>,

@@ -80,7 +80,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
         let agent = Agent::new(setup.program.clone(), setup.random.clone());
         let agent = agent.with_saved(equipment.saved());
         let node = Node::new(setup.id, Clock::default(), agent, now)
-            // Numbers go on from those of earlier lives.
+            // Numbers continue from those of earlier lives.
             .with_sequence((now.0 / 1_000_000) as u32);
         let has_fixes = equipment.has_fixes();
         Core {

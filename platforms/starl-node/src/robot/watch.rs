@@ -18,7 +18,7 @@ const PERIOD: Duration = Duration::from_millis(50);
 /// A packet of events is about as long, bytes: what a network carries in one piece.
 const PACKET: usize = 1200;
 
-/// So many events wait at most; later ones are only counted, so that a robot that floods its operators goes on.
+/// So many events wait at most; later ones are only counted, so that a robot that floods its operators continues.
 const MOST_EVENTS: usize = 4096;
 
 /// A recorder whose events operators see too.

@@ -63,7 +63,7 @@ pub enum Act {
     Save(u32),
     /// Say that the goal is reached.
     Finish,
-    /// Say that it cannot go on.
+    /// Say that it cannot continue.
     Fail,
 }
 

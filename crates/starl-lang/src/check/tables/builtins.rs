@@ -50,7 +50,7 @@ builtins! {
     Velocity = "velocity: Point" Query "The estimated velocity, metres per second."
     Now = "now: Time" Query "The time on this robot's clock."
     Peers = "peers: Set[RobotId]" Query "All known robots of the fleet, including this one."
-    RobotName = "robot_name(robot: RobotId) -> String" Query "What a robot is called."
+    RobotName = "robot_name(robot: RobotId) -> String" Query "The text `robot` and the robot's number, such as `robot0`; not its name in the scenario."
     Bumped = "bumped: Side?" Query "The side of the bumper that is pressed; none if it is not pressed."
     Ranges = "ranges: List[Float]" Query "The readings of the proximity sensor, metres: the first straight ahead, the others evenly spaced from there to the left, all around."
     Detected = "detected: List[Detection]" Query "The things and robots in sight, nearest first."

@@ -321,8 +321,8 @@ impl Atomic {
     }
 }
 
-/// One of the two primitives. When it brings what the robot waits for, the robot delivers an empty message to
-/// itself, so that the action goes on at once.
+/// One of the two primitives. When it brings what the robot waits for, the robot delivers an empty message to itself,
+/// so that the action continues at once.
 struct Half<'a> {
     atomic: &'a mut Atomic,
     code: &'a Code,

@@ -1,5 +1,5 @@
-//! Lines that go on in the next one, if that is indented deeper than the line in which they began: a line
-//! that ends in a binary operator, `and`, `or` or a comma, and every line of a property.
+//! Lines that continue in the next one, if that is indented deeper than the line in which they began: a line that ends
+//! in a binary operator, `and`, `or` or a comma, and every line of a property.
 
 use super::super::SyntaxKind::*;
 use super::{Lexeme, Tokens, next_line};

@@ -52,7 +52,7 @@ pub(crate) fn arrange(text: &str, tokens: &Tokens) -> (Vec<Lexeme>, Vec<Diagnost
             &mut diagnostics,
         );
         next = line.first;
-        // To the end of the line, or of the last of the lines in which it goes on.
+        // To the end of the line, or of the last of the lines in which it continues.
         while next < tokens.len() {
             let kind = tokens.kind(next);
             if kind == Newline && depth == 0 {

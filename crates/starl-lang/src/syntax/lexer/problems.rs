@@ -198,7 +198,7 @@ fn spelling(kind: SyntaxKind, text: &str, span: Span) -> Option<Diagnostic> {
     Some(problem.replace(format!("write `{right}`"), span, apart(right, text, span)))
 }
 
-/// `word` with the spaces that it needs in the place of what `span` marks.
+/// `word` with the spaces that it needs in place of what `span` marks.
 fn apart(word: &str, text: &str, span: Span) -> String {
     let is_part = |character: char| character.is_alphanumeric() || character == '_';
     let before = text[..span.start as usize]

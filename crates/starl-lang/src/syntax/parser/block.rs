@@ -174,7 +174,7 @@ pub(super) fn unexpected_indentation(parser: &mut Parser<'_>, inner: fn(&mut Par
     parser.finish();
 }
 
-/// Reports a line that begins with the operator by which it goes on with the one above.
+/// Reports a line that begins with the operator by which it continues with the one above.
 fn move_operator(parser: &mut Parser<'_>, problem: Diagnostic) {
     let (operator, end) = (parser.nth_span(1), parser.end_of_last());
     let rest = Span::new(operator.start, parser.nth_span(2).start);

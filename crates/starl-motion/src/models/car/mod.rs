@@ -69,7 +69,7 @@ impl Car {
     /// A car with these parameters.
     ///
     /// # Errors
-    /// Where a parameter is out of its range or the cruise speed exceeds the greatest speed.
+    /// If a parameter is out of its range or the cruise speed exceeds the greatest speed.
     pub fn new(parameters: CarParameters) -> Result<Car, ParameterError> {
         parameters.check_ranges()?;
         let CarParameters {

@@ -175,7 +175,7 @@ impl Causal {
             number: number - 1,
         });
         let queue = self.held.entry(from).or_default();
-        // Messages of the sender's earlier life are handed out first.
+        // Messages of the sender's earlier life are delivered first.
         let before = queue.back().map(|last| &last.arrival);
         after.extend(
             before

@@ -92,7 +92,7 @@ pub(super) struct Total {
     idle: Idle,
     /// Counts how often this robot asked to lead.
     ask_number: u32,
-    /// The last message that was handed out.
+    /// The last message that was delivered.
     position: Option<(Generation, u64)>,
     /// The number of this robot's last message.
     last: u32,

@@ -11,7 +11,7 @@ use super::{Member, Role, Total};
 use alloc::vec::Vec;
 use starl_core::{Destination, Robot};
 
-/// Where a robot can go on.
+/// Where a robot can continue.
 pub(super) struct Place {
     pub to: LifeName,
     pub call: u64,
@@ -47,7 +47,7 @@ impl Total {
         self.say(robot, Destination::Robot(to.robot), body);
     }
 
-    /// The leader says where this robot can go on.
+    /// The leader says where this robot can continue.
     pub(super) fn go_on(
         &mut self,
         robot: &mut Robot<'_>,
@@ -87,7 +87,7 @@ impl Total {
         self.propose_anew(robot);
     }
 
-    /// A member goes on from a later place, if it has to.
+    /// A member continues from a later place, if it has to.
     fn leap(&mut self, robot: &mut Robot<'_>, place: &Place) {
         let Some(member) = &mut self.member else {
             return;

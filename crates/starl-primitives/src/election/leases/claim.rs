@@ -137,7 +137,7 @@ impl Leases {
             return;
         }
         if self.leads(scene) {
-            // It goes on leading, in an epoch that the other can vote for.
+            // It continues leading, in an epoch that the other can vote for.
             self.stand(scene);
         } else {
             self.give_up(scene);

@@ -322,7 +322,7 @@ impl Arbiter {
     }
 
     /// Tells a robot for which robots it waits, once for each time that it asks. With leases this is unnecessary,
-    /// because the grants of a dead robot end, except for an arbiter that cannot grant anything.
+    /// because the grants of a crashed robot end, except for an arbiter that cannot grant anything.
     fn tell(&mut self, robot: RobotId, behind: RobotId, terms: Terms, post: &mut Post) {
         let entry = self.entries.get_mut(&robot);
         let is_new = |entry: &&mut Entry| entry.told != Some(behind);

@@ -4,7 +4,7 @@
 use super::Choices;
 use starl_lang::syntax::{SyntaxKind, parse};
 
-/// Operators at whose end a line may go on in the next one.
+/// Operators at whose end a line may continue in the next one.
 const OPERATORS: &[&str] = &[
     "+", "*", "/", "%", "==", "!=", "<", "<=", ">", ">=", "and", "or", "??", ",",
 ];

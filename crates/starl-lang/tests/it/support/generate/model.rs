@@ -60,7 +60,7 @@ pub struct Named {
 
 /// An enum.
 pub struct Enum {
-    /// None of `enum {a, b}` in the place of a type.
+    /// None of `enum {a, b}` in place of a type.
     pub name: Option<String>,
     pub variants: Vec<String>,
 }
