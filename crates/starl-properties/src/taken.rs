@@ -95,7 +95,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn runs_know_what_a_plain_set_knows() {
+    fn runs_agree_with_a_plain_set() {
         let mut random = Random::keyed(1, &[]);
         for _ in 0..200 {
             let (mut runs, mut set) = (Vec::new(), BTreeSet::new());

@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn an_obstacle_hides_what_is_behind_it() {
+    fn an_obstacle_hides_bodies_behind_it() {
         let wall = Obstacle::cuboid(Point::planar(1.0, -1.0), Point::new(1.2, 1.0, 1.0));
         let mut surroundings = surroundings(Some(wall));
         surroundings.hear(RobotId(1), ms(10), place(2.0), Point::ZERO);

@@ -17,7 +17,7 @@ fn break_down(kind: &str, at: &str) -> Traffic {
 }
 
 #[test]
-fn where_it_crashes_the_others_go_round_it_or_know_that_they_cannot() {
+fn where_it_crashes_the_others_go_round_it_or_know_that_they_are_stuck() {
     for at in ["4.5s", "5s", "5.5s", "6s", "6.5s", "7s", "7.5s"] {
         let traffic = break_down("crash", at);
         let passed = traffic.passed();
@@ -36,7 +36,7 @@ fn where_it_crashes_the_others_go_round_it_or_know_that_they_cannot() {
 
 /// In the zone B, which Robot2 needs.
 #[test]
-fn where_its_wheels_stop_it_keeps_what_it_holds_and_knows() {
+fn where_its_wheels_stop_it_keeps_its_zones_and_knows_it() {
     let traffic = break_down("stuck_motor", "6s");
     assert_eq!(traffic.outcome, Some(Outcome::TimedOut));
     assert_eq!(traffic.passed(), [0, 3]);

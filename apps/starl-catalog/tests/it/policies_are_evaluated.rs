@@ -65,7 +65,7 @@ fn first(mut run: Run) -> Vec<f64> {
 }
 
 #[test]
-fn a_program_gets_what_the_network_gives() {
+fn a_program_gets_the_output_of_the_network() {
     let program = asks(&format!("[{INPUT}]"));
     let read = application(SCENARIO, &files(&program, DENSE)).unwrap_or_else(|why| panic!("{why}"));
     for (found, expected) in first(read.run().unwrap()).iter().zip(OUTPUT) {

@@ -113,7 +113,7 @@ fn after_a_partition_no_two_search_one_room() {
 }
 
 #[test]
-fn what_a_robot_searched_before_a_crash_is_not_searched_again() {
+fn rooms_searched_before_a_crash_are_not_searched_again() {
     (1..=4).into_par_iter().for_each(|seed| {
         let case = Case::new("search", BLIND, seed);
         let calm = Story::of(case);

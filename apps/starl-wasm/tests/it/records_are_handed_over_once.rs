@@ -14,7 +14,7 @@ fn records(client: &mut Client, max: u64) -> Vec<Value> {
 }
 
 #[test]
-fn batches_are_what_one_batch_would_be() {
+fn batches_add_up_to_one_batch() {
     let (mut one, mut other) = (broadcast(), broadcast());
     one.ask("run", json!({"until": 2.0}));
     let whole = records(&mut one, 1_000_000);

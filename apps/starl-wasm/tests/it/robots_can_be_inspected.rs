@@ -10,7 +10,7 @@ fn named<'a>(list: &'a Value, name: &str) -> &'a Value {
 }
 
 #[test]
-fn guards_tell_what_happens_next() {
+fn guards_show_the_next_actions() {
     let program = "program Counter\n\ncount: Int = 0\n\nstop()\n    pre count >= 3\n    eff finish()\n\ntick()\n    pre count < 3\n    eff count = count + 1\n";
     let mut client = Client::open(
         json!({"counter.starl": program}),

@@ -228,7 +228,7 @@ fn a_png_shows_the_same_picture_with_text_on_a_machine_without_fonts() {
 }
 
 #[test]
-fn what_programs_draw_is_shown() {
+fn drawings_of_programs_are_shown() {
     let mut data = race();
     let plain = svg(&data);
     let corner = Point::planar(0.5, 2.0);

@@ -54,7 +54,7 @@ fn fits(page: &[&str], printed: &[&str]) -> bool {
 }
 
 #[test]
-fn every_step_does_what_the_page_says() {
+fn every_step_matches_the_page() {
     let bless = std::env::var_os("BLESS").is_some();
     let folder = folder("first_program");
     let before = fs::read_to_string(page()).expect("the tutorial");

@@ -27,7 +27,7 @@ fn a_file_is_laid_out_in_its_place() {
 }
 
 #[test]
-fn check_lists_what_would_change_and_changes_nothing() {
+fn check_lists_files_that_would_change_and_changes_nothing() {
     let folder = folder("fmt_check");
     file(&folder, "tidy.starl", TIDY);
     file(&folder, "untidy.starl", UNTIDY);

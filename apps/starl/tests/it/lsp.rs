@@ -175,7 +175,7 @@ fn columns_count_units_of_utf_16() {
 }
 
 #[test]
-fn what_may_be_typed_is_suggested() {
+fn completions_are_suggested() {
     let (text, place) = cursor(&RACE.replace("index += 1", "motion.$0"));
     let mut editor = opened(&text);
     let list = editor
@@ -244,7 +244,7 @@ fn a_name_leads_to_its_declaration_and_its_other_uses() {
 }
 
 #[test]
-fn what_every_program_has_can_be_read() {
+fn built_in_libraries_can_be_read() {
     let (text, place) = cursor("program P\nside: Si$0de? = bumped\n");
     let mut editor = opened(&text);
     let found = editor

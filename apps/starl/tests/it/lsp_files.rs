@@ -139,7 +139,7 @@ fn a_library_and_its_programs_are_renamed_together() {
 }
 
 #[test]
-fn what_the_standard_library_declares_keeps_its_name() {
+fn names_of_the_standard_library_cannot_be_renamed() {
     let mut place = place("lsp_standard");
     let program = name_of(&place.program);
     let text = "program P\nimport geometry\nx: Point = geometry.midpoint(position, position)\n";

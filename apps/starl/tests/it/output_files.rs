@@ -61,7 +61,7 @@ fn two_outputs_do_not_share_a_file() {
 }
 
 #[test]
-fn what_a_run_reads_is_not_overwritten() {
+fn inputs_of_a_run_are_not_overwritten() {
     let folder = folder("output_reads");
     let scenario = SMALL.replace("[world]", "[world]\nfiles = [\"some.wpt\"]");
     file(&folder, "small.toml", &scenario);

@@ -281,7 +281,7 @@ fn a_violated_property_is_reported_with_the_state() {
 }
 
 #[test]
-fn what_cannot_be_run_is_refused() {
+fn other_files_are_rejected() {
     let folder = lone("program_refused");
     file(
         &folder,

@@ -65,7 +65,7 @@ fn tables_are_the_same_on_any_number_of_threads() {
 }
 
 #[test]
-fn a_row_is_what_the_run_command_gives() {
+fn a_row_equals_the_result_of_the_run_command() {
     let folder = prepared("sweep_rows");
     let rows = rows(&table(&folder, "rows.jsonl", &[]));
     assert_eq!(rows.len(), 16);
@@ -201,7 +201,7 @@ fn a_killed_sweep_continues_where_it_was() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupted_sweep_says_how_to_go_on() {
+fn an_interrupted_sweep_says_how_to_continue() {
     let folder = prepared("sweep_interrupted");
     let output = stop(&folder, "-INT");
     assert_eq!(status(&output), 1, "{}", stderr(&output));

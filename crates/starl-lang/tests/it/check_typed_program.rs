@@ -73,7 +73,7 @@ fn arguments_are_in_the_order_of_the_parameters() {
 }
 
 #[test]
-fn what_a_guard_binds_is_known_in_the_effect() {
+fn names_bound_in_a_guard_are_known_in_the_effect() {
     let program = correct(
         "program P\nstart()\n    pre some p = way_point(\"a\") and p.x > 1m\n    eff log(\"{}\", p)\n",
     );

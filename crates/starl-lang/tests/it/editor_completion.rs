@@ -163,7 +163,7 @@ fn in_an_action_its_clauses() {
 }
 
 #[test]
-fn after_on_messages_and_what_reports() {
+fn after_on_messages_and_primitives_with_events() {
     let found = labels(&effect("\non $0(from, index)\n    loc = pick"));
     has(&found, &["Ping", "radio", "input"]);
     lacks(&found, &["motion", "Pair"]);

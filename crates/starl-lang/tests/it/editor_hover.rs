@@ -128,7 +128,7 @@ fn of_the_programs_declarations() {
 }
 
 #[test]
-fn of_a_bound_primitive_what_kind_it_is() {
+fn of_a_bound_primitive_its_kind() {
     let (signature, documentation) = shown("not motion", "motion");
     assert_eq!(signature, "motion = ReachAvoid(vicinity = vicinity)");
     assert!(

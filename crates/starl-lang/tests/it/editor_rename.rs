@@ -112,7 +112,7 @@ fn a_local_and_a_variant_do_not_get_mixed_up() {
 }
 
 #[test]
-fn what_every_program_has_keeps_its_name() {
+fn built_in_names_cannot_be_renamed() {
     let reason = refused("program P\nx: Float = ab$0s(2.0)\n", "b");
     assert_eq!(reason, "this is a name that every program has");
     let reason = refused("program P\nx: Si$0de? = bumped\n", "b");

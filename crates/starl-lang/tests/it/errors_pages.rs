@@ -148,7 +148,7 @@ fn every_page_is_true() {
 }
 
 #[test]
-fn what_a_page_suggests_puts_one_thing_right() {
+fn the_fix_of_a_page_solves_one_problem() {
     for code in Code::ALL.iter().filter(|code| **code != Code::TooLong) {
         let path = folder().join(format!("{code}.md"));
         let mut libraries = PageFiles::default();

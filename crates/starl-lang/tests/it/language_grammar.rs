@@ -189,7 +189,7 @@ fn cost(form: &Form, costs: &BTreeMap<&str, u32>) -> u32 {
 }
 
 #[test]
-fn what_the_grammar_derives_is_read() {
+fn derived_texts_are_parsed_without_errors() {
     let grammar = grammar();
     let mut costs = BTreeMap::new();
     for _ in 0..grammar.len() {

@@ -23,13 +23,13 @@ fn it_is_not_run_again() {
 }
 
 #[test]
-fn what_goes_wrong_goes_wrong_where_it_is_called() {
+fn errors_occur_at_the_call() {
     let wrong = "int r0 1\n int r1 0\n divide_int r0 r0 r1\n return_scalar r0 #0";
     assert_eq!(called(wrong).0, Err(Fault::DivisionByZero));
 }
 
 #[test]
-fn what_takes_too_long_is_loaded_even_so() {
+fn functions_that_take_too_long_are_loaded_anyway() {
     let endless = "again:\n jump @again\n return_scalar r0 #0";
     assert_eq!(called(endless).0, Err(Fault::OutOfFuel));
 }

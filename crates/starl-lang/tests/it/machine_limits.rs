@@ -90,7 +90,7 @@ fn work_on_collections_costs_by_their_size() {
 }
 
 #[test]
-fn what_the_host_says_it_costs_is_paid() {
+fn the_cost_of_the_host_is_charged() {
     let program = program(
         "import expensive () ()\n function f procedure () () registers 1 objects 0\n\
          call_host r0 b0 h0\n return #0 #0",

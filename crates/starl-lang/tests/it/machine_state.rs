@@ -35,7 +35,7 @@ fn half_way(program: &Program) -> State {
 }
 
 #[test]
-fn copies_stored_or_not_go_on_alike() {
+fn copies_continue_alike_stored_or_not() {
     let program = program(RACE);
     let mut original = half_way(&program);
     let mut copy = original.clone();

@@ -84,7 +84,7 @@ fn an_assignment_in_init_takes_the_place_of_the_saved_value() {
 }
 
 #[test]
-fn a_crash_before_the_write_is_done_undoes_the_change_and_what_came_of_it() {
+fn a_crash_before_the_write_undoes_the_change_and_its_effects() {
     let source = &format!("{COUNTER}\ntell()\n    eff emit(\"told\", count = count)\n");
     let mut world = World::on_storage(&compile(source), Saved::default());
     world.step();
@@ -299,7 +299,7 @@ fn a_start_that_fails_leaves_storage_alone() {
 }
 
 #[test]
-fn a_run_time_error_keeps_what_the_robot_has_done_until_then() {
+fn a_run_time_error_keeps_earlier_changes() {
     let source =
         &format!("{COUNTER}\ncrash()\n    pre plain == 2\n    eff plain = 1 / (plain - 2)\n");
     let mut world = World::on_storage(&compile(source), Saved::default());

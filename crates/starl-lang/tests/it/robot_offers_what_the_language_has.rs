@@ -216,7 +216,7 @@ fn primitives_are_offered_as_the_language_has_them() {
 }
 
 #[test]
-fn events_of_primitives_carry_what_the_language_says() {
+fn events_of_primitives_have_the_fields_of_the_language() {
     for primitive in PRIMITIVES {
         for event in primitive.events {
             let mut types = Types::default();

@@ -291,7 +291,7 @@ always sometime: asked leads_to answered
 ";
 
 #[test]
-fn what_follows_must_follow_in_time() {
+fn a_consequence_must_be_true_in_time() {
     let mut fleet = Given::new(LEADS_TO, 2);
     let mut judge = fleet.judge();
     let set = |fleet: &mut Given, robot, asked, answered| {

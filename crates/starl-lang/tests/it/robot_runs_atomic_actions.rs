@@ -139,7 +139,7 @@ fn is_storing(world: &World, robot: usize) -> bool {
 }
 
 #[test]
-fn what_a_robot_adds_before_it_crashes_counts_once_or_not_at_all() {
+fn an_increment_before_a_crash_counts_at_most_once() {
     let code = compile(COUNT);
     for seed in 0..60 {
         let mut world = World::over_bad_network(&code, 3, seed, 200);
@@ -279,7 +279,7 @@ fn an_action_waits_no_longer_when_its_guard_holds_no_longer() {
 }
 
 #[test]
-fn an_action_costs_what_is_documented() {
+fn an_action_has_its_documented_cost() {
     let source = COUNT.replace("pre added < 20", "pre added < 20 and peers.min() == me");
     for robots in [3, 5] {
         let mut world = World::of(&compile(&source), robots);

@@ -51,7 +51,7 @@ on More(_, amount)
 "#;
 
 #[test]
-fn what_an_action_depends_on_does_not_change_until_it_takes_place() {
+fn the_dependencies_of_an_action_do_not_change_until_it_takes_place() {
     let code = compile(DEPOSIT);
     for seed in 0..30 {
         let mut world = World::over_bad_network(&code, 3, seed, 300);

@@ -112,7 +112,7 @@ fn written(introduction: &str, cases: &[Case]) -> String {
 }
 
 #[test]
-fn every_case_says_what_its_page_says() {
+fn every_case_has_the_messages_of_its_page() {
     let mut differing = Vec::new();
     for path in pages() {
         let page = fs::read_to_string(&path).expect("a case that can be read");

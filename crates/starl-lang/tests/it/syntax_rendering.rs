@@ -49,7 +49,7 @@ fn colours_are_escape_sequences_around_the_same_text() {
 }
 
 #[test]
-fn what_would_steer_a_terminal_is_not_shown() {
+fn terminal_escapes_are_not_shown() {
     let text = "program P\n\nx: \u{1b}[2J\u{9b}\u{202e}Int = \u{7}\n";
     let shown = render("p.starl", text, parse(text).diagnostics(), Colour::Off);
     assert!(

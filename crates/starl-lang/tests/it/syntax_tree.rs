@@ -205,7 +205,7 @@ fn an_action_has_its_guard_and_effect() {
 }
 
 #[test]
-fn an_effect_may_go_on_below_its_line() {
+fn an_effect_may_continue_below_its_line() {
     let items = items("program P\n\nrun()\n    eff a = 1; b = 2\n        c = 3\n");
     let Some(Item::Action(action)) = items.get(1) else {
         panic!()

@@ -216,7 +216,7 @@ fn it_holds_its_place_and_its_waypoint_in_wind() {
 }
 
 #[test]
-fn wind_does_not_move_what_stands_on_the_ground() {
+fn wind_does_not_move_a_drone_on_the_ground() {
     let wind = Disturbance {
         wind: Point::planar(5.0, 5.0),
         ..CALM

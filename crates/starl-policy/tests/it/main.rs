@@ -49,7 +49,7 @@ fn outputs_are_those_of_onnx_runtime() {
 }
 
 #[test]
-fn what_cannot_be_evaluated_is_refused_with_the_node_and_the_fix() {
+fn unsupported_operators_are_rejected_with_the_node_and_the_fix() {
     let messages = [
         (
             "operator",

@@ -78,7 +78,7 @@ mod tests {
     use starl_core::Random;
 
     #[test]
-    fn runs_hold_what_a_plain_set_holds() {
+    fn runs_agree_with_a_plain_set() {
         let mut random = Random::keyed(1, &[]);
         for _ in 0..200 {
             let mut runs = Runs::before(1);

@@ -159,7 +159,7 @@ fn late_joiners_are_waited_for() {
 }
 
 #[test]
-fn waiting_for_a_dead_robot_is_reported_and_ends_when_it_returns() {
+fn waiting_for_a_crashed_robot_is_reported_and_ends_when_it_returns() {
     for crashes_first in [true, false] {
         let mut world = idle(3, 1, Wire::perfect());
         for robot in 0..3 {

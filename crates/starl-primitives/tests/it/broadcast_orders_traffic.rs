@@ -27,7 +27,7 @@ fn datagrams(order: Order, robots: usize) -> f64 {
 }
 
 #[test]
-fn a_broadcast_takes_what_its_algorithm_needs() {
+fn a_broadcast_needs_the_datagrams_of_its_algorithm() {
     for robots in [3, 5, 10, 30, 100] {
         let n = robots as f64;
         let count = |order| datagrams(order, robots);

@@ -107,7 +107,7 @@ fn a_minority_delivers_nothing_and_reports_it_until_the_partition_heals() {
 }
 
 #[test]
-fn what_cannot_be_ordered_fails_in_the_end() {
+fn messages_that_cannot_be_ordered_fail_in_the_end() {
     let mut world = world(3, 1);
     cut_off(&mut world, &[0], 3);
     world.command(0, tell(1));

@@ -21,7 +21,7 @@ fn calm(count: usize) -> World {
 }
 
 #[test]
-fn what_a_dead_robot_held_is_free_after_its_lease() {
+fn resources_of_a_crashed_robot_are_free_after_its_lease() {
     let mut world = calm(4);
     world.command(3, acquire(&["a", "b"]));
     world.run_for(SECOND * 30);

@@ -16,7 +16,7 @@ fn calm(count: usize) -> World {
 }
 
 #[test]
-fn a_dead_robot_is_left_out() {
+fn a_crashed_robot_is_left_out() {
     for dead in 1..9 {
         let mut world = calm(9);
         world.crash(dead);
@@ -30,7 +30,7 @@ fn a_dead_robot_is_left_out() {
 }
 
 #[test]
-fn waiting_for_a_dead_holder_is_reported_and_ends_when_it_returns() {
+fn waiting_for_a_crashed_holder_is_reported_and_ends_when_it_returns() {
     let mut world = calm(4);
     world.command(3, acquire(&["a", "b"]));
     world.run_for(SECOND);

@@ -26,7 +26,7 @@ fn sent(world: &mut World, robot: usize, command: impl starl_core::Timer) -> usi
 }
 
 #[test]
-fn operations_cost_what_is_documented() {
+fn operations_have_their_documented_cost() {
     for count in [3, 5, 8] {
         let mut world = idle(count);
         // A question to all is one datagram; the answers are one each.

@@ -77,7 +77,7 @@ fn a_restarted_receiver_accepts_messages_in_transit_and_later_ones() {
 }
 
 #[test]
-fn a_receiver_that_restarts_does_not_wait_for_what_its_earlier_life_took() {
+fn a_restarted_receiver_does_not_wait_for_messages_of_its_earlier_life() {
     for in_order in [false, true] {
         let options = Options {
             first_in_first_out: in_order,

@@ -68,7 +68,7 @@ fn writes_after_a_corruption_are_read_by_all() {
 
 /// An element that its owner still holds is its owner's word.
 #[test]
-fn an_owner_sets_right_what_others_garbled() {
+fn an_owner_corrects_garbled_copies() {
     for seed in 0..100 {
         let mut world = corrupted(seed, Wire::bad(), &[1, 2, 3]);
         world.run_for(Duration::from_seconds(30));

@@ -85,7 +85,7 @@ fn a_robot_that_joins_late_reads_everything_within_two_seconds() {
 }
 
 #[test]
-fn what_only_a_crashed_robot_knew_lives_on_in_no_one() {
+fn values_known_only_to_a_crashed_robot_are_lost() {
     let mut world = world(1, Wire::perfect());
     world.wire.loss = 1.0;
     world.command(0, write(0, 1));
@@ -131,7 +131,7 @@ fn writing_the_read_value_after_a_restart_is_a_write() {
 /// In both of its lives a robot whose clock is behind is told of the same reading of another clock, and continues from
 /// there. The first life's write is known to one robot, which the second life does not hear.
 #[test]
-fn two_lives_that_go_on_from_one_reading_give_their_writes_two_stamps() {
+fn two_lives_that_continue_from_one_reading_have_different_stamps() {
     let mut world = world(1, Wire::perfect());
     world.set_clock_ahead(1, 3_600_000_000_000);
     world.command(1, write(0, 1));

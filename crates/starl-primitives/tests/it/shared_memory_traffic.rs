@@ -140,7 +140,7 @@ fn large_differences_are_sent_piece_by_piece() {
 /// Many robots find a difference at once; a robot that hears another send the write does not send
 /// it too.
 #[test]
-fn what_many_robots_missed_is_sent_again_about_once() {
+fn a_write_missed_by_many_robots_is_sent_again_about_once() {
     let mut bytes = 0;
     for seed in 0..20 {
         let mut world = world(30, seed, Wire::perfect());

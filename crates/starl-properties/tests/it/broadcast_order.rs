@@ -145,7 +145,7 @@ fn handed_of_second_life(story: &mut Story, millis: u64, robot: u32) {
 }
 
 #[test]
-fn what_an_earlier_life_sent_is_not_owed_after_something_of_a_later_one() {
+fn messages_of_an_earlier_life_are_not_required_after_one_of_a_later_life() {
     let causal = |story: &Story| -> Vec<u64> {
         let verdict = story.verdict(2500);
         let found = verdict

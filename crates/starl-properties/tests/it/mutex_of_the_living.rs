@@ -57,7 +57,7 @@ fn a_lease_that_outlives_its_crashed_holder_is_reported() {
 }
 
 #[test]
-fn a_minority_need_not_go_on_and_a_majority_has_to_as_soon_as_it_is_ready() {
+fn only_a_ready_majority_must_continue() {
     let mut story = story(3);
     for robot in [2, 3, 4] {
         story.fault(2000, Some(robot), "crash");
@@ -90,7 +90,7 @@ fn with_storage_a_robot_need_not_be_ready_again() {
 }
 
 #[test]
-fn the_part_with_a_majority_has_to_go_on() {
+fn the_part_with_a_majority_must_continue() {
     let mut story = story(3);
     story.fault(2000, None, "partition");
     for (number, (from, to)) in [(0, 1), (1, 2), (3, 4)].into_iter().enumerate() {

@@ -46,7 +46,7 @@ fn one_after_the_other_is_as_it_should_be() {
 }
 
 #[test]
-fn a_crash_ends_what_a_robot_holds() {
+fn a_crash_ends_the_holds_of_a_robot() {
     let mut story = story();
     story
         .locks(1000, 0, "enter", "a")

@@ -121,7 +121,7 @@ fn crash_landing() -> Story {
 }
 
 #[test]
-fn what_a_crashed_flyer_falls_on_has_not_collided() {
+fn a_robot_under_a_falling_drone_has_not_collided() {
     let mut story = crash_landing();
     story.collided(1500, 0, WITH_ROBOT_1);
     // It lies on the robot, which bumps against it as it drives away.

@@ -95,7 +95,7 @@ fn a_later_read_does_not_return_the_earlier_value() {
 }
 
 #[test]
-fn what_a_robot_wrote_when_it_crashed_may_take_effect_later_once() {
+fn a_write_during_a_crash_may_take_effect_later_once() {
     let crash = |mut story: Story| {
         story.fault(500, Some(0), "crash");
         story
@@ -126,7 +126,7 @@ fn registers_are_judged_each_for_itself() {
 }
 
 #[test]
-fn what_a_majority_forgets_is_excused_and_a_corruption_too() {
+fn a_forgetful_majority_and_a_corruption_are_excused() {
     let bad = || story(&[(0, "write", 300, 400, 5), (1, "read", 4000, 4100, 0)]);
     let mut lost = bad();
     for robot in 0..3 {
@@ -144,7 +144,7 @@ fn what_a_majority_forgets_is_excused_and_a_corruption_too() {
 }
 
 #[test]
-fn what_storage_holds_is_not_forgotten_until_storage_is_lost() {
+fn stored_values_are_not_forgotten_until_storage_is_lost() {
     let mut kept = story(&[(0, "write", 300, 400, 5), (1, "read", 4000, 4100, 0)]);
     kept.setting.keeps_storage = true;
     for robot in 0..3 {
@@ -232,7 +232,7 @@ fn it_is_not_judged_while_lost_values_may_reappear() {
 }
 
 #[test]
-fn operations_at_the_same_time_do_not_say_what_a_register_holds() {
+fn concurrent_operations_do_not_define_the_value_of_a_register() {
     let crowded = [
         (2, "write", 40_000, 40_300, 7),
         (0, "write", 40_100, 40_200, 8),

@@ -177,7 +177,7 @@ fn faults_put_it_off() {
 }
 
 #[test]
-fn what_a_corruption_makes_up_is_not_judged() {
+fn invented_state_is_not_judged() {
     let mut story = robots(2);
     agree(&mut story, 400, (400, 0, &[0, 1]));
     story.fault(1000, Some(1), "corrupt state");

@@ -127,7 +127,7 @@ fn a_robot_that_loses_a_write_must_show_it_again() {
 }
 
 #[test]
-fn a_robot_that_joins_late_is_owed_what_there_is() {
+fn a_late_joiner_must_get_all_values() {
     for (joined, late) in [(30_000, 35_000), (3000, 8000)] {
         let mut story = robot_2_shows_nothing();
         story.shows(1030, 2, "update", "x", (1000, 0, 5));

@@ -34,7 +34,7 @@ fn going_back_is_reported() {
 
 /// A robot whose clock is behind knows of a write, and writes without regard to it.
 #[test]
-fn a_write_that_counts_as_earlier_than_what_its_writer_shows_is_reported() {
+fn a_write_earlier_than_the_writers_value_is_reported() {
     let mut story = two_writes();
     story.shows(3000, 1, "write", "x", (1500, 1, 7));
     assert_only(&story.verdict(10_000), "shared_memory.order", 3000, &[1]);

@@ -23,7 +23,7 @@ fn sends(story: &mut Story, number: u32, to: u32) {
 }
 
 #[test]
-fn what_does_not_arrive_is_reported_when_its_time_is_up() {
+fn a_message_that_does_not_arrive_is_reported_at_its_deadline() {
     let mut story = sent(1, 2);
     // Numbers are counted for each receiver.
     sends(&mut story, 1, 1);

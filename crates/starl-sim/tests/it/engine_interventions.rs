@@ -306,7 +306,7 @@ fn robots_join_and_leave() {
 }
 
 #[test]
-fn what_cannot_be_is_refused_with_a_reason_and_changes_nothing() {
+fn impossible_interventions_are_rejected_with_a_reason_and_change_nothing() {
     let mut simulation = listeners();
     let digest = simulation.digest();
     let loss = Intervention::Network(vec![NetworkKnob::Loss(1.5)]);

@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn an_operator_is_told_everything_in_packets_until_it_loses_interest() {
+    fn an_operator_gets_all_events_in_packets_until_it_stops_watching() {
         let mut watched = Watched::new(Nothing, Time::ZERO);
         watched.record(ms(1), Event::Finished);
         watched.watch(ms(10), 7);
