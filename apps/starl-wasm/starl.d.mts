@@ -22,7 +22,7 @@ export function load(source?: string | URL | Response | BufferSource | WebAssemb
 /** An instance of the simulator. It holds any number of simulations, in 1 GiB of memory. */
 export class Starl {
   private constructor();
-  /** Whether it cannot go on: every call throws a StarlError that says why. Load another instance. */
+  /** Whether it cannot continue: every call throws a StarlError that says why. Load another instance. */
   readonly failed: boolean;
   /** The examples that come with StarL. */
   examples(): Example[];
@@ -560,7 +560,7 @@ export interface Robot {
   condition: Condition;
   /** Whether its software has started in its present life. */
   started: boolean;
-  /** Why its program cannot go on. */
+  /** Why its program cannot continue. */
   failure: string | null;
   motors_stuck: boolean;
   sensors_frozen: boolean;

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Larger files are no scenarios, programs, world files or images.
+/// Larger files are not scenarios, programs, world files or images.
 const LARGEST: u64 = 256 << 20;
 
 /// The content of a file, or why it cannot be read, in words.

@@ -149,7 +149,7 @@ pub const EXAMPLES: &[Example] = &[
     ),
     example!(
         "maze",
-        "robots look for goals and tell of the walls they meet",
+        "robots look for goals and report the walls they meet",
         "maze",
         "maze.toml",
         ["maze.starl"]

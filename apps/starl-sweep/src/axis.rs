@@ -1,7 +1,7 @@
 //! An axis of a sweep: a field of the scenario and the values that it takes.
 //!
-//! `FIELD=A,B,C` lists values as scenarios have them, with units. `FIELD=LOW..HIGH:N` gives N evenly spaced values, both
-//! ends included. Commas and points within quotes, brackets and braces belong to a value.
+//! `FIELD=A,B,C` lists values as scenarios have them, with units. `FIELD=LOW..HIGH:N` gives N evenly spaced values,
+//! both ends included. Commas and points within quotes, brackets and braces belong to a value.
 
 use crate::Error;
 use serde::{Deserialize, Serialize};
@@ -166,7 +166,7 @@ fn split(text: &str) -> Vec<String> {
     trimmed.collect()
 }
 
-/// The values of `LOW..HIGH:N`; none if the text is no range.
+/// The values of `LOW..HIGH:N`; none if the text is not a range.
 fn range(text: &str, option: &str) -> Result<Option<Vec<String>>, Error> {
     let Some((low, rest)) = text.split_once("..") else {
         return Ok(None);

@@ -48,7 +48,7 @@ pub fn spread<I: Send, T: Send, E>(
         drop(sender);
         let taken = results.into_iter().try_for_each(&mut take);
         for worker in workers {
-            // A bug of ours: it is told as such.
+            // A bug of ours: it is reported as such.
             if let Err(panic) = worker.join() {
                 std::panic::resume_unwind(panic);
             }

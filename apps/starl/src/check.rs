@@ -51,7 +51,7 @@ pub struct Examined {
 /// A file that was checked.
 pub struct Examinee {
     name: String,
-    /// None of what is no file.
+    /// `None` if there is no such file.
     identity: Option<PathBuf>,
     is_library: bool,
     checked: CheckedFile,
@@ -117,8 +117,8 @@ impl Examinee {
 
 /// The findings so far.
 struct Findings {
-    /// The files that are checked by themselves, or were told of; a library that several programs
-    /// import is told of once.
+    /// The files that are checked by themselves, or were reported; a library that several programs
+    /// import is reported once.
     told: BTreeSet<PathBuf>,
     /// How many sources were checked.
     files: usize,

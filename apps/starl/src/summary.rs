@@ -116,7 +116,7 @@ fn ending(report: &Report) -> String {
                 1 => "1 robot".to_string(),
                 many => format!("{many} robots"),
             };
-            format!("failed after {at}: {robots} cannot go on; {done}")
+            format!("failed after {at}: {robots} cannot continue; {done}")
         }
         Ending::Interrupted => format!("interrupted after {at}; {done}"),
     }

@@ -78,7 +78,7 @@ fn files(arguments: &RunArguments, origin: &Origin, inputs: &Inputs) -> Vec<Path
     files
 }
 
-/// Tells of warnings, once.
+/// Prints each warning once.
 fn warn(application: &Application, origin: &Origin) {
     for findings in application.warnings() {
         let text = findings.render(&origin.name(findings), console::colour_of_errors());

@@ -23,8 +23,8 @@ pub struct Outputs<'a> {
     pub poses: &'a mut [f64],
     /// E, N, 6: the velocity in the world frame, metres per second, then the rates of yaw, pitch and roll.
     pub velocities: &'a mut [f64],
-    /// E, N: the first thing that the robot touched in the last action: -1 for nothing, below N another robot, from N on
-    /// an obstacle.
+    /// E, N: the first thing that the robot touched in the last action: -1 for nothing, below N another robot, from N
+    /// on an obstacle.
     pub contacts: &'a mut [i32],
     /// E, N, rays: the distance from the body's edge to what the ray meets, metres; the range if it meets nothing.
     pub lidar: &'a mut [f64],
@@ -71,8 +71,8 @@ impl Batch {
         })
     }
 
-    /// Whether environments step in parallel, on the thread pool in which [`Batch::step`] is called. The results are the
-    /// same either way. Without the feature `parallel` this does nothing.
+    /// Whether environments step in parallel, on the thread pool in which [`Batch::step`] is called. The results are
+    /// the same either way. Without the feature `parallel` this does nothing.
     pub fn set_parallel(&mut self, parallel: bool) {
         self.parallel = parallel;
     }
@@ -278,7 +278,7 @@ fn rooms<'a>(
     })
 }
 
-/// Hands out one part of an array after another.
+/// Splits off one part of an array after another.
 fn parts<'a, T>(mut rest: &'a mut [T], size: usize) -> impl FnMut() -> &'a mut [T] {
     move || {
         let (part, others) = std::mem::take(&mut rest).split_at_mut(size);

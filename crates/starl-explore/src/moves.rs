@@ -141,7 +141,7 @@ impl Finder<'_> {
         }
     }
 
-    /// Something happens to the robot itself; it is no move if nothing comes of it.
+    /// Something happens to the robot itself; it is not a move if it has no effect.
     fn happen(&mut self, code: Code) {
         let outcome = self.robots.turn(self.local, code);
         if !outcome.is_idle(self.local) {

@@ -281,7 +281,7 @@ impl Outlet for Wire<'_> {
         &mut self.workspace
     }
 
-    /// Robots stand still and know where; datagrams are told of by the network.
+    /// Robots stand still and know their positions; the network records datagrams.
     fn record(&mut self, _: Time, event: Event) {
         if !matches!(event, Event::Estimated(_) | Event::Sent { .. }) {
             self.events.push(event);

@@ -44,7 +44,7 @@ pub struct StoreJob {
 const SIGHT: f64 = 5.0;
 
 impl PlanJob {
-    /// The distance in metres within which [`PlanJob::run`] needs to be told of neighbours; 0 if it needs none.
+    /// The distance in metres within which [`PlanJob::run`] needs the positions of neighbours; 0 if it needs none.
     pub fn sight(&self) -> f64 {
         if self.request.around_robots {
             SIGHT

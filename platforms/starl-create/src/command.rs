@@ -158,7 +158,7 @@ enum Length {
     Listed { at: usize, each: usize },
 }
 
-/// The data of an opcode of either robot; `None` if it is no opcode. Opcode 136 has a data byte on the older robot
+/// The data of an opcode of either robot; `None` if it is not an opcode. Opcode 136 has a data byte on the older robot
 /// and none on the newer, whose rule is taken.
 fn data_length(opcode: u8) -> Option<Length> {
     Some(match opcode {

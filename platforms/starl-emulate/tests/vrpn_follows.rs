@@ -123,7 +123,7 @@ fn garbage_ends_a_connection_and_no_other() {
     }
     sleep(Duration::from_millis(300));
     wait(&mut client, |answer| answer.unwrap());
-    // A server that is none is no end of the client either.
+    // A server that does not speak VRPN does not end the client either.
     let fake = TcpListener::bind(any()).unwrap();
     let mut fooled = self::client(fake.local_addr().unwrap(), "r1");
     let (mut stream, _) = fake.accept().unwrap();

@@ -214,7 +214,7 @@ impl State {
         }
         let expected = self.expected(accuracy);
         let apart = self.innovation(pose);
-        // A hand's width is no glitch, whatever the filter believes.
+        // A hand's width is not a glitch, whatever the filter estimates.
         (0..2).any(|i| apart[i].abs() > 0.1 && apart[i].powi(2) > GATE.powi(2) * expected[i][i])
     }
 

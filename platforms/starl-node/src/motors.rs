@@ -10,10 +10,10 @@ use std::time::{Duration, Instant};
 /// Time between two readings.
 const PERIOD: Duration = Duration::from_millis(10);
 
-/// The device is told the command this often, even if it has not changed.
+/// How often the command is sent to the device, even if it has not changed.
 const REPEAT: Duration = Duration::from_millis(50);
 
-/// A stopped device is told to stop this often.
+/// How often the command to stop is sent to a stopped device.
 const REPEAT_STOP: Duration = Duration::from_millis(200);
 
 /// The motors stop when the program's thread has been silent for this time.
@@ -183,7 +183,7 @@ fn drive(
     }
 }
 
-/// Tells of trouble when it begins, changes or ends. Only a call that drives shows that the device can be used again.
+/// Reports trouble when it begins, changes or ends. Only a call that drives shows that the device can be used again.
 fn report(
     trouble: &mut Option<String>,
     problem: Option<DeviceError>,
@@ -205,7 +205,7 @@ mod tests {
     use super::*;
     use std::sync::mpsc;
 
-    /// Counts what it is told.
+    /// Counts its commands.
     struct Counter(mpsc::Sender<bool>);
 
     impl Device for Counter {

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 /// A question is asked again after this.
 const REPEAT: Duration = Duration::from_millis(200);
 
-/// Robots are told this often that they are watched.
+/// How often robots are informed that they are watched.
 const REPEAT_WATCH: Duration = Duration::from_millis(500);
 
 /// A member of the fleet that is an operator, not a robot.
@@ -22,7 +22,7 @@ pub struct Operator {
     inbox: Receiver<Arrival>,
     clock: WallClock,
     robots: Vec<Member>,
-    /// When robots were told last that they are watched.
+    /// When robots were last informed that they are watched.
     watched: Option<Instant>,
 }
 

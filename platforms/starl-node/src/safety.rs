@@ -37,7 +37,7 @@ impl fmt::Display for Hazard {
         match self {
             Hazard::NoPosition => f.write_str("the robot does not know where it is"),
             Hazard::NoLink => f.write_str("the robot hears no other robot"),
-            Hazard::Failed(why) => write!(f, "its program cannot go on: {why}"),
+            Hazard::Failed(why) => write!(f, "its program cannot continue: {why}"),
         }
     }
 }

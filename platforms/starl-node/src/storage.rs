@@ -31,7 +31,7 @@ impl Storage {
     /// damage is not used, and [`Saved::is_whole`] says so.
     ///
     /// # Errors
-    /// If the file cannot be read or written, is no storage, or another process has it open.
+    /// If the file cannot be read or written, is not a storage file, or is open in another process.
     pub fn open(path: &Path) -> io::Result<Storage> {
         let mut file = OpenOptions::new()
             .read(true)

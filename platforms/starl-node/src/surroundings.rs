@@ -1,9 +1,9 @@
 //! Where the other robots are, and the sensors that are served from that.
 //!
 //! A robot learns where another one is in two ways: the system that tells it its own position sees the other one too
-//! (motion capture follows all bodies), or the other one says where it is. A fresh sighting counts before words, because
-//! a robot may err about itself and its words need the network. A robot that is neither seen nor heard for a while is
-//! taken to stand where it was last.
+//! (motion capture follows all bodies), or the other one says where it is. A fresh sighting counts before words,
+//! because a robot may err about itself and its words need the network. A robot that is neither seen nor heard for a
+//! while is taken to stand where it was last.
 //!
 //! Few robots carry a detector or a ring of distance sensors that tells robots apart. A program that needs one gets the
 //! readings that the simulator defines ([`Readings`]), measured among these places and the obstacles that the robot
@@ -144,8 +144,8 @@ impl Surroundings {
 }
 
 impl Other {
-    /// Where it is by `now`. A position that was seen counts before one that was told, and a velocity that was told before
-    /// one that was seen, since that is a difference of positions with errors.
+    /// Where it is by `now`. A measured position is preferred to a received one, and a received velocity to a measured
+    /// one, since that is a difference of positions with errors.
     fn by(&self, now: Time) -> Option<Neighbour> {
         let is_fresh = |at: Time| now.since(at) <= FRESH;
         let seen = self.sight.estimate();

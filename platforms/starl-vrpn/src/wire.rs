@@ -1,5 +1,5 @@
-//! The stream of a connection: a greeting each way, then messages, big-endian and padded to 8 bytes. Kinds of messages and
-//! their senders have numbers, which messages of their own give names to.
+//! The stream of a connection: a greeting each way, then messages, big-endian and padded to 8 bytes. Kinds of messages
+//! and their senders have numbers, which messages of their own give names to.
 
 use std::fmt;
 
@@ -36,13 +36,13 @@ pub struct Message {
     pub body: Vec<u8>,
 }
 
-/// The stream cannot be read on: it is no VRPN, or bytes are missing.
+/// The stream cannot be read further: it is not VRPN, or bytes are missing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Broken;
 
 impl fmt::Display for Broken {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("what the other end sends is no VRPN 7")
+        f.write_str("the other end does not send VRPN 7")
     }
 }
 

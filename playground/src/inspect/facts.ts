@@ -68,7 +68,7 @@ const variables = (robot: Robot, parameter: boolean): Fact[] =>
     .filter((variable) => variable.parameter === parameter)
     .map(({ name, type, value }) => ({ name, value, hint: type }));
 
-/** Timers that one primitive armed in the same way are told apart by their order. */
+/** Timers that one primitive armed in the same way are distinguished by their order. */
 function timers(robot: Robot): Fact[] {
   const seen = new Map<string, number>();
   return robot.timers.map(({ owner, port, kind, due, due_simulated }) => {

@@ -1,4 +1,4 @@
-// The events that pass a filter, kept up to date as the run goes on: each event is looked at once. A long list is
+// The events that pass a filter, kept up to date as the run continues: each event is looked at once. A long list is
 // looked through in slices, so that the page stays free.
 
 import type { Event, Events } from "../run/events.ts";

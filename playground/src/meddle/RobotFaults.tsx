@@ -8,7 +8,7 @@ import { Choice, Numeric } from "./inputs.tsx";
 import { steer } from "./steering.ts";
 import { target, targets } from "./targets.ts";
 
-/** A list of more robots is no help. */
+/** A list of more robots does not help. */
 const LISTED = 200;
 
 const ACTS: { label: string; hint: string; make: (robots: number[]) => Intervention }[] = [

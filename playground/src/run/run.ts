@@ -52,7 +52,7 @@ export class Run {
   /** The opened target. */
   readonly source = signal<Source | null>(null);
   readonly opening = signal(false);
-  /** Why nothing could be opened, or why the run could not go on. */
+  /** Why nothing could be opened, or why the run could not continue. */
   readonly problem = signal<EngineError | null>(null);
 
   /** The moment shown, s. */

@@ -38,7 +38,7 @@ export class WorldScreen {
   #stops: (() => void)[] = [];
   #disposed = false;
 
-  /** `onFlat` is told when there is no WebGL, so that the world can be shown from above only. */
+  /** `onFlat` is called when there is no WebGL, so that the world can be shown from above only. */
   constructor(
     private readonly element: HTMLElement,
     private readonly onFlat: (isFlat: boolean) => void,

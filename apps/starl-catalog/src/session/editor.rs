@@ -182,7 +182,7 @@ impl<'a> Document<'a> {
     }
 }
 
-/// The text of a program or library as the formatter lays it out.
+/// The text of a program or library as the formatter formats it.
 pub fn formatted(text: &str) -> String {
     format(text)
 }

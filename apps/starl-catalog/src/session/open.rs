@@ -202,7 +202,7 @@ fn only_program(files: &Files) -> Result<String, String> {
 
 /// Whether some group of the scenario names this program already.
 fn names(source: &Source, beside: &Beside<'_>, key: &str) -> bool {
-    // The problems of the scenario are told when it is read for good.
+    // The problems of the scenario are reported when it is opened.
     let read = starl_sim::read::scenario(&Request::new(source.clone()), beside);
     read.is_ok_and(|read| {
         let mut groups = read.scenario.fleet.groups.iter();

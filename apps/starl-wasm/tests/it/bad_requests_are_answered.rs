@@ -142,7 +142,7 @@ fn damaged_requests_never_panic() {
             for _ in 0..random.below(3) {
                 damage(&mut request, &mut random);
             }
-            // Without a bound on the steps a run may take long, which is no fault.
+            // Without a bound on the steps a run may take long, which is not a fault.
             if let Some(run) = request.get_mut("run").and_then(Value::as_object_mut) {
                 run.insert("steps".to_string(), json!(20));
             }

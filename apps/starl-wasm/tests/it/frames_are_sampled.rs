@@ -34,7 +34,7 @@ fn expected(client: &mut Client, until: f64, period: f64) -> Vec<f64> {
 
 #[test]
 fn frames_are_the_poses_of_the_sampled_moments() {
-    // The second period is no multiple of the step, the third is shorter than the step.
+    // The second period is not a multiple of the step, the third is shorter than the step.
     for period in [0.1, 0.123, 0.001] {
         let (mut sampled, mut stepped) = (race(), race());
         for until in [0.05, 0.1, 0.11, 0.9, 2.0] {

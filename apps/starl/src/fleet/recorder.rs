@@ -95,7 +95,7 @@ impl Recorder for FleetRecorder {
                 self.say(at, &format!("{level}{text}"));
             }
             Event::Finished => self.say(at, "finished"),
-            Event::Failed(why) => self.say(at, &format!("its program cannot go on: {why}")),
+            Event::Failed(why) => self.say(at, &format!("its program cannot continue: {why}")),
             _ => {}
         }
         let robot = Some(self.robot);

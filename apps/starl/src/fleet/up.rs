@@ -25,7 +25,7 @@ const PERIOD: Duration = Duration::from_millis(500);
 /// A robot that has died is started again after this.
 const PAUSE: Duration = Duration::from_secs(1);
 
-/// A robot that was told to stop has so long to end.
+/// The time that a robot has to end after the order to stop.
 const PATIENCE: Duration = Duration::from_secs(15);
 
 /// Starts a fleet, waits for its end, and judges it; whether its goal was reached and no property violated.
@@ -259,7 +259,7 @@ impl<'a> Robots<'a> {
         Ok(())
     }
 
-    /// Ends all processes: robots that were told to stop have a while for it.
+    /// Ends all processes; robots that were ordered to stop have some time to do so.
     fn end(&mut self) {
         let begun = Instant::now();
         for robot in &mut self.robots {

@@ -21,7 +21,7 @@ const MOST_FILES: usize = 1_000;
 /// A text that is open.
 struct Document {
     uri: Uri,
-    /// None of what is no file yet.
+    /// `None` if there is no such file yet.
     path: Option<PathBuf>,
     version: i32,
     text: Rc<str>,

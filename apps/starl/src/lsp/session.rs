@@ -137,8 +137,8 @@ impl Session {
         }
     }
 
-    /// Takes in a notification. One that cannot be understood is no reason to say anything: the protocol
-    /// has no answer to it.
+    /// Takes in a notification. One that cannot be read is ignored: the protocol has no answer to
+    /// it.
     fn note(&mut self, method: &str, params: Value) -> io::Result<()> {
         if self.phase != Phase::Ready {
             return Ok(());
@@ -176,7 +176,7 @@ impl Session {
         Ok(())
     }
 
-    /// Asks the editor to tell of files that change.
+    /// Asks the editor to report files that change.
     fn watch(&mut self) -> io::Result<()> {
         if !self.client.watches_files {
             return Ok(());

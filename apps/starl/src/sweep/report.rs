@@ -144,7 +144,7 @@ impl Report {
                 let arguments = std::env::args().skip(1).map(|word| quoted(&word));
                 let again: Vec<String> = [command()].into_iter().chain(arguments).collect();
                 writeln!(text, "saved       {}", journal.display())?;
-                writeln!(text, "  to go on: {}", again.join(" "))
+                writeln!(text, "  to continue: {}", again.join(" "))
             }
             None => writeln!(
                 text,

@@ -54,10 +54,12 @@ fn served() -> (u16, String) {
             port.send((own, format!("starl-{own}={token}")))
                 .expect("it is heard");
             let router = router(Page::BuiltIn(&[]), content, guard);
-            axum::serve(listener, router).await.expect("it goes on");
+            axum::serve(listener, router)
+                .await
+                .expect("the server runs");
         });
     });
-    told.recv().expect("it is told")
+    told.recv().expect("the answer is sent")
 }
 
 fn connect(port: u16, cookie: &str) -> WebSocket<TcpStream> {

@@ -1,4 +1,4 @@
-//! `starl fmt` lays programs out, and never loses one.
+//! `starl fmt` formats programs, and never loses one.
 
 use crate::support::*;
 use std::fs;

@@ -3,7 +3,7 @@
 
 use crate::support::*;
 
-/// Every robot drives along the x axis for as long as it is told to.
+/// Every robot drives along the x axis for as long as its program says.
 const DRIVE: &str = "\
 /// Drives.
 program Drive

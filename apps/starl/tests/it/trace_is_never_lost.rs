@@ -150,7 +150,7 @@ fn an_unwritable_place_is_reported() {
     );
 }
 
-/// How long a run takes makes no difference to its trace: what is saved on the way is overwritten.
+/// The trace does not depend on how long the run takes: what is saved on the way is overwritten.
 #[test]
 fn a_trace_that_was_saved_on_the_way_is_the_same() {
     let folder = folder("saved_on_the_way");

@@ -1,11 +1,11 @@
-//! The faults that traces tell of.
+//! The faults that traces record.
 
 use super::Name;
 use core::fmt;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A fault that set in, or was healed. A partition, in both directions or one, and its end are the network's; all others
-/// are a robot's.
+/// A fault that set in, or was healed. A partition, in both directions or one, and its end are the network's; all
+/// others are a robot's.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// The robot is down.

@@ -84,7 +84,7 @@ plain! {
     bool: Bool, field => *field, value => Some(*value);
     i64: Int, field => *field, value => Some(*value);
     u32: Int, field => i64::from(*field), value => u32::try_from(*value).ok();
-    // Traces have signed numbers only; these are told apart as well as unsigned ones.
+    // Traces have signed numbers only; these are as distinct as unsigned ones.
     u64: Int, field => *field as i64, value => Some(*value as u64);
     f64: Float, field => *field, value => Some(*value);
     Arc<str>: Text, field => field, value => Some(Arc::from(&**value));

@@ -141,7 +141,7 @@ pub enum DropReason {
     /// Lost at random.
     Loss,
     /// The receiver is out of radio range or of sight, or does not exist. Receivers out of range of a
-    /// message to all are not told of.
+    /// message to all are not recorded.
     Range,
     /// Sender and receiver are in different parts of a partition.
     Partition,

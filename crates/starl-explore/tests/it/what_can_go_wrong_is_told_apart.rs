@@ -177,7 +177,7 @@ fn a_program_that_does_not_write_its_state_is_found_out() {
     assert!(matches!(end, End::Contradiction(_)), "{end:?}");
 }
 
-/// The same count, but without a claim to show it: it is told apart by what has happened to it.
+/// The same count, but without a claim to show it: its history distinguishes it.
 #[derive(Clone, Debug, Default, Primitives)]
 struct Silent(u32);
 

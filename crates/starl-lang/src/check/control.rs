@@ -96,7 +96,7 @@ impl Checker {
     ) {
         let roles = &self.program.roles;
         let is_role = (roles.as_ref()).is_some_and(|roles| roles.variable == variable);
-        // A variable that is set once, or that decides nothing, is no control variable.
+        // A variable that is set once, or that decides nothing, is not a control variable.
         let is_read = self.usage.used.contains(&Entity::Variable(variable));
         let Type::Enum(id) = self.program[variable].ty else {
             return;

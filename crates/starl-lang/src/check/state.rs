@@ -181,7 +181,7 @@ impl Checker {
 
     /// At each import of a library that has errors.
     fn report_broken_libraries(&mut self) {
-        // Libraries come after what imports them, circles aside.
+        // Libraries come after what imports them, except in circles.
         for number in (0..self.files.len()).rev() {
             let broken: Vec<(Span, String)> = (self.files[number].scope.iter())
                 .filter_map(|(name, declared)| match declared.entity {

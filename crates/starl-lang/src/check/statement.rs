@@ -228,7 +228,7 @@ impl Checker {
             ExpressionKind::Primitive { member, .. } => member.purity != Purity::Effect,
             _ => true,
         };
-        // The parser reports what is no call at all.
+        // The parser reports everything that is not a call.
         let is_call = matches!(node.expression(), Some(ast::Expression::Call(_)));
         if is_idle && is_call && !value.ty.has_error() {
             let problem = Diagnostic::new(Code::UnusedValue, span, "the value of this is not used");

@@ -54,7 +54,7 @@ const FOREIGN: &[(&str, &str)] = &[
 ];
 
 impl Checker {
-    /// Gives all declarations their types, constants aside, which have those of their values.
+    /// Gives all declarations except constants their types; a constant has that of its value.
     pub fn resolve_types(&mut self) {
         for number in 0..self.nodes.records.len() {
             self.record_fields(RecordId(number as u32));

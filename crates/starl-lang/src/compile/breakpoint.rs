@@ -46,7 +46,7 @@ pub fn with_value(
         span.start = span.start.saturating_sub(start);
         span.end = span.end.saturating_sub(start);
     }
-    // An expression of another type than Bool is no property.
+    // An expression of another type than Bool is not a property.
     match bytecode.properties.pop().map(|value| value.claim) {
         Some(Claim::Eventually { holds, .. }) => Ok((bytecode, holds)),
         _ => Err(Vec::from([no_room(expression)])),
@@ -99,7 +99,7 @@ fn moved(mut problem: Diagnostic, part: Span) -> Diagnostic {
     for label in &mut problem.labels {
         label.span = span(label.span);
     }
-    // A change of the program is no way to fix the condition.
+    // A change of the program cannot fix the condition.
     problem.fix = problem
         .fix
         .filter(|fix| fix.edits.iter().all(|edit| inside(&edit.span)));

@@ -158,7 +158,7 @@ fn valid(name: &str) -> Result<(), String> {
         return Err("`_` stands for an unused value".into());
     }
     if SyntaxKind::keyword(name).is_some() {
-        return Err(format!("`{name}` is a word of the language"));
+        return Err(format!("`{name}` is a keyword"));
     }
     Ok(())
 }

@@ -68,7 +68,7 @@ pub(super) fn pieces(parse: &Parse) -> Vec<Piece> {
     walk.pieces
 }
 
-/// The lines, as parts of the text by rising place, for which it is not known what white space means.
+/// The lines, as parts of the text in ascending order, in which the meaning of white space is unknown.
 fn errors(parse: &Parse, root: &SyntaxNode) -> Vec<Span> {
     let known = [Code::TabIndentation, Code::MissingHeader];
     let errors = parse

@@ -89,7 +89,7 @@ impl core::error::Error for RuntimeError {}
 pub enum LoadError {
     /// The host offers no function that an import names.
     UnknownImport(String),
-    /// A model is no network that robots can evaluate.
+    /// A model is not a network that robots can evaluate.
     Model {
         /// Its path.
         path: String,

@@ -45,7 +45,7 @@ impl Pace {
     ) -> Result<(), RuntimeError> {
         self.held_since = Some(now);
         let every = duration(action.every, machine)?;
-        // Activations do not come at multiples of the time; the mean is kept all the same.
+        // Activations do not come at multiples of the time; the mean is correct nevertheless.
         let late = self
             .waited(now)
             .and_then(|waited| waited.0.checked_sub(every.0));

@@ -310,7 +310,7 @@ fn handle_reports(
     Ok(())
 }
 
-/// Not derived: which primitives a program holds its code says, and what they do is told to the program.
+/// Not derived: which primitives a program holds its code says, and their events are passed to the program.
 impl Primitives for RobotProgram {
     fn primitives(&mut self, visit: &mut dyn FnMut(&mut dyn Primitive)) {
         let forms = self.code.instances().iter();

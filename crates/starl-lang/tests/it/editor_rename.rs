@@ -56,10 +56,10 @@ fn to_its_own_name_changes_nothing() {
 fn invalid_names_are_rejected() {
     for name in ["", "1a", "a b", "a-b", "\u{e4}", "a\n"] {
         let reason = refused(COUNTER, name);
-        assert!(reason.contains("is no name"), "{reason}");
+        assert!(reason.contains("is not a name"), "{reason}");
     }
-    assert_eq!(refused(COUNTER, "if"), "`if` is a word of the language");
-    assert_eq!(refused(COUNTER, "_"), "`_` stands for what is not wanted");
+    assert_eq!(refused(COUNTER, "if"), "`if` is a keyword");
+    assert_eq!(refused(COUNTER, "_"), "`_` stands for an unused value");
 }
 
 #[test]
@@ -69,10 +69,7 @@ fn a_name_that_is_taken_is_refused() {
         "`count` cannot become `limit_of`: the name `limit_of` is taken (line 3)"
     );
     let reason = refused(COUNTER, "Point");
-    assert!(
-        reason.contains("`Point` has a meaning of its own"),
-        "{reason}"
-    );
+    assert!(reason.contains("`Point` is a built-in name"), "{reason}");
 }
 
 #[test]
@@ -123,7 +120,7 @@ fn built_in_names_cannot_be_renamed() {
     assert_eq!(reason, "the library `geometry` has the name of its file");
     assert_eq!(
         refused("program P\n$0\n", "b"),
-        "there is no name here that is known"
+        "there is no known name here"
     );
 }
 

@@ -141,7 +141,7 @@ fn every_page_is_true() {
             Err(problem) => problems += &format!("{code}: {problem}\n"),
             Ok(now) if now == page => {}
             Ok(now) if bless => fs::write(&path, now).expect("a page that can be written"),
-            Ok(now) => problems += &format!("{code}: BLESS=1 writes it anew:\n{now}\n"),
+            Ok(now) => problems += &format!("{code}: BLESS=1 writes it again:\n{now}\n"),
         }
     }
     assert!(problems.is_empty(), "\n{problems}");

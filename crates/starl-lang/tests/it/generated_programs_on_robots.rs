@@ -154,7 +154,7 @@ fn never_go_wrong() {
             continue;
         };
         let code = Code::load(bytecode).unwrap_or_else(|error| panic!("{error}\n{text}"));
-        // A default that is a run-time error is told at once.
+        // A default that is a run-time error is reported at once.
         if RobotProgram::new(&code, &[]).is_err() {
             continue;
         }

@@ -20,7 +20,7 @@ fn nothing_is_wrong_with_it() {
 }
 
 #[test]
-fn it_is_laid_out_as_programs_are() {
+fn it_is_formatted() {
     for (name, text) in STANDARD {
         assert_eq!(format(text), *text, "{name}");
         for line in text.lines() {

@@ -96,7 +96,7 @@ fn damaged_messages_are_ignored() {
             world.step();
         }
         let failed = world.failure(0);
-        // Damaged numbers are numbers all the same, and may be great.
+        // Damaged numbers are still numbers, and may be great.
         assert!(
             failed.is_none_or(|text| text.contains("too great")),
             "{failed:?}"

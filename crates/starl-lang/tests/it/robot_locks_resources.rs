@@ -77,5 +77,5 @@ fn a_holder_that_requests_more_gets_an_error() {
     world.steps(20);
     let text = (0..2).find_map(|robot| world.failure(robot));
     let text = text.expect("a robot stops");
-    assert!(text.contains("holds resources already"), "{text}");
+    assert!(text.contains("already holds resources"), "{text}");
 }

@@ -14,7 +14,7 @@ pub struct Given {
     pub places: Vec<Point>,
     finished: Vec<bool>,
     pub up: Vec<bool>,
-    /// The versions of the robots' states, if they are told.
+    /// The versions of the robots' states, if they are recorded.
     versions: Option<Vec<u64>>,
     pub undisturbed: Duration,
     pub uncorrupted: Duration,
@@ -242,7 +242,7 @@ fn an_eventual_condition_is_open_until_it_is_true_or_late() {
     assert_eq!(standings(&judge), [Open, Open, Holds]);
     assert_eq!(judge.standing_of(0, &[RobotId(0)]), Holds);
     assert_eq!(judge.standing_of(0, &[RobotId(1)]), Open);
-    // It came for one robot, and need not stay.
+    // It was true for one robot, and need not stay so.
     fleet.set(0, "done", Value::Bool(false));
     let violations = judge.observe(seconds(10), &fleet);
     assert_eq!(rows(&violations), [[1]]);
@@ -250,7 +250,7 @@ fn an_eventual_condition_is_open_until_it_is_true_or_late() {
     assert_eq!(violations[0].reason, Reason::NotInTime { within });
     assert_eq!(
         violations[0].to_string(),
-        "has not come true within 10s; robot 1 at (1.00, 0.00, 0.00): done = false"
+        "has not become true within 10s; robot 1 at (1.00, 0.00, 0.00): done = false"
     );
     // That of the fleet holds when it is true of all at once.
     fleet.finished = vec![true, false];

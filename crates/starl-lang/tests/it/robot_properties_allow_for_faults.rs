@@ -54,7 +54,7 @@ fn overwritten_variables_are_not_judged_for_a_while() {
             .map(|violation| violation.name.clone())
             .collect()
     };
-    // Where a robot is no fault overwrites.
+    // No fault overwrites a robot's position.
     assert_eq!(
         names(&judge.observe(seconds(5), &fleet)),
         ["near", "bodies"]

@@ -63,7 +63,7 @@ fn sensors_are_read() {
 
 #[test]
 fn each_fleet_reads_its_own_waypoints() {
-    // The list is made once for all; it must be the right one for each all the same.
+    // The list is made once for all; it must still be the right one for each.
     let code = compile(SENSES);
     let mut one = World::of(&code, 2).with_way_points(&[(1.0, 0.0)]);
     one.step();

@@ -151,7 +151,7 @@ fn every_code_has_a_case() {
             count += 1;
         }
     }
-    // A file of 16 MiB is no example for a page.
+    // A file of 16 MiB is too long for a page.
     let of_syntax = |code: &&Code| code.number()[1..].starts_with("01") && **code != Code::TooLong;
     let missing: Vec<&Code> = Code::ALL
         .iter()

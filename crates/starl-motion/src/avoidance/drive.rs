@@ -113,9 +113,9 @@ fn slowest(cell: &Cell, directions: &[Point], grazing: f64) -> f64 {
     speeds.fold(f64::INFINITY, smaller)
 }
 
-/// Where a car may go before the next estimate. It continues along its course whatever it is told, or swings off it to
-/// either side while it brakes. From a standstill its tracker chooses forwards or backwards, and its centre, which is
-/// ahead of the axle that does not steer, slips to the side that it steers to.
+/// Where a car may go before the next estimate. It continues along its course whatever its command is, or swings off it
+/// to either side while it brakes. From a standstill its tracker chooses forwards or backwards, and its centre, which
+/// is ahead of the axle that does not steer, slips to the side that it steers to.
 fn car_directions(
     body: &Body,
     pace: &Pace,

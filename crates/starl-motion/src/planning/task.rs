@@ -32,7 +32,7 @@ pub struct Task<'a> {
     pub robots: &'a [Neighbour],
     /// Where the robot starts from, at a height it can travel at.
     pub from: Point,
-    /// Where it should go, likewise.
+    /// Its goal, in the same form.
     pub target: Point,
 }
 

@@ -43,7 +43,7 @@ fn it_takes_off_before_it_travels() {
     assert!(run.distance(target) < 0.1);
 }
 
-/// How far a robot goes beyond the place where it is told, at its speed of travel, to go back.
+/// How far a robot goes past the place where, at its speed of travel, it receives the command to go back.
 fn overshoot(model: &dyn Model) -> f64 {
     let mut run = Run::new(model, ORIGIN, Positioning::EXACT, 1);
     let [there, back] = [10.0, -10.0].map(|x| model.body().reachable(Point::planar(x, 0.0)));

@@ -170,7 +170,7 @@ fn a_robot_leaves_a_narrow_passage_but_enters_no_other() {
     for room in [0.019, 0.006, 0.001] {
         for planner in PLANNERS {
             for (door, is_way) in [(0.03, true), (0.018, false)] {
-                // It stands a little aside; its target is behind a door four metres farther.
+                // It stands a little to the side; its target is behind a door four metres farther.
                 let mut case = passage(2.0 * (radius + room)).with(planner, 3);
                 case.from = Point::planar(0.5, 0.2 * room);
                 case.request.target = Point::planar(6.0, 0.0);

@@ -83,8 +83,8 @@ fn at_least(messages: impl Fn(f64) -> f64 + 'static) -> Box<dyn Fn(f64) -> Strin
 
 fn mutexes() -> Vec<Task> {
     use mutex::Algorithm::{Lease, Permission, Quorum};
-    // Request and permission; or request, grant and release. In a crowd robots that wait for a quorum are told,
-    // asked to yield, and yield.
+    // Request and permission; or request, grant and release. In a crowd robots that wait for a quorum receive
+    // that news, are asked to yield, and yield.
     let each = |algorithm| match algorithm {
         Permission => ("2", 2.0, "1", 2.0),
         Quorum => ("2", 3.0, "2", 6.0),

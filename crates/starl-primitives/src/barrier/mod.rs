@@ -94,7 +94,7 @@ struct Peer {
     echo: u32,
     /// Whether that is a token that it drew for this robot's present life.
     asks_anew: bool,
-    /// Whether it was told how far this robot is.
+    /// Whether it has received this robot's position in the barrier.
     is_told: bool,
 }
 

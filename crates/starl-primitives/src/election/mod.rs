@@ -10,7 +10,7 @@
 //!   allowed drift. A robot that is disconnected from a majority shows no leader.
 //! - `Ballots` (`ballots.rs`): each draws a number, the greatest wins, as in the thesis. In each part of a partitioned
 //!   network there is a leader.
-//! - `Bully` (`bully.rs`): the greatest robot wins, likewise.
+//! - `Bully` (`bully.rs`): the greatest robot wins as well.
 //!
 //! Connected robots show the same leader within a time that the reference gives. The leader is a
 //! participant that has called `elect`. An election that takes too long has

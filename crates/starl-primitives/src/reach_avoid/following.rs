@@ -104,7 +104,7 @@ impl ReachAvoid {
                 return true;
             }
         }
-        // Avoidance of other robots, or wind, may have pushed it aside so that the straight way to
+        // Avoidance of other robots, or wind, may have pushed it off its path so that the straight way to
         // the next point is not the one that was planned.
         let slack = 0.5 * self.options.vicinity;
         let blocked = |o: &Obstacle| blocks(o, position, route.current(), body, slack);

@@ -159,7 +159,7 @@ impl Register {
         self.options.longest_datagram.saturating_sub(FRAME_BYTES)
     }
 
-    /// Sets right what only a corruption leaves behind.
+    /// Corrects a state that only a corruption can cause.
     fn set_right(&mut self, robot: &mut Robot<'_>) {
         self.replica.refresh();
         let (fleet, participants) = (robot.fleet(), self.participants.as_ref());

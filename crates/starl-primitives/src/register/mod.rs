@@ -29,8 +29,8 @@
 //! An operation that was withdrawn, or whose robot has crashed, may still take effect later; an update only until the
 //! next one of its register is done.
 //!
-//! Messages among n participants: 2(n - 1) for a read if all agree, for a claim and for its write; else 4(n - 1). The n
-//! - 1 questions are one datagram to all. Copies that missed a write are repaired in the background (the module
+//! Messages among n participants: 2(n - 1) for a read if all agree, for a claim and for its write; else 4(n - 1). The
+//! n - 1 questions are one datagram to all. Copies that missed a write are repaired in the background (the module
 //! `gossip`), so that [`Register::known`] eventually shows it.
 //!
 //! Self-stabilising: whatever copies, tags and lives a corruption leaves behind, once a write is done all later reads

@@ -60,7 +60,7 @@ use starl_core::event::RegistrationEvent;
 use starl_core::random::hash_key;
 use starl_core::{Area, Duration, Input, Port, Primitive, Robot, RobotId, Time, TimerKey, timers};
 
-/// Times beyond this, 146 years, are no times of ours.
+/// Times beyond this, 146 years, are not valid.
 const LATEST: Time = Time(u64::MAX >> 2);
 
 /// Agreement on the participants. See the [module](self).

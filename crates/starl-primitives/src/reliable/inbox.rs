@@ -99,7 +99,7 @@ impl Sequence {
         self.release(arrived);
     }
 
-    /// Hands out what waits for nothing.
+    /// Delivers the messages that wait for no other.
     fn release(&mut self, arrived: &mut Arrived) {
         while let Some(first) = self.held.first_entry()
             && *first.key() == self.taken.next()

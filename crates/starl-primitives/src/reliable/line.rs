@@ -12,7 +12,7 @@ pub(super) const CHUNK: usize = 1000;
 /// So many datagrams are sent again at once to a receiver that answers.
 const BURST: usize = 4;
 
-/// So many robots at most are told that they need not answer.
+/// The greatest number of robots that are informed that they need not answer.
 const MOST_KNOWN: usize = 100;
 
 /// The common properties of all messages of a stream.

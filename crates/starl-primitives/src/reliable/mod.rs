@@ -56,7 +56,7 @@ timers! {
 pub struct Reliable {
     port: Port,
     options: Options,
-    /// Whether robots that have never answered may be out of reach, and are no failures.
+    /// Whether robots that have never answered may be out of reach, and are not failures.
     is_local: bool,
     incarnation: Incarnation,
     /// The messages of this robot to all.

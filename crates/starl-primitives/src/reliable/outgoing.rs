@@ -89,7 +89,7 @@ impl Receiver {
 pub(super) struct Credit {
     /// Messages that now all have taken.
     pub settled: Vec<u32>,
-    /// When the latest of those was sent that the receiver turned out to have.
+    /// The time at which the latest message was sent that the receiver is known to have.
     pub newest: Option<Time>,
 }
 

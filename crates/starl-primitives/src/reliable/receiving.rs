@@ -6,7 +6,7 @@ use super::{Alarm, Arrival, Notice, Notices, Reliable};
 use alloc::vec::Vec;
 use starl_core::{Destination, Duration, Payload, Robot, RobotId, Time, TimerKey};
 
-/// So many runs of messages are told of at once.
+/// The number of runs of messages that one acknowledgement reports.
 const MOST_RUNS: usize = 24;
 
 /// How far a stream is, as its sender says.

@@ -70,7 +70,7 @@ impl SharedMemory {
         let owner = write.single_writer.then_some(write.stamp.writer);
         let key = key(&write.variable, owner);
         let order = |write: &Write| -> (Stamp, usize) {
-            // Of two copies of a write the one with fewer dependencies is the one that was set right.
+            // Of two copies of a write the one with fewer dependencies is the corrected one.
             let count = write.depends.as_ref().map_or(0, Vec::len);
             (write.stamp, usize::MAX - count)
         };

@@ -75,7 +75,8 @@ fn an_unordered_broadcast_breaks_it() {
     assert_eq!(broken.count(), 20);
 }
 
-/// Robot 0 tells robot 1, which tells robot 2 of it; robot 2 does not hear robot 0, and what it is told is on its way.
+/// Robot 0 tells robot 1, which tells robot 2 of it; robot 2 does not hear robot 0, and the message to it is on its
+/// way.
 fn hearsay_begins(seed: u64) -> World {
     let mut world = world(3, seed, Wire::perfect(), 0);
     for robot in 0..3 {
@@ -89,7 +90,7 @@ fn hearsay_begins(seed: u64) -> World {
     world
 }
 
-/// The same, and robot 2 was told.
+/// The same, after robot 2 has received the message.
 fn hearsay(seed: u64) -> World {
     let mut world = hearsay_begins(seed);
     world.run_for(Duration::from_seconds(1));

@@ -44,7 +44,7 @@ fn after_garbage_it_continues() {
             sent.extend(world.payloads_from(read));
             read = world.records.len();
             let message = Message {
-                // The last is no robot of the fleet.
+                // The last is not a robot of the fleet.
                 from: RobotId(random.below(5)),
                 port: Port::named("lock"),
                 payload: garbage(&sent, &mut random).into(),

@@ -15,7 +15,7 @@ fn busy(algorithm: Algorithm, count: usize, seed: u64, wire: Wire) -> World {
     World::new(count, seed, wire, PERIOD, Locker::boxed(algorithm, true))
 }
 
-/// Robots that do what they are told, once they can.
+/// Robots that follow their orders, once they can.
 fn calm(algorithm: Algorithm, count: usize) -> World {
     let boxed = Locker::boxed(algorithm, false);
     let mut world = World::new(count, 1, Wire::perfect(), PERIOD, boxed);

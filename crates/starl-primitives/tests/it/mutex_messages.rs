@@ -79,7 +79,7 @@ fn an_entry_takes_the_messages_of_theory() {
                 (alone.0 - each * asked).abs() < 0.01,
                 "{algorithm:?} {count}: {alone:?}"
             );
-            // In addition, with quorums waiting robots are told, asked to yield, and yield: at most twice as
+            // In addition, with quorums waiting robots are informed, asked to yield, and yield: at most twice as
             // many. A crowd of a hundred waits so long that requests are repeated.
             let most = match algorithm {
                 Algorithm::Permission => 2.0,

@@ -128,7 +128,7 @@ fn writing_the_read_value_after_a_restart_is_a_write() {
     }
 }
 
-/// In both of its lives a robot whose clock is behind is told of the same reading of another clock, and continues from
+/// In both of its lives a robot whose clock is behind receives the same reading of another clock, and continues from
 /// there. The first life's write is known to one robot, which the second life does not hear.
 #[test]
 fn two_lives_that_continue_from_one_reading_have_different_stamps() {

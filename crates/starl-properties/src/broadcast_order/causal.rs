@@ -53,7 +53,7 @@ impl Causality {
         known.insert((robot, key.incarnation), key.number);
     }
 
-    /// Notes the life of a message that a robot was handed or passed over.
+    /// Records the incarnation of a message that a robot delivered or skipped.
     fn settle(&mut self, robot: RobotId, process: Process) {
         let life = self.lives.get(&process).copied().unwrap_or(0);
         let latest = self.latest.entry((robot, process.0)).or_insert(life);

@@ -47,7 +47,7 @@ struct Instance {
     is_total: bool,
     /// The last message that each process has sent.
     sent: BTreeMap<Process, u32>,
-    /// The last message of each process that each robot was handed.
+    /// The last message of each process that each robot delivered.
     handed: BTreeMap<RobotId, BTreeMap<Process, u32>>,
     /// For causal order.
     causality: Option<Causality>,

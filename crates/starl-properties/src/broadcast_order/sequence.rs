@@ -22,7 +22,7 @@ struct Run {
     count: u64,
     /// The last one, unless there is a gap after it.
     last: Option<MessageKey>,
-    /// By the other run: the last place here of a message that both were handed.
+    /// By the other run: the last place here of a message that both delivered.
     common: BTreeMap<u64, u64>,
 }
 
@@ -79,7 +79,7 @@ impl Sequences {
             let Some(&there) = other.places.get(&key) else {
                 continue;
             };
-            // The place there, and here, of the last message that both were handed.
+            // The place there, and here, of the last message that both delivered.
             let last_there = other.common.get(&number).copied();
             if last_there.is_some_and(|last| last >= there) {
                 let other = other.robot.unwrap_or(robot);
@@ -106,7 +106,7 @@ impl Sequences {
         self.runs.insert(number, run);
     }
 
-    /// A robot was handed one message right after another.
+    /// A robot delivered one message right after another.
     fn follows(
         &mut self,
         last: MessageKey,

@@ -26,7 +26,7 @@ pub(super) struct Waiting {
     since: Time,
     /// When something last happened that it may have waited for.
     changed: Time,
-    /// How often each robot has come to hold what this one waits for.
+    /// How often each robot has acquired the set that this one waits for.
     overtaken: BTreeMap<RobotId, u32>,
     /// The time, and the robot that overtook it once too often.
     starved: Option<(Time, RobotId)>,

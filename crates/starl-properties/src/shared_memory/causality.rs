@@ -45,7 +45,7 @@ struct Memory {
     past: BTreeMap<Element, BTreeMap<Stamp, Arc<Shown>>>,
 }
 
-/// A robot has come to show a write.
+/// A robot shows a write from now on.
 #[derive(Clone, Debug)]
 struct Update {
     at: Time,

@@ -74,7 +74,7 @@ fn a_senders_messages_are_delivered_in_order() {
     assert_only(&story.verdict(9000), "broadcast.fifo", 1200, &[1, 0]);
 }
 
-/// Robot 0 sends, robot 1 answers, robot 2 is handed the answer.
+/// Robot 0 sends, robot 1 answers, robot 2 delivers the answer.
 fn answer() -> Story {
     let mut story = story();
     sends(&mut story, 1000, 0, 1, "causal");
@@ -116,7 +116,7 @@ fn messages_that_were_passed_over_are_not_delivered() {
     );
 }
 
-/// Robot 0 sends a message in each of two lives; robot 1 is handed both and sends one.
+/// Robot 0 sends a message in each of two lives; robot 1 delivers both and sends one.
 fn two_lives() -> Story {
     let mut story = story();
     sends(&mut story, 1000, 0, 1, "causal");
@@ -177,7 +177,7 @@ fn concurrent_messages_may_be_delivered_in_any_order() {
     assert_none(&story.verdict(9000));
 }
 
-/// Robots 0 and 1 each send a message, which all are handed in the order of `places`.
+/// Robots 0 and 1 each send a message, which all deliver in the order of `places`.
 fn ordered(places: [[(u32, u32); 2]; 3]) -> Story {
     let mut story = story();
     for robot in 0..3 {

@@ -292,7 +292,7 @@ fn garbage_that_spreads_must_reach_all() {
     assert_only(&story.verdict(60_000), PROPERTY, 8000, &[3, 2]);
 }
 
-/// A scenario in which no two partitions are a bound apart is judged all the same.
+/// A scenario in which no two partitions are a bound apart is judged too.
 #[test]
 fn constant_partitions_do_not_excuse_those_that_hear_each_other() {
     let mut story = robot_2_shows_nothing();

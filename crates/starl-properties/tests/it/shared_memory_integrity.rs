@@ -96,7 +96,7 @@ fn other_faults_excuse_nothing() {
     }
 }
 
-/// Everyone has long shown later writes, so a datagram that was under way all that time is no forgery; what
+/// Everyone has long shown later writes, so a datagram that was under way all the time is not a forgery; what
 /// is forgotten counts as written.
 #[test]
 fn old_writes_need_not_be_remembered() {

@@ -32,7 +32,7 @@ pub struct Shard {
     /// The requests of robots to their grippers in this step.
     pub grips: Vec<Grip>,
     pub posted: Vec<Posted>,
-    /// When something happens to each robot next, arrivals of datagrams aside.
+    /// The time of each robot's next event, except arrivals of datagrams.
     due: Vec<Time>,
     /// The earliest of these.
     earliest: Time,

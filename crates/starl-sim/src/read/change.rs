@@ -102,7 +102,7 @@ fn add_schedule(table: &mut Table, name: &str, entry: Entry) {
     };
     match (there, entry.node.value) {
         (Value::List(list), Value::List(more)) => list.extend(more),
-        // Whichever is no list stays, and is reported when it is read.
+        // A value that is not a list stays, and is reported when it is read.
         (there @ Value::List(_), other) => *there = other,
         _ => {}
     }

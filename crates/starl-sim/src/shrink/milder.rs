@@ -58,7 +58,7 @@ const CHANGES: &[Change] = &[
         )
     },
     |scenario| {
-        // An exponential delay is no shorter than its jitter.
+        // An exponential delay is not shorter than its jitter.
         let link = &mut scenario.network.link;
         let default = Link::default();
         link.delay > default.delay && set(&mut link.delay, default.delay) && {

@@ -23,7 +23,7 @@ fn wall(x: f64) -> Obstacle {
     Obstacle::polygon(ConvexPolygon::rectangle(low, high).expect("a rectangle"))
 }
 
-/// Reports what it is told, and does what it is told: an order `take` or `put_down` moves the gripper.
+/// Reports its orders, and obeys them: an order `take` or `put_down` moves the gripper.
 #[derive(Clone, Primitives)]
 struct Listener;
 

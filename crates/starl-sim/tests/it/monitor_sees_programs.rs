@@ -17,7 +17,7 @@ impl Program for Counter {
     fn activate(&mut self, robot: &mut Robot<'_>) {
         self.0 += 1;
         if self.0 == 3 && robot.id().0 == 1 {
-            robot.fail("it cannot go on");
+            robot.fail("it cannot continue");
         }
     }
 
@@ -136,6 +136,6 @@ fn a_program_that_failed_is_named_with_its_reason() {
     };
     assert_eq!(failure.robot, starl_core::RobotId(1));
     assert_eq!(failure.at, Time(200_000_000));
-    assert_eq!(failure.text, "it cannot go on");
+    assert_eq!(failure.text, "it cannot continue");
     assert_eq!(run.outcome(), Outcome::Failed);
 }

@@ -119,7 +119,7 @@ fn a_smaller_fleet_leaves_starts_unused_and_a_new_model_gets_places() {
         .map(|id| scenario.fleet.name(RobotId(id)))
         .collect();
     assert_eq!(names, ["quadcopter0", "car0", "car1"]);
-    // The starts of robots that do not take part are no waypoints either.
+    // The starts of robots that do not take part are not waypoints either.
     assert_eq!(scenario.world.way_points.len(), 4);
     assert!(
         scenario

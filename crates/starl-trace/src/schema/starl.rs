@@ -60,7 +60,7 @@ fn description(topic: Topic) -> &'static str {
         }
         Topic::Fault => "A fault set in or was healed",
         Topic::Discovered => "The robot met an obstacle that it did not know",
-        Topic::Status => "The program has reached its goal, or cannot go on",
+        Topic::Status => "The program has reached its goal, or cannot continue",
         Topic::Violation => "A property does not hold",
         Topic::Thing => "The robot took hold of a thing, or put it down",
         Topic::Intervention => "The run is steered from outside",
@@ -153,7 +153,7 @@ fn own_members(topic: Topic) -> Vec<Member<'static>> {
                 "status",
                 word("whether the goal was reached", &["finished", "failed"]),
             ),
-            maybe("reason", string("why the program cannot go on")),
+            maybe("reason", string("why the program cannot continue")),
         ],
         Topic::Violation => vec![
             always("property", string("which property")),

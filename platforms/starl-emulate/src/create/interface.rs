@@ -23,7 +23,7 @@ pub(super) struct Interface {
     wheels: [i16; 2],
     /// The last [`OpenInterface::Drive`].
     drive: [i16; 2],
-    /// Millimetres and degrees that packets have told of.
+    /// Millimetres and degrees that packets have reported.
     told: [i64; 2],
     stream: Vec<u8>,
     streaming: bool,
@@ -215,7 +215,7 @@ impl Interface {
         i32::from(bits)
     }
 
-    /// The whole units that packets have not told of yet.
+    /// The whole units that packets have not reported yet.
     fn untold(&mut self, which: usize, total: f64) -> i32 {
         let new = (total.trunc() as i64 - self.told[which]).clamp(-32_768, 32_767);
         self.told[which] += new;

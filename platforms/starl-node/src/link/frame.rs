@@ -25,7 +25,7 @@ pub enum Frame {
     Status(Box<Status>),
     /// An operator stops a robot: its motors at once, then its process.
     Halt,
-    /// The answer: the motors were told to stop.
+    /// The answer: the motors received the command to stop.
     Halted,
     /// An operator's order to the program.
     Order(starl_core::Order),

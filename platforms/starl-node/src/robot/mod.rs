@@ -114,7 +114,8 @@ pub trait Recorder {
     /// All events until now have been recorded.
     fn advance(&mut self, now: Time);
 
-    /// All that was told must survive the process from now on: something is about to leave the robot that shows it.
+    /// Everything that was recorded must survive the process from now on: something is about to leave the robot that
+    /// shows it.
     fn commit(&mut self) {}
 
     /// The person in front of the robot should know this.

@@ -9,10 +9,10 @@ use starl_host::Observed;
 use std::collections::BTreeMap;
 use std::mem;
 
-/// An operator that does not ask again is told no more after this long.
+/// The time after which an operator that does not ask again receives no more.
 const INTEREST: Duration = Duration::from_millis(3000);
 
-/// Operators are told this often.
+/// How often operators receive the state.
 const PERIOD: Duration = Duration::from_millis(50);
 
 /// A packet of events is about as long, bytes: what a network carries in one piece.

@@ -100,7 +100,7 @@ impl Signature {
         if reader.eat(if signature.is_call { "->" } else { ":" }) {
             signature.result = reader.shape();
         }
-        assert!(reader.rest().is_empty(), "a signature goes on: {text}");
+        assert!(reader.rest().is_empty(), "text after a signature: {text}");
         signature
     }
 

@@ -59,7 +59,7 @@ impl<'p> Body<'_, 'p> {
         Ok(())
     }
 
-    /// A text whose `{}` stand for the values. Values without one are computed all the same.
+    /// A text whose `{}` stand for the values. Values without one are computed too.
     fn format(
         &mut self,
         pieces: &'p str,

@@ -111,5 +111,5 @@ pub fn draw_nothing(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Ca
 /// The program ends here, without the following statements.
 pub fn fail(host: &mut RobotHost<'_, '_>, call: &mut HostCall<'_>) -> Called {
     host.failure = Some(Arguments::of(call).text().into());
-    Err("the program cannot go on".into())
+    Err("the program cannot continue".into())
 }

@@ -35,7 +35,7 @@ impl PrimitiveSlot {
     }
 }
 
-/// Shows the primitive alone: the rest follows from it, or makes no difference.
+/// Shows the primitive alone: the rest follows from it, or has no effect.
 impl fmt::Debug for PrimitiveSlot {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.bound.fmt(f)

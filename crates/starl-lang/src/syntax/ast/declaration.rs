@@ -127,7 +127,7 @@ impl VariableDeclaration {
 }
 
 impl SharedDeclaration {
-    /// Whether each robot writes its own element (`allread`), instead of all the same variable.
+    /// Whether each robot writes its own element (`allread`), instead of one shared variable.
     #[must_use]
     pub fn is_single_writer(&self) -> bool {
         let first = tokens(&self.0).next();

@@ -31,7 +31,7 @@ log(\"{}\", y)";
 
 #[test]
 fn indices_are_evaluated_before_the_value() {
-    // Draws of random numbers are told in their order.
+    // Draws of random numbers are recorded in their order.
     let body = "
 a[random_int(0, 1)] = random_int(1, 2)
 a[random_int(2, 3)] += random_int(3, 4)

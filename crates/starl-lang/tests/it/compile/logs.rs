@@ -24,7 +24,7 @@ fn each_placeholder_shows_the_next_value() {
 
 #[test]
 fn places_and_values_that_do_not_match() {
-    // They are warned of; values are computed all the same.
+    // The checker warns of them; values are computed too.
     let told = effect(
         "",
         "log(\"{} {}\", 1)\nlog(\"{}\", 1, random_int(0, 9))\nlog(\"none\", 1)",

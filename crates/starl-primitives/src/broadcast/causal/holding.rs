@@ -115,7 +115,7 @@ impl Causal {
         self.hand_out_ready(robot);
     }
 
-    /// Hands out a sender's first message; what it comes after and has not come is passed over.
+    /// Delivers a sender's first message; messages before it that have not arrived are skipped.
     fn hand_out(&mut self, robot: &mut Robot<'_>, from: RobotId) {
         let Some(held) = self.held.get_mut(&from).and_then(|held| held.pop_front()) else {
             return;
@@ -164,7 +164,7 @@ impl Causal {
         if !is_missed {
             return;
         }
-        // To a robot that joins late what was sent before is no loss.
+        // A robot that joins late has not lost the messages that were sent before.
         let mut is_joined = self.vector.is_joined(from);
         match self.vector.standing(process) {
             Standing::Present(_) => {

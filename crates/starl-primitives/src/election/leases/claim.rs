@@ -1,4 +1,4 @@
-//! Standing for election, and leading.
+//! Being a candidate, and leading.
 //!
 //! Invariant: this robot leads until one term after it sent the latest claim that a majority, including
 //! itself, has granted. A leadership that was given up is never resumed: each leadership has its own epoch.

@@ -57,7 +57,7 @@ impl Arbitration {
         if !request.is_entered {
             return self.make_request(common, robot, clock, resources);
         }
-        // All arbiters learn of what is held, and are told when it is given back.
+        // All arbiters receive the set that is held, and a message when it is released.
         self.request = Some(request.of_others(&self.everyone, self.list));
     }
 

@@ -35,7 +35,7 @@ pub(super) struct Terms {
     pub patience_waiting: Duration,
     /// The robot for which it waits before it grants anything; none if it is ready.
     pub unready: Option<RobotId>,
-    /// Whether waiting robots are told for which robots they wait.
+    /// Whether waiting robots receive the names of the robots that they wait for.
     pub tells: bool,
 }
 

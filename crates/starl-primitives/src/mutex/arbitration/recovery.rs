@@ -14,7 +14,7 @@
 //! If there cannot be so many, because a majority has forgotten, the last number may be unknown. A robot assumes
 //! this only if it has seen it: a majority, including itself, that remembered nothing at one moment, because each
 //! reported this in the same life before it and after it. This is also the case when the fleet is new. Then numbers
-//! continue from the time in milliseconds, the latest of those that have forgotten: no counting is as fast, so they
+//! continue from the time in milliseconds, the latest among those that have forgotten: no counting is as fast, so they
 //! grow unless clocks are wrong. The robot waits for silent robots, whether they are down or disconnected.
 //!
 //! After a change of participants all of the new ones must answer, after they have changed too: two

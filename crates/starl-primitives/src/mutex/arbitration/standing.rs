@@ -12,7 +12,7 @@ use starl_core::RobotId;
 #[derive(Debug)]
 pub(super) struct Standing {
     pub robot: RobotId,
-    /// An earlier request that it waits for, if the robot is still to be told of one.
+    /// An earlier request that it waits for, if the robot has not been informed of it yet.
     pub behind: Option<RobotId>,
     /// Whether it is its turn, and nothing in the way.
     pub is_next: bool,

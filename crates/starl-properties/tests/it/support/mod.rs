@@ -5,7 +5,7 @@ use starl_core::motion::{Body, Workspace};
 use starl_core::{Area, Destination, Duration, Obstacle, Point, Port, Pose, Record, RobotId, Time};
 use starl_properties::{Checker, Excuse, Setting, Violation, Watch, checkers};
 
-/// The engine's step: how often checkers are told the time.
+/// The engine's step: how often checkers receive the time.
 const STEP_MS: u64 = 25;
 
 /// A ground robot.

@@ -98,7 +98,7 @@ impl Layout<'_, '_> {
         }
     }
 
-    /// Goes on in a new line, at least so far to the right.
+    /// Continues in a new line, indented at least this far.
     fn line_break(&mut self, least: usize) {
         let column = least + self.choices.below(12);
         self.text.push('\n');

@@ -283,7 +283,7 @@ fn part<'v>(whole: &'v mut Value, way: &[Way], may_be_new: bool) -> Outcome<&'v 
     part(inner, rest, may_be_new)
 }
 
-/// Does something with a part of a value. A coordinate is no value of its own: it is taken out and put
+/// Does something with a part of a value. A coordinate is not a separate value: it is read and written
 /// back.
 fn with_part<T>(
     whole: &mut Value,
