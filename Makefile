@@ -107,7 +107,7 @@ trace: $(STARL)
 	$(VENV)/python crates/starl-trace/tests/python/read_trace.py target/race.mcap target/every_event.mcap
 	$(VENV)/python crates/starl-trace/tests/python/documentation.py target/race.mcap
 
-# The schema of scenarios, by a validator that is not ours: it takes every example and refuses what is wrong.
+# The schema of scenarios, by a validator that is not ours: it accepts every example and rejects invalid scenarios.
 schema: $(STARL)
 	$(VENV)/python tools/check_schema.py $(STARL)
 

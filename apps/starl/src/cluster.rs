@@ -56,7 +56,8 @@ enum Answer {
 const PATIENCE: Duration = Duration::from_millis(100);
 
 impl Cluster {
-    /// Connects to the cluster that the arguments name, if they name one. Gives none also when `stop` is set before.
+    /// Connects to the cluster that the arguments name, if they name one. Returns `None` also when `stop` is set
+    /// before.
     pub fn connect(
         arguments: &ClusterArguments,
         stop: &AtomicBool,

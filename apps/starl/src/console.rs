@@ -13,7 +13,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
         .write_all(text.as_bytes())
         .and_then(|()| output.flush());
     match written {
-        // Nothing can be told to a reader who is gone.
+        // A closed output cannot be written to.
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure(format!(
             "standard output: cannot be written: {}",
             reason(&error)

@@ -146,7 +146,7 @@ impl CommandLine {
     }
 }
 
-/// Says what is wrong with the arguments, or what was asked for, such as the help.
+/// Prints an error in the arguments, or the text that was requested, such as the help.
 fn refuse(error: &clap::Error) -> ExitCode {
     let argument = error.get(ContextKind::InvalidArg);
     if let (ErrorKind::UnknownArgument, Some(ContextValue::String(word))) = (error.kind(), argument)

@@ -277,7 +277,7 @@ impl Walk {
         }
     }
 
-    /// All that is on its way has been so for a tick more.
+    /// Everything that is on its way has been so for a tick more.
     fn grow_old(&mut self) -> Vec<Record> {
         let Clocks::Ticking {
             delay: Some(delay), ..

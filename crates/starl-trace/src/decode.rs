@@ -11,7 +11,7 @@ use starl_core::event::{DropReason, Hit, Level, Mark, Name};
 use starl_core::event::{Fault, PrimitiveEvent};
 use starl_core::{Destination, Event, Intervention, Payload, Point, Port, Pose, RobotId};
 
-/// A decoded message: on which robot, and what happened. The error says what is wrong with it.
+/// A decoded message: on which robot, and what happened. The error names the problem.
 type Decoded = Result<(Option<RobotId>, Event), String>;
 
 /// Reads the message of a topic that carries events.

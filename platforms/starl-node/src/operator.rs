@@ -64,7 +64,7 @@ impl Operator {
         answers.into_iter().filter_map(status).collect()
     }
 
-    /// Stops robots: their motors at once, then their processes. Gives those that have confirmed it.
+    /// Stops robots: their motors at once, then their processes. Returns those that have confirmed it.
     pub fn halt(&mut self, robots: &[Member], patience: Duration) -> Vec<Member> {
         let answers = self.question(robots, &Frame::Halt, patience);
         answers.into_keys().collect()

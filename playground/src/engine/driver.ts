@@ -33,7 +33,7 @@ export class Driver {
   #position = 0;
   #recorded = 0;
   #lastFrame = -1;
-  /** All that the page has applied, in that order. */
+  /** Everything that the page has applied, in that order. */
   #interventions: { at: number; intervention: Intervention }[] = [];
   #snapshots: Snapshots;
   #inspected: number[] = [];

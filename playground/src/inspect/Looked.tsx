@@ -1,4 +1,5 @@
-// All that is known of the chosen robots at the moment shown, beside each other, with what has just changed marked.
+// Everything that is known of the chosen robots at the moment shown, beside each other, with what has just changed
+// marked.
 
 import { signal, useSignal } from "@preact/signals";
 import { colorOf } from "../app/colors.ts";

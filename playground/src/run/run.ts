@@ -197,12 +197,12 @@ export class Run {
     this.breakpoints.value = breakpoints;
   }
 
-  /** Steers the run now. Throws an EngineError that says what is wrong. */
+  /** Steers the run now. Throws an EngineError with the reason. */
   apply(intervention: Intervention): Promise<void> {
     return this.client.ask({ apply: intervention });
   }
 
-  /** The scenario with all that was applied, as the text of a file. */
+  /** The scenario with everything that was applied, as the text of a file. */
   scenario(): Promise<string> {
     return this.client.ask<string>({ scenario: true });
   }

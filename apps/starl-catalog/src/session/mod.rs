@@ -60,7 +60,7 @@ pub struct Session {
     interrupt: Arc<AtomicBool>,
 }
 
-/// All that changes as time continues. A copy continues exactly as the original would.
+/// Everything that changes as time continues. A copy continues exactly as the original would.
 #[derive(Clone)]
 struct Live {
     run: Run,
@@ -222,9 +222,9 @@ impl Session {
         }
     }
 
-    /// Makes physics steps until the run is over, the budget is spent, a breakpoint is met, or it is interrupted. With a
-    /// period to `sample` by, which must not be zero, it keeps a frame after each step that reaches or passes a multiple
-    /// of the period, see [`Session::take_frames`].
+    /// Makes physics steps until the run is over, the budget is spent, a breakpoint is met, or it is interrupted. With
+    /// a period to `sample` by, which must not be zero, it keeps a frame after each step that reaches or passes a
+    /// multiple of the period, see [`Session::take_frames`].
     pub fn advance(&mut self, budget: Budget, sample: Option<Duration>) -> Status {
         let mut steps = 0;
         let live = &mut self.live;
@@ -349,8 +349,8 @@ impl Session {
 }
 
 impl Live {
-    /// Makes a step, of whose records it keeps those of some topics, and no more than so many; gives the breakpoint that
-    /// was met in it.
+    /// Makes a step, of whose records it keeps those of some topics, and no more than so many; gives the breakpoint
+    /// that was met in it.
     fn step(
         &mut self,
         (topics, most): (Option<&BTreeSet<Topic>>, usize),

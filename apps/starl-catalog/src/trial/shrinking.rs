@@ -24,8 +24,8 @@ pub struct Shrinking {
     answers: Answers,
 }
 
-/// When each scenario failed that a search tried so far, in order. The search depends on nothing else, so it can be made in
-/// one process and its result taken in another.
+/// When each scenario failed that a search tried so far, in order. The search depends on nothing else, so it can be
+/// made in one process and its result taken in another.
 pub type Answers = Vec<Option<Time>>;
 
 /// A scenario that fails, as small as it was found.
@@ -129,10 +129,10 @@ impl Shrinking {
         Size::of(&self.original)
     }
 
-    /// Tries `most` scenarios in all, at least one; those that were tried by earlier calls are not run again. `loader` is
-    /// for the files that they name; `watch` sees each before it runs, and ends the search by returning false.
+    /// Tries `most` scenarios in all, at least one; those that were tried by earlier calls are not run again. `loader`
+    /// is for the files that they name; `watch` sees each before it runs, and ends the search by returning false.
     ///
-    /// Gives none if the scenario does not fail when it is read from a file of its own.
+    /// Returns `None` if the scenario does not fail when it is read from a file of its own.
     pub fn search(
         &mut self,
         most: u64,

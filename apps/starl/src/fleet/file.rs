@@ -53,8 +53,8 @@ struct Link {
     /// The network; default UDP.
     #[serde(default)]
     kind: LinkKind,
-    /// With Zenoh: a router that all robots are clients of, e.g. `tcp/192.168.0.1:7447`; default none, robots connect to
-    /// each other.
+    /// With Zenoh: a router that all robots are clients of, e.g. `tcp/192.168.0.1:7447`; default none, robots connect
+    /// to each other.
     router: Option<String>,
     /// With Zenoh: certificates.
     tls: Option<Tls>,
@@ -473,7 +473,7 @@ fn safety(path: &Path, written: &Safety, period: Duration) -> Result<starl_node:
     })
 }
 
-/// Names the line of what is wrong.
+/// Adds the line of the error.
 fn malformed(path: &Path, text: &str, error: &toml::de::Error) -> Failure {
     let before = error
         .span()

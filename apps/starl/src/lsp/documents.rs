@@ -27,7 +27,7 @@ struct Document {
     text: Rc<str>,
     /// The analysis; none if it, or an imported library, may have changed.
     checked: RefCell<Option<Rc<Checked>>>,
-    /// Whether the editor has been told what is wrong with it.
+    /// Whether its diagnostics have been sent to the editor.
     is_told: bool,
 }
 

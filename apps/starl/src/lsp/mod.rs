@@ -42,7 +42,7 @@ fn serve(incoming: &Receiver<Incoming>, session: &mut Session) -> io::Result<boo
             Ok(message) => message,
             Err(TryRecvError::Disconnected) => return Ok(false),
             Err(TryRecvError::Empty) => {
-                // Nothing is waiting: time to say what is wrong with what was typed.
+                // No message is waiting: the diagnostics of the edited text are sent.
                 session.publish()?;
                 match incoming.recv() {
                     Ok(message) => message,

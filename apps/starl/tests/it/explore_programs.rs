@@ -114,7 +114,7 @@ fn a_violation_is_saved_and_can_be_replayed() {
     assert_eq!(status(&drawn), 1, "{}", stderr(&drawn));
     let drawing = std::fs::read_to_string(folder.join("way.svg")).expect("it was drawn");
     assert!(drawing.contains("Polite.exclusion"), "{drawing}");
-    // The file is all that is needed.
+    // No other file is needed.
     std::fs::remove_file(folder.join("polite.starl")).expect("it is there");
     let again = starl(&folder, &["explore", "--replay", kept]);
     assert_eq!(status(&again), 1, "{}", stderr(&again));

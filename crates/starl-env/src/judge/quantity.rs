@@ -265,7 +265,7 @@ impl Source {
         }
     }
 
-    /// Gives the value of each robot.
+    /// Evaluates it for each robot.
     fn fill(
         self,
         world: &World,

@@ -48,7 +48,7 @@ impl Explorer {
         }
     }
 
-    /// All that is due now: first datagrams, then timers, then activations.
+    /// Everything that is due now: first datagrams, then timers, then activations.
     fn moment(&mut self) {
         let is_due = |(at, datagram): &(u64, Datagram), host: &Explorer| {
             *at <= host.now && host.walk.scene().is_up(datagram.to)

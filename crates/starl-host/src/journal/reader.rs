@@ -1,4 +1,4 @@
-//! Gives back what a journal holds.
+//! Reads the contents of a journal.
 
 use super::batch::Frame;
 use super::knowledge::Knowledge;

@@ -91,7 +91,7 @@ fn conjunct(condition: &Expression, text: &str, source: &str) -> Option<Span> {
     }
 }
 
-/// All that the condition decides over which a node is a part of.
+/// Everything that the condition decides over which a node is a part of.
 fn whole(node: SyntaxNode) -> SyntaxNode {
     let mut scope = node;
     while scope.kind() == SyntaxKind::BinaryExpression {

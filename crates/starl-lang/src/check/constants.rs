@@ -75,7 +75,7 @@ impl Checker {
         })
     }
 
-    /// All that something needs, through others too.
+    /// Everything that something needs, through others too.
     fn all_needed(&self, user: Needed) -> BTreeSet<Needed> {
         let mut found = BTreeSet::new();
         let mut open = Vec::from([user]);

@@ -78,7 +78,7 @@ impl Checker {
         }
     }
 
-    /// Reads a model and keeps it. An error is what is wrong, and what to do.
+    /// Reads a model and keeps it. An error has a message, and a fix.
     fn read_model(
         &mut self,
         path: &str,

@@ -53,7 +53,7 @@ pub fn with_value(
     }
 }
 
-/// All that stands before the part. In brackets it ends where it ends.
+/// Everything that stands before the part. In brackets it ends where it ends.
 fn before(program: &str) -> String {
     [program, "\n\neventually: ("].concat()
 }

@@ -81,7 +81,7 @@ impl Index {
     }
 }
 
-/// All that has a name where it is declared.
+/// Everything that has a name where it is declared.
 fn definitions(checked: &Checked, define: &mut dyn FnMut(Site, Symbol)) {
     let program = &checked.program;
     for (number, name) in headers(checked) {

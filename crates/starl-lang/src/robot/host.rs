@@ -5,7 +5,7 @@ use super::atomic::{self, Script};
 use super::code::{Code, Instance};
 use super::joint::OnRobot;
 use super::messages::Outgoing;
-use super::primitives::{KINDS, PrimitiveSlot, Slot};
+use super::primitives::{BoundPrimitive, KINDS, Slot};
 use super::services::Services;
 use super::workbench::Memo;
 use crate::machine::{Host, HostCall};
@@ -84,16 +84,20 @@ impl RobotHost<'_, '_> {
         }
         self.context.instance = Some(form);
         let mut arguments = Arguments::after_instance(call);
-        let mut slot = PrimitiveSlot::new((kind_of.bind)(form, &mut self.context, &mut arguments)?);
-        if slot.port.is_some_and(|port| self.is_taken(port, instance)) {
+        let mut created =
+            BoundPrimitive::new((kind_of.bind)(form, &mut self.context, &mut arguments)?);
+        if created
+            .port
+            .is_some_and(|port| self.is_taken(port, instance))
+        {
             return Err("another primitive of the program has this name".into());
         }
-        if let Some(primitive) = slot.bound.primitive() {
-            // It hears of the start, as those do that are there before it.
+        if let Some(primitive) = created.bound.primitive() {
+            // It receives the start, as the primitives before it did.
             primitive.handle(self.context.robot, &Input::Start);
         }
         if let Some(slot) = self.bound.get_mut(instance) {
-            *slot = Some(slot);
+            *slot = Some(created);
         }
         Ok(1)
     }

@@ -129,7 +129,7 @@ fn first_gap<const D: usize>(
 
 /// Where one has left all that one was in, if that is possible by only ever moving away from it.
 ///
-/// The distance to a convex thing is a convex function of the way gone along a line: if it does not
+/// The distance to a convex shape is a convex function of the distance along a line: if it does not
 /// shrink at first it never does.
 fn retreat<const D: usize>(
     space: &FreeSpace<D>,

@@ -150,7 +150,7 @@ impl Mover {
         list
     }
 
-    /// All that is in the way and usable.
+    /// Everything that is in the way and usable.
     fn for_each(
         &self,
         obstacles: &[Obstacle],

@@ -197,7 +197,7 @@ impl Task<'_> {
         Some(path)
     }
 
-    /// The nearest place with the margin straight away from all that an end is too near to; the end itself
+    /// The nearest place with the margin straight away from everything that an end is too near to; the end itself
     /// if it has the margin, or if there is no such way.
     fn out_of_dent<const D: usize>(&self, space: &FreeSpace<D>, end: &Vector<D>) -> Vector<D> {
         let mut is_near = false;

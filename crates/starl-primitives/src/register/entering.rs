@@ -44,7 +44,7 @@ pub(super) enum Heard {
         life: u64,
         /// Its copies up to this register have come.
         after: Option<String>,
-        /// All that is wanted of it in this stage has come.
+        /// Everything that is wanted of it in this stage has come.
         is_done: bool,
     },
 }

@@ -145,7 +145,7 @@ impl Register {
                 self.lives.learn(who, life);
             }
         }
-        // A life of this robot's that never came to answer, or a corruption, has gone further.
+        // An earlier incarnation of this robot that never answered, or a corruption, has a greater number.
         let latest = self.lives.of(robot.id());
         if let Standing::Up(life) = &mut self.standing
             && *life < latest

@@ -114,7 +114,7 @@ impl Line {
     }
 
     /// Sends a receiver a datagram of at most so many bytes, or one message, with messages that it lacks and that
-    /// were last sent when `is_due` says, the longest ago first. Gives them.
+    /// were last sent when `is_due` says, the longest ago first. Returns them.
     fn resend(
         &self,
         robot: &mut Robot<'_>,

@@ -96,7 +96,7 @@ impl Reliable {
     }
 
     /// Answers a sender at once if it was not answered just now, else a little later: then one answer
-    /// stands for all that comes meanwhile.
+    /// stands for everything that comes meanwhile.
     fn answer_soon(&mut self, robot: &mut Robot<'_>, sender: (RobotId, Stream)) {
         let now = robot.now();
         let Some(inbox) = self.inboxes.get(&sender) else {

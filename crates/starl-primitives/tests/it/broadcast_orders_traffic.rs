@@ -37,7 +37,7 @@ fn a_broadcast_needs_the_datagrams_of_its_algorithm() {
         for few in &all[..3] {
             assert!((few - n).abs() < 0.3, "{robots}: {all:?}");
         }
-        // To the leader; from it to all; acknowledgements; and to all that it is decided. Beats bring
+        // To the leader; from it to all; acknowledgements; and the decision to all. Beats bring
         // some of it along, or are sent besides.
         assert!((all[3] - (n + 2.0)).abs() < 0.2 * n, "{robots}: {all:?}");
     }

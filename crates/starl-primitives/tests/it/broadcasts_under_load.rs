@@ -155,7 +155,7 @@ fn ten_robots_at_a_hundred_messages_a_second_are_heard_at_line_rate_over_a_fifth
         };
         let mut world = fleet(order, 10, 1, wire, 400, 10);
         world.run_for(Duration::from_seconds(4));
-        // All that was sent until a second ago.
+        // Everything that was sent until a second ago.
         let until = world.now - Duration::from_seconds(1);
         assert_eq!(missed(&world, 10, Time::ZERO, until), [], "{order:?}");
         world.run_for(Duration::from_seconds(9));

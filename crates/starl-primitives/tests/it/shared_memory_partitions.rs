@@ -80,7 +80,7 @@ fn one_way_links_are_bypassed() {
         let make = Sharer::boxed(Options::default());
         let mut world = World::new(robots, seed, Wire::perfect(), None, make);
         let mut random = Random::keyed(seed, &[3]);
-        // All that two robots say does not reach some other: the same one, every other time.
+        // Everything that two robots say does not reach some other: the same one, every other time.
         let mut to = random.below(robots as u32);
         for _ in 0..2 {
             let from = random.below(robots as u32);

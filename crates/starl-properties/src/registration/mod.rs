@@ -54,7 +54,7 @@ impl Registration {
         let Report {
             at, robot, port, ..
         } = *report;
-        // Invented state of a corruption is gone by then.
+        // State that a corruption invented is replaced by then.
         let is_disturbed = self.disturbance.is_made_up(at);
         let instance = self.instances.entry(port).or_default();
         let mut is_excused = is_disturbed;

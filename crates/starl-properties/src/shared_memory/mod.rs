@@ -147,7 +147,7 @@ impl SharedMemory {
         }
     }
 
-    /// A robot has a memory. If it did not have it before, all that is in it is to reach it.
+    /// A robot has a memory. If it did not have it before, everything that is in it is to reach it.
     fn joined(&mut self, port: Port, robot: RobotId, at: Time) {
         let memory = self.memories.entry(port).or_default();
         if memory.members.contains_key(&robot) {

@@ -58,7 +58,7 @@ pub struct Shrunk {
 /// way; none if it did not. With `shorter` the run is cut off when it fails, which makes no sense where the
 /// failure is that something did not happen.
 ///
-/// Gives none if the scenario does not fail at all.
+/// Returns `None` if the scenario does not fail at all.
 pub fn shrink(
     scenario: &Scenario,
     limits: Limits,

@@ -172,7 +172,7 @@ pub struct Inputs {
     pub data: Vec<u8>,
 }
 
-/// Gives the records alone.
+/// Returns the records alone.
 impl<R: Read> Iterator for Reader<R> {
     type Item = Result<Record, TraceError>;
 

@@ -22,7 +22,7 @@ impl io::Write for Shared {
     }
 }
 
-/// All that can be read of a file, and why not more.
+/// Everything that can be read of a file, and why not more.
 fn readable(file: &[u8]) -> (Vec<Record>, TraceError) {
     let mut reader = Reader::new(file).unwrap();
     let mut records = Vec::new();

@@ -1,8 +1,8 @@
 //! An emulated Crazyflie: the model `drone` behind CRTP on a UDP port.
 //!
-//! It differs from hardware in this: it has the model's size and speed, it lands where a real one would fall because its
-//! motors stop, and it has no decks, memories or trajectories. Its own frame begins where it was switched on. Like the
-//! real one it levels out when set-points stop for 0.5 s, and gives up flying after 2 s.
+//! It differs from hardware in this: it has the model's size and speed, it lands where a real one would fall because
+//! its motors stop, and it has no decks, memories or trajectories. Its own frame begins where it was switched on. Like
+//! the real one it levels out when set-points stop for 0.5 s, and gives up flying after 2 s.
 
 mod flight;
 mod service;
@@ -109,7 +109,7 @@ fn turn(socket: &UdpSocket, inside: &mut Inside) -> io::Result<()> {
     inside.flight.tick();
     if let Some(client) = inside.client {
         for packet in inside.desk.due(&inside.flight) {
-            // A client that is gone takes no part any more.
+            // A client that is gone no longer takes part.
             let _ = socket.send_to(&packet, client);
         }
     }

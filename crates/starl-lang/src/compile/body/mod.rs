@@ -2,7 +2,7 @@
 //!
 //! Registers are taken and given back like a stack. A local keeps its registers from where it is
 //! declared to the end of its block; what is needed for a moment lies above. A call's window begins
-//! above all that is in use.
+//! above everything that is in use.
 //!
 //! Invariant: what lies at or above the top of the stack holds nothing that is still needed.
 

@@ -261,7 +261,7 @@ pub(in crate::compile) fn is_located(expression: &Expression) -> bool {
     }
 }
 
-/// Whether computing the value writes parts of it before all that it is made of is read.
+/// Whether computing the value writes parts of it before everything that it is made of is read.
 fn writes_early(expression: &Expression) -> bool {
     match &expression.kind {
         ExpressionKind::Present(_)

@@ -58,7 +58,7 @@ impl Script {
 }
 
 impl Given {
-    /// Gives it again.
+    /// Returns it again.
     pub fn give(self, call: &mut HostCall<'_>) -> Called {
         for (index, scalar) in self.scalars.into_iter().enumerate() {
             call.set_scalar(index, scalar);

@@ -12,22 +12,22 @@ use alloc::vec::Vec;
 use core::fmt;
 use starl_core::{Input, Payload, Port, Primitive, Robot};
 
-/// A bound primitive, with what spares looking into it.
+/// A primitive of the program, with the data by which the host skips it when it has no work.
 #[derive(Clone)]
-pub struct PrimitiveSlot {
+pub struct BoundPrimitive {
     /// The primitive.
     pub bound: Box<dyn Bound>,
     /// Where it listens; nowhere, if it has no state machine of its own.
     pub port: Option<Port>,
-    /// Whether the program may have called it, or a fault changed it, since its reports were taken down.
+    /// Whether the program may have called it, or a fault changed it, since its reports were collected.
     pub is_stirred: bool,
 }
 
-impl PrimitiveSlot {
-    /// A place for a primitive.
-    pub fn new(mut bound: Box<dyn Bound>) -> PrimitiveSlot {
+impl BoundPrimitive {
+    /// A new primitive, which the host visits first.
+    pub fn new(mut bound: Box<dyn Bound>) -> BoundPrimitive {
         let port = bound.primitive().map(|primitive| primitive.port());
-        PrimitiveSlot {
+        BoundPrimitive {
             bound,
             port,
             is_stirred: true,
@@ -36,7 +36,7 @@ impl PrimitiveSlot {
 }
 
 /// Shows the primitive alone: the rest follows from it, or has no effect.
-impl fmt::Debug for PrimitiveSlot {
+impl fmt::Debug for BoundPrimitive {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.bound.fmt(f)
     }
@@ -46,7 +46,7 @@ impl fmt::Debug for PrimitiveSlot {
 /// message to itself, so that they are handled immediately.
 pub struct Attended<'a> {
     /// The primitive.
-    pub slot: &'a mut PrimitiveSlot,
+    pub slot: &'a mut BoundPrimitive,
     /// Where it listens.
     pub port: Port,
     /// The instance in the program.

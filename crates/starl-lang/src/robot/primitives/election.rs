@@ -119,7 +119,7 @@ impl Kind for LeaderElection {
     }
 }
 
-/// Gives a value or none.
+/// Pushes a value or none.
 fn give(call: &mut HostCall<'_>, value: Option<i64>) {
     call.set_bool(0, value.is_some());
     call.set_int(1, value.unwrap_or(0));

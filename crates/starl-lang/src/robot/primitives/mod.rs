@@ -16,7 +16,7 @@ mod registration;
 mod shared;
 mod watch;
 
-pub use attended::{Attended, PrimitiveSlot};
+pub use attended::{Attended, BoundPrimitive};
 pub(super) use shared::give;
 
 use super::arguments::{Arguments, Called};
@@ -32,7 +32,7 @@ use dyn_clone::DynClone;
 use starl_core::{Input, Point, Primitive, Random, Robot};
 
 /// The place of a primitive on a robot: none until it is bound.
-pub type Slot = Option<PrimitiveSlot>;
+pub type Slot = Option<BoundPrimitive>;
 
 /// A method or flag of a kind of primitive.
 pub struct Member<P: 'static> {

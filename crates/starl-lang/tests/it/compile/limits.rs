@@ -6,7 +6,7 @@ use starl_lang::diagnostic::Code;
 
 use super::support::shown;
 
-/// The codes and the marked texts of what is wrong with a program that the checker takes.
+/// The codes and the marked texts of the errors in a program that the checker accepts.
 fn problems(source: &str) -> Vec<(Code, String)> {
     let checked = check(source, &NoLibraries);
     assert!(

@@ -53,7 +53,7 @@ impl Causal {
         Some(need.after)
     }
 
-    /// Whether all that comes before has been delivered or will not come.
+    /// Whether everything that comes before has been delivered or will not come.
     fn is_settled(&self, held: &Held, need: &Need) -> bool {
         if self.is_held(&need.after) {
             return false;

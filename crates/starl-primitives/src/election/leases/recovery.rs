@@ -58,7 +58,7 @@ pub(super) struct Learning {
 /// Another robot's memory, in this robot's time.
 #[derive(Clone, Copy, Debug)]
 struct Answer {
-    /// Whether it remembers all that it promised before this robot started.
+    /// Whether it remembers everything that it promised before this robot started.
     remembers: bool,
     /// It has been up since then, or longer.
     up_since: Time,

@@ -257,8 +257,8 @@ pub fn entries(world: &World, crashes: &[(Time, u32)]) -> BTreeMap<u32, usize> {
     counted.collect()
 }
 
-/// Judges only the numbers of a run by its events: no resource is entered with the same number twice. Gives how
-/// often two robots held one resource at once.
+/// Judges only the numbers of a run by its events: no resource is entered with the same number twice. Returns
+/// how often two robots held one resource at once.
 pub fn numbers(world: &World) -> usize {
     let mut numbers: BTreeSet<(String, u64)> = BTreeSet::new();
     let mut holders: BTreeMap<String, BTreeSet<u32>> = BTreeMap::new();

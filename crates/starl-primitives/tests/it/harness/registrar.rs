@@ -140,7 +140,8 @@ struct Life {
 }
 
 /// Judges a run by its events: agreement, exclusion, soundness and order, as the primitive promises them.
-/// Crashes are given, since they leave no event, each with the number of records before it. Gives how many lists were shown.
+/// Crashes are given, since they leave no event, each with the number of records before it. Returns how many lists were
+/// shown.
 pub fn judge(world: &World, crashes: &[(usize, u32)], apart: Duration) -> usize {
     let mut lives: BTreeMap<RobotId, Life> = BTreeMap::new();
     // By name: the robots that have accepted a list, in which life, registered.

@@ -290,7 +290,7 @@ pub fn total_violation(runs: &[(u32, Vec<(usize, Step)>)]) -> Option<String> {
 }
 
 /// Runs a fleet of robots that each send for a while, while faults strike at random until `calm`, then
-/// for `calm` more. Gives when robots started again.
+/// for `calm` more. Returns when robots restarted.
 pub fn trouble(world: &mut World, robots: usize, seed: u64, span: Duration) -> Vec<(Time, u32)> {
     let mut random = Random::keyed(seed, &[77]);
     let mut starts = Vec::new();
