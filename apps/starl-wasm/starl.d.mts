@@ -102,7 +102,7 @@ export interface Options {
    */
   scenario?: string;
   /**
-   * The path of a program, or the name of one in Rust, in the place of the scenario's. If there is no scenario, by
+   * The path of a program, or the name of one in Rust, instead of the scenario's. If there is no scenario, by
    * default the only program among the files.
    */
   program?: string;
@@ -293,7 +293,7 @@ export interface Completion {
   detail: string | null;
   /** In Markdown. */
   documentation: string | null;
-  /** What to put in the place of `range`. */
+  /** What to put instead of `range`. */
   insert: string;
   /** Where the cursor belongs in `insert`: so many UTF-16 units stand before it. */
   cursor: number;

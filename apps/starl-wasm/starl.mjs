@@ -15,7 +15,7 @@ export class StarlError extends Error {
   }
 }
 
-/** So many numbers of `poses()` belong to each robot. */
+/** The number of elements of `poses()` that belong to each robot. */
 export const POSE_NUMBERS = 11;
 
 /** Loads the module and makes an instance of it. */

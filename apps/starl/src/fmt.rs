@@ -16,7 +16,7 @@ use std::path::Path;
 
 /// The result for a source.
 enum Outcome {
-    /// It is laid out as it should be.
+    /// It is formatted.
     Same,
     /// It was formatted, or would be.
     Changed,

@@ -16,7 +16,7 @@ use std::fmt::Write;
 pub enum Shown {
     /// All lines.
     Debug,
-    /// All but those for debugging; lines of programs in the StarL language have this level.
+    /// All except those for debugging; lines of programs in the StarL language have this level.
     Info,
     /// Lines about something that is probably wrong, and errors.
     Warning,

@@ -221,7 +221,7 @@ impl Ending {
         let kept = match (whole, cut) {
             (_, Err(error)) => format!("the file may be damaged: {error}"),
             (true, Ok(())) => format!("all up to {now} is kept in it"),
-            (false, Ok(())) => format!("what fitted of all up to {now} is kept in it"),
+            (false, Ok(())) => format!("everything that fitted until {now} is kept in it"),
         };
         Failure::file(
             path,

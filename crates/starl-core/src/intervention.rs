@@ -80,7 +80,7 @@ pub enum Intervention {
         /// Where it starts.
         pose: Pose,
     },
-    /// Robots leave for good: their software stops and their bodies are taken away.
+    /// Robots leave permanently: their software stops and their bodies are taken away.
     Leave(Vec<RobotId>),
 }
 

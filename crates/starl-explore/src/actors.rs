@@ -19,7 +19,7 @@ pub(crate) struct Actors {
     rows: Rows,
     /// Datagrams in ascending order, as [`Flying`].
     mailboxes: Table,
-    /// By actor; none of those that were not asked for.
+    /// By actor; only the requested ones.
     prospects: Vec<Option<Prospects>>,
     moves: Vec<Move>,
     /// Rows of actor and datagram.

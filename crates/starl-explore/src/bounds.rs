@@ -10,7 +10,7 @@ pub struct Bounds {
     /// Datagrams that get lost, at most; default 0. To safety a datagram that gets lost is one that
     /// never arrives, which is covered without losses; robots that wait for ever show only with them.
     pub losses: u8,
-    /// Datagrams that arrive once more than they were sent, at most; default 0.
+    /// The greatest number of extra copies of datagrams that arrive; default 0.
     pub duplicates: u8,
     /// Whether each sent datagram may arrive any number of times, or never: at any later time, or within the delay
     /// bound of [`Clocks::Ticking`]. Losses and duplicates are then not counted. Only robots that wait for ever for a
@@ -22,8 +22,8 @@ pub struct Bounds {
     pub crashes: u8,
     /// False or true suspicions by failure detectors, and ends of suspicions, at most; default 0.
     pub suspicions: u8,
-    /// Timers that fire, at most, of all robots together, or [`Bounds::ANY_NUMBER`]; default 1. With [`Clocks::Ticking`] timers
-    /// are bounded by the time instead.
+    /// Timers that fire, at most, of all robots together, or [`Bounds::ANY_NUMBER`]; default 1. With
+    /// [`Clocks::Ticking`] timers are bounded by the time instead.
     pub timers: u8,
     /// The model of clocks.
     pub clocks: Clocks,

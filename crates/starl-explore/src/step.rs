@@ -51,13 +51,13 @@ pub enum Step {
     Timer(RobotId, TimerKey),
     /// A datagram arrives.
     Deliver(Datagram),
-    /// A datagram arrives, and will arrive once more.
+    /// A datagram arrives, and will arrive again.
     Duplicate(Datagram),
     /// A datagram gets lost.
     Lose(Datagram),
     /// A robot crashes, and its program loses all state.
     Crash(RobotId),
-    /// A robot that was down starts again.
+    /// A robot that was down restarts.
     Restart(RobotId),
     /// The same, and all datagrams that were on their way to it have got lost while it was down.
     RestartDeaf(RobotId),
@@ -120,7 +120,7 @@ impl fmt::Display for Step {
                 write!(f, "a datagram from robot {from} to robot {to} gets lost")
             }
             Step::Crash(robot) => write!(f, "robot {robot} crashes"),
-            Step::Restart(robot) => write!(f, "robot {robot} starts again"),
+            Step::Restart(robot) => write!(f, "robot {robot} restarts"),
             Step::RestartDeaf(robot) => write!(
                 f,
                 "robot {robot} restarts; the datagrams in transit to it are lost"

@@ -87,7 +87,7 @@ pub enum NodeInput {
         /// Waypoints from the robot to the target; none where no path was found.
         path: Option<Path>,
     },
-    /// A [`crate::StoreJob`] is done: what it was to write is on storage for good.
+    /// A [`crate::StoreJob`] is done: what it was to write is on storage permanently.
     Stored {
         /// Which one. A job of an earlier life is ignored.
         job: u32,

@@ -81,7 +81,7 @@ pub trait Outlet {
     /// The memory to work in. A node takes it and puts it back.
     fn workspace(&mut self) -> &mut Workspace;
 
-    /// Takes note of an event of this robot.
+    /// Records an event of this robot.
     fn record(&mut self, at: Time, event: Event);
 
     /// Sends a datagram. The node has recorded it as sent; the host records it as dropped if it cannot

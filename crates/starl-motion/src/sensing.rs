@@ -58,9 +58,9 @@ pub struct Readings {
     pub proximity: Vec<Ray>,
     /// Things and robots in sight, nearest first.
     pub detections: Vec<Detection>,
-    /// Whether `proximity` shows anything but empty space for the sensor it was laid out for.
+    /// Whether `proximity` shows anything except empty space for the sensor that it was prepared for.
     marked: bool,
-    /// The rays of the sensor for which `proximity` is laid out.
+    /// The rays of the sensor for which `proximity` is prepared.
     rays: Option<(Proximity, Rays)>,
     nearby: Vec<Neighbour>,
 }

@@ -30,7 +30,7 @@ impl<T> Default for Handshake<T> {
 }
 
 impl<T> Handshake<T> {
-    /// Listens to no incarnation yet; the first must answer this token.
+    /// Does not listen to any incarnation yet; the first must answer this token.
     pub fn asking(token: u32) -> Handshake<T> {
         Handshake {
             heard: None,

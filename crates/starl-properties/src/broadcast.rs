@@ -81,7 +81,7 @@ impl Broadcast {
             is_causal: order == Some(Order::Causal),
             owed: others.filter(|&robot| robot != key.from).collect(),
         };
-        // A robot alone owes its message to no robot, and rightly says so.
+        // A robot alone has no receivers, so its message is complete at once.
         if !message.owed.is_empty() {
             self.outstanding.insert(key, at + bound, message);
         }

@@ -94,7 +94,7 @@ impl Health {
         }
     }
 
-    /// Takes note of faults.
+    /// Records faults.
     pub fn observe(&mut self, record: &Record) {
         match &record.event {
             Event::Fault(fault) => match record.robot {

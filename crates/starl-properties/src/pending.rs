@@ -28,7 +28,7 @@ impl Pending {
         self.found.push_back(violation);
     }
 
-    /// A fault excuses all but these.
+    /// A fault excuses all except these.
     pub fn retain(
         &mut self,
         excuse: Excuse,

@@ -66,7 +66,7 @@ impl<W: Write> Output<W> {
         Ok(())
     }
 
-    /// Keeps a message that is not in a closed chunk yet, laid out as MCAP has it.
+    /// Keeps a message that is not in a closed chunk yet, in MCAP's format.
     fn keep(&mut self, header: &MessageHeader, data: &[u8]) {
         const HEADER: u64 = 22;
         let kept = &mut self.unfinished;

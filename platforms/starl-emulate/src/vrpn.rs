@@ -113,7 +113,7 @@ struct Client {
     /// The client's own names of senders and kinds.
     senders: BTreeMap<i32, String>,
     kinds: BTreeMap<i32, String>,
-    /// How many bodies it has been told the names of.
+    /// The number of bodies whose names it has received.
     told: usize,
     out: Vec<u8>,
 }

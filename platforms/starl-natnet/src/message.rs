@@ -140,7 +140,7 @@ fn encode_descriptions(bodies: &[(u32, String)], version: Version, out: &mut Vec
 }
 
 /// Before descriptions told their lengths, those that come after the rigid bodies cannot be skipped; Motive puts
-/// nothing but sets of markers before them.
+/// only sets of markers before them.
 fn decode_descriptions(body: &[u8], version: Version) -> Option<Vec<(u32, String)>> {
     let mut reader = Reader::new(body);
     let count = reader.count(4)?;

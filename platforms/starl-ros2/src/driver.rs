@@ -58,8 +58,8 @@ const SLACK: f64 = 0.2;
 
 /// A ROS 2 robot with two wheels.
 ///
-/// It takes `Twist` or `TwistStamped` on `cmd_vel`, whichever a node of the robot has subscribed to. A robot's own drivers
-/// stop it when velocities cease to come: after 0.5 s with `diff_drive_controller` and the Create 3.
+/// It takes `Twist` or `TwistStamped` on `cmd_vel`, whichever a node of the robot has subscribed to. A robot's own
+/// drivers stop it when no more velocities arrive: after 0.5 s with `diff_drive_controller` and the Create 3.
 #[derive(Debug)]
 pub struct Ros2Robot {
     options: Ros2Options,

@@ -27,7 +27,7 @@ impl Qos {
         reliable: true,
         depth: 10,
     };
-    /// Of sensors: what is late is of no use.
+    /// Of sensors: late data is useless.
     pub const SENSOR_DATA: Qos = Qos {
         reliable: false,
         depth: 5,

@@ -1,7 +1,7 @@
 //! Zenoh as the network of a fleet (Eclipse Zenoh, <https://zenoh.io>).
 //!
-//! Each member of a fleet `F` subscribes to the key `starl/F/NUMBER`, and a packet for a member is put there. Members are
-//! peers that connect to each other, directly or by gossip, or clients of a router; the robots of a fleet may be in
+//! Each member of a fleet `F` subscribes to the key `starl/F/NUMBER`, and a packet for a member is put there. Members
+//! are peers that connect to each other, directly or by gossip, or clients of a router; the robots of a fleet may be in
 //! several networks as long as routers join them. No multicast is used. Packets are protected by
 //! [`starl_node::link::Channel`] as on any link; TLS comes beneath that where it is configured.
 
@@ -16,7 +16,7 @@ use zenoh::config::Config;
 use zenoh::qos::CongestionControl;
 use zenoh::{Session, Wait};
 
-/// So many packets may wait to be sent. More are lost.
+/// The number of packets that may wait to be sent. More are lost.
 const QUEUE: usize = 4096;
 
 /// How a member joins the network.

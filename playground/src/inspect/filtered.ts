@@ -4,7 +4,7 @@
 import type { Event, Events } from "../run/events.ts";
 import { firstWhere } from "../run/search.ts";
 
-/** So many events are looked at between two looks at the clock. */
+/** The number of events that are filtered between two reads of the clock. */
 const BETWEEN = 512;
 
 export class Filtered {

@@ -30,7 +30,7 @@ const ACTS: { label: string; hint: string; make: (robots: number[]) => Intervent
     make: (frozen_sensor) => ({ fault: { frozen_sensor } }),
   },
   { label: "Repair", hint: "Motors and sensors work again", make: (repair) => ({ fault: { repair } }) },
-  { label: "Leave", hint: "It leaves the run for good", make: (leave) => ({ leave }) },
+  { label: "Leave", hint: "It leaves the run permanently", make: (leave) => ({ leave }) },
 ];
 
 export function RobotFaults() {

@@ -53,7 +53,7 @@ fn where_it_crashes_beyond_them_its_zones_are_used_again() {
 
 /// Robot1 crashes with the zone B and starts again at once: it has forgotten that it holds it, and lets Robot2 have it.
 #[test]
-fn where_it_starts_again_its_zone_is_left_to_it_though_it_has_forgotten_it() {
+fn a_robot_keeps_its_zone_after_a_restart_without_memory() {
     for at in [7300, 7500] {
         let faults = format!(
             "[[fault]]\nat = \"{at}ms\"\nkind = \"crash\"\nrobots = [\"Robot1\"]\n\

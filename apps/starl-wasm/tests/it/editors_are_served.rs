@@ -162,7 +162,7 @@ fn an_outline_has_the_parts_of_the_text() {
 }
 
 #[test]
-fn a_text_is_laid_out_as_by_the_command() {
+fn a_text_is_formatted_as_by_the_command() {
     let untidy = PROGRAM
         .replace("count: Int = 0", "count:Int=0")
         .replace("    pre", "  pre");

@@ -47,7 +47,7 @@ impl Follower {
         &self.fleet.name
     }
 
-    /// Hands on a trace, piece by piece, until its taker refuses.
+    /// Passes on a trace, piece by piece, until its receiver refuses.
     pub fn run(mut self, mut take: impl FnMut(&[u8]) -> io::Result<()>) -> Result<(), Failure> {
         let application = &self.fleet.application;
         let setting = starl_sim::setting(application.scenario());

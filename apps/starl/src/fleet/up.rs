@@ -22,7 +22,7 @@ use std::time::{Duration, Instant};
 /// Robots are asked how they are this often.
 const PERIOD: Duration = Duration::from_millis(500);
 
-/// A robot that has died is started again after this.
+/// A robot that has died is restarted after this.
 const PAUSE: Duration = Duration::from_secs(1);
 
 /// The time that a robot has to end after the order to stop.
@@ -130,7 +130,7 @@ fn emulator(fleet: &Path) -> Result<Emulator, Failure> {
     }
 }
 
-/// This command, to be started once more.
+/// This command, to be started again.
 fn this_command() -> std::io::Result<Command> {
     let mut command = Command::new(std::env::current_exe()?);
     // Ctrl-C is for this process, which ends the others in good order.
@@ -243,7 +243,7 @@ impl<'a> Robots<'a> {
                     )));
                 }
                 console::complain(&format!(
-                    "{} has died ({}), and is started again\n",
+                    "{} has died ({}), and is restarted\n",
                     robot.name,
                     how(status)
                 ));

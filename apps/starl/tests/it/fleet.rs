@@ -281,7 +281,7 @@ fn a_fleet_finishes_although_a_robot_is_killed() {
     let (text, messages) = (stdout(&output), stderr(&output));
     assert_eq!(status(&output), 0, "{text}{messages}");
     assert!(
-        messages.contains("robot1 has died (signal 9), and is started again"),
+        messages.contains("robot1 has died (signal 9), and is restarted"),
         "{messages}"
     );
     assert!(text.contains("broadcast.integrity   holds"), "{text}");
@@ -444,8 +444,8 @@ fn problems_of_a_fleet_file_are_reported_in_one_message() {
     );
 }
 
-/// Race, byte for byte the program that the simulator runs, on four processes: two Creates on serial lines, two AR.Drones
-/// on UDP, positions from motion capture, and messages over Zenoh.
+/// Race, byte for byte the program that the simulator runs, on four processes: two Creates on serial lines, two
+/// AR.Drones on UDP, positions from motion capture, and messages over Zenoh.
 #[cfg(feature = "zenoh")]
 #[test]
 fn race_runs_on_emulated_creates_and_drones_over_zenoh() {

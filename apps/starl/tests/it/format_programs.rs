@@ -14,7 +14,7 @@ fn content(folder: &Path, name: &str) -> String {
 }
 
 #[test]
-fn a_file_is_laid_out_in_its_place() {
+fn a_file_is_formatted_in_place() {
     let folder = folder("fmt_file");
     file(&folder, "untidy.starl", UNTIDY);
     let output = starl(&folder, &["fmt", "untidy.starl"]);

@@ -293,7 +293,7 @@ fn a_name_is_changed_everywhere_or_not_at_all() {
 }
 
 #[test]
-fn a_text_is_laid_out() {
+fn a_text_is_formatted() {
     let untidy = RACE
         .replace("    pre", "  pre")
         .replace("    eff\n", "  eff\n")

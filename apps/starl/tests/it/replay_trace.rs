@@ -16,7 +16,7 @@ fn recorded(name: &str, arguments: &[&str]) -> std::path::PathBuf {
     all.extend_from_slice(arguments);
     let output = starl(&folder, &all);
     assert_eq!(stderr(&output), "");
-    // A replay needs nothing but the trace.
+    // A replay needs only the trace.
     fs::remove_file(folder.join("small.toml")).expect("it was written before");
     folder
 }

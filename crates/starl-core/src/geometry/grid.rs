@@ -152,8 +152,8 @@ impl Grid {
     }
 }
 
-/// Where the bulk of these numbers starts and how far it extends: all but the first and last
-/// sixteenth, and an eighth more either way if there are any, so that outliers do not spread the grid.
+/// Where the bulk of these numbers starts and how far it extends: all except the first and
+/// last sixteenth, and an eighth more either way if there are any, so that outliers do not spread the grid.
 fn bulk(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
     let mut numbers: Vec<f64> = numbers.filter(|number| number.is_finite()).collect();
     if numbers.is_empty() {

@@ -134,7 +134,7 @@ fn a_body_may_stand_on_an_obstacle_but_not_in_it() {
     assert_eq!(slab.body_gap(a, 0.2, 0.3), 0.0);
     assert!(!slab.blocks_body(a, b, 0.2, 0.3));
     assert!(slab.blocks_body(a, b.at_height(-0.1), 0.2, 0.3));
-    // A mark of no thickness on the floor stops even a robot of no height.
+    // A mark on the floor stops a robot even if both have the height 0.
     let mark = Obstacle::cuboid(Point::ZERO, Point::planar(1.0, 1.0));
     assert!(mark.body_gap(Point::planar(0.5, 0.5), 0.2, 0.0) < 0.0);
     assert!(mark.blocks_body(a, b, 0.2, 0.0));

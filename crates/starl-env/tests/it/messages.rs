@@ -85,7 +85,7 @@ fn losses_have_their_rate_and_newer_messages_are_kept() {
             came += usize::from(age == 0);
         }
     }
-    // A quarter of those that are not lost have no delay.
+    // A quarter of the messages that arrive have no delay.
     let expected = 0.75 * 0.25 * 8000.0;
     assert!(
         (came as f64 - expected).abs() < 0.1 * expected,

@@ -20,7 +20,7 @@ struct Control {
     actions: Vec<Transitions>,
     /// By handler.
     handlers: Vec<Transitions>,
-    /// The values that each variable gets, for those of which all can be told.
+    /// The values that each variable gets, for those of which all can be determined.
     entered: BTreeMap<VariableId, BTreeSet<u16>>,
     /// For each variable the actions that write it.
     writers: BTreeMap<VariableId, Vec<usize>>,

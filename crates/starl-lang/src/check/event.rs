@@ -44,7 +44,7 @@ impl Checker {
             None => self.message_event(first),
         };
         let names: Vec<ast::Name> = node.parameters().collect();
-        // With a part too few or too many it cannot be known which name is for which.
+        // With a part too few or too many the meaning of the names is unknown.
         let parts =
             parts.filter(|parts| self.check_parts(&event, parts, names.len(), span, first.text()));
         let ((parameters, body), locals) = self.in_body(Where::Effect, |checker| {

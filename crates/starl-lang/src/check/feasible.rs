@@ -51,7 +51,7 @@ pub(crate) fn truth(condition: &Expression, assumed: Assumption) -> Option<bool>
     }
 }
 
-/// Which variant an expression of an enum is, if that can be told.
+/// Which variant an expression of an enum is, if that can be determined.
 fn variant(expression: &Expression, assumed: Assumption) -> Option<u16> {
     if !matches!(expression.ty, Type::Enum(_)) {
         return None;

@@ -17,7 +17,7 @@ pub trait Libraries {
         Err("there is no such file".into())
     }
 
-    /// The names of those that can be told, for editors to suggest.
+    /// The names of those that can be determined, for editors to suggest.
     fn names(&self) -> Vec<String> {
         Vec::new()
     }

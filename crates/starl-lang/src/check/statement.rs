@@ -119,7 +119,7 @@ impl Checker {
         let value = self.value(node.value(), Some(&read), "the value");
         let fits = result(operator, &read, &value.ty) == Some(read.clone());
         if !fits && read != Type::Error && value.ty != Type::Error {
-            // `arithmetic` says what is wrong; where it finds nothing wrong the result is of another type.
+            // `arithmetic` reports the error; if there is no error the result is of another type.
             let left = made(ExpressionKind::Error, read.clone(), place.span);
             let joined = self.arithmetic(operator, left, value.clone(), node.span());
             self.fit(joined, &read, "the result");

@@ -25,7 +25,7 @@ pub(crate) struct Transitions {
 pub(crate) struct Given {
     /// The values that it may get.
     pub values: BTreeSet<u16>,
-    /// It may get one that cannot be told.
+    /// It may get one that cannot be determined.
     pub is_open: bool,
     /// On some way it is not written.
     pub may_stay: bool,

@@ -184,7 +184,7 @@ impl Diagnostic {
         self
     }
 
-    /// The same, with what would put it right.
+    /// The same, with fixes.
     #[must_use]
     pub fn fix(mut self, fix: Fix) -> Self {
         self.fix = Some(fix);

@@ -41,7 +41,7 @@ pub(super) fn initial(program: &Program, variable: VariableId, states: usize) ->
     numbers.filter(|number| *number < states).collect()
 }
 
-/// The values after a procedure, none if they cannot be told.
+/// The values after a procedure, none if they cannot be determined.
 fn after(
     program: &Program,
     variable: VariableId,

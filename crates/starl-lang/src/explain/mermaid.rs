@@ -51,7 +51,7 @@ pub(super) fn write(machine: &StateMachine) -> String {
         }
     }
     if machine.edges.iter().any(|edge| edge.to == Target::Unknown) {
-        line(&format!("state \"cannot be told\" as {UNKNOWN}"));
+        line(&format!("state \"unknown\" as {UNKNOWN}"));
     }
     for state in machine.states.iter().filter(|state| state.is_initial) {
         line(&format!("[*] --> {}", identifier(state)));

@@ -60,7 +60,7 @@ pub struct Edge {
 pub enum Target {
     /// The state with this number.
     State(usize),
-    /// A state that cannot be told from the text.
+    /// A state that cannot be determined from the text.
     Unknown,
     /// The end of the program: `finish()`.
     End,

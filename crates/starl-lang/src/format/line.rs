@@ -31,7 +31,7 @@ pub(super) struct Line {
 /// The sort of a line, as far as the lines around it depend on it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sort {
-    /// Nothing but a comment.
+    /// Only a comment.
     Comment,
     /// The second or a later part of something with parts, such as `else`.
     Part,

@@ -75,7 +75,7 @@ pub enum ExpressionKind {
         builtin: Builtin,
         /// An argument for each parameter; none where an optional one is left out.
         arguments: Vec<Option<Expression>>,
-        /// Further arguments, of those that take any number, with their names if they have names.
+        /// Further arguments, of functions with any number of them, with their names if they have names.
         rest: Vec<(Option<String>, Expression)>,
     },
     /// A call of a method that changes nothing.

@@ -6,7 +6,7 @@
 //!
 //! Invariants: bytecode that was verified cannot make the machine panic, run longer than its fuel allows or hold more
 //! memory than its budget; equal states, inputs and answers of the host give equal states and equal fuel, on every
-//! target; nothing but the [`State`] is kept from one activation to the next.
+//! target; only the [`State`] is kept from one activation to the next.
 //!
 //! The module `compile` translates a program's text as follows:
 //! - A state variable's scalars and objects are at fixed places of the [`State`], in the order of the

@@ -209,7 +209,7 @@ fn check(code: &Code, machine: &mut Machine<'_>) -> Result<Option<u32>, RuntimeE
 pub(super) enum Part<'a> {
     /// The first values of variables, bindings of primitives, and `init`.
     Start,
-    /// All actions, one after the other; of those that wait for variables it is found out which is next.
+    /// All actions, one after the other; the next of the actions that wait for variables is determined.
     Actions(&'a mut Turn),
     /// An action with `atomic` whose writes are stored.
     Perform(u32, Script),

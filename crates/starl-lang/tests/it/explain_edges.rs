@@ -89,7 +89,7 @@ fn effects_in_loops_are_possible_but_not_certain() {
 }
 
 #[test]
-fn a_value_that_cannot_be_told_may_be_any() {
+fn an_unknown_value_may_be_any() {
     let text = "program P\nenum Loc {a, b}\nloc: Loc = a\nfunction next(l: Loc) -> Loc = if l == a then b else a\ngo()\n    pre loc in [a, b]\n    eff loc = next(loc)\n";
     assert_eq!(steps(text), ["-> a", "a -> ?: go", "b -> ?: go"]);
 }

@@ -81,7 +81,7 @@ fn comments_at_the_ends_of_lines_are_aligned() {
 }
 
 #[test]
-fn continued_lines_are_indented_once_more() {
+fn continued_lines_are_indented_by_one_more_level() {
     check(
         "program P\n\nrun()\n    pre a and\n     b or\n          c\n    eff\n        if a and\n         b\n            f()\n        x = 1 +\n           2\n",
         "program P\n\nrun()\n    pre a and\n        b or\n        c\n    eff\n        if a and\n                b\n            f()\n        x = 1 +\n            2\n",

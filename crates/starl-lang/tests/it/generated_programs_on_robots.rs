@@ -72,7 +72,7 @@ fn run(code: &Code, seed: u64, copies: bool) -> (World, String) {
     (world, judged)
 }
 
-/// Delivers what was sent once more, with a few bytes changed.
+/// Delivers sent messages again, with a few bytes changed.
 fn garble(world: &mut World, random: &mut Random) {
     let sent = world.sent().take(3);
     let sent: Vec<_> = sent

@@ -1,5 +1,5 @@
-//! The standard library has nothing that is wrong with it, is laid out as programs are, and says what
-//! each of its declarations is.
+//! The standard library has no problems, is formatted as programs are, and documents each of its
+//! declarations.
 
 use starl_lang::check::{NoLibraries, STANDARD, check};
 use starl_lang::compile::compile;

@@ -31,7 +31,7 @@ const CREEP: f64 = 0.05;
 const ON_AXIS: f64 = 0.98;
 
 /// A heading that meets a border at an angle of no more than this sine goes along it: robots on wheels
-/// are steered no more exactly. As soon as one has gone a millimetre or two too far, its cell turns it
+/// are not steered more exactly. As soon as one has gone a millimetre or two too far, its cell turns it
 /// away by as much.
 const GRAZING: f64 = 0.045;
 

@@ -52,7 +52,7 @@ impl Mover {
             return Some((f64::NEG_INFINITY, f64::INFINITY));
         };
         match self.body.workspace {
-            // Standing on top of a thing is allowed, on a thing of no thickness is not.
+            // Standing on top of an obstacle is allowed, unless its thickness is 0.
             Workspace::Ground => {
                 let met = self.body.height >= span.low && (0.0 < span.high || 0.0 <= span.low);
                 met.then_some((f64::NEG_INFINITY, f64::INFINITY))

@@ -15,7 +15,7 @@ fn a_halted_robot_is_driven_round() {
 }
 
 #[test]
-fn one_that_halts_on_the_way_is_driven_round() {
+fn a_robot_that_halts_on_the_way_is_passed() {
     for model in AGILE {
         for seed in 0..30 {
             let scene = avoidance_world::scenes::head_on(model);

@@ -52,7 +52,7 @@ impl Bully {
         scene.tell(&greater, Packet::Election);
     }
 
-    /// Takes the lead, or says once more that it has it.
+    /// Takes the lead, or says again that it has it.
     fn lead(&mut self, scene: &mut Scene<'_, '_>) {
         (self.leader, self.question) = (Some(scene.me()), None);
         self.due = scene.now() + scene.options.period();

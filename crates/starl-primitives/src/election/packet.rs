@@ -71,7 +71,7 @@ pub(super) struct Outcome {
     pub leader: RobotId,
 }
 
-/// Leases: a request for a vote, for the first time or once more.
+/// Leases: a request for a vote, for the first time or again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Claim {
     pub epoch: Epoch,

@@ -7,7 +7,7 @@
 //!
 //! Properties, in a network that from some time on delivers enough heartbeats within some unknown
 //! bound (an eventually perfect detector: Chandra and Toueg 1996):
-//! - completeness: every robot that stays down is eventually suspected for good by all that are up, within
+//! - completeness: every robot that stays down is eventually suspected permanently by all that are up, within
 //!   [`FailureDetector::patience`] of its last heartbeat, which is never more than [`Options::longest_patience`], and a
 //!   period more;
 //! - accuracy: from some time on no robot suspects a robot that is up, connected and keeps running;

@@ -41,7 +41,7 @@ impl Register {
         }
     }
 
-    /// Takes note of an answer, if it is one to what is asked now.
+    /// Records an answer, if it is one to what is asked now.
     fn note(&mut self, from: RobotId, life: u64, number: u32, said: Said) -> bool {
         let Some(operation) = self.operations.get_mut(&number) else {
             return false;

@@ -43,7 +43,7 @@ impl Register {
         }
     }
 
-    /// Takes note that a copy changes now.
+    /// Records that a copy changes now.
     pub(super) fn note_change(&mut self, robot: &mut Robot<'_>) {
         let (shortest, _) = self.options.intervals();
         if self.gossip.interval > shortest {

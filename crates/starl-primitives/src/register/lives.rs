@@ -24,7 +24,7 @@ impl Lives {
         self.0.get(&robot).copied().unwrap_or(FIRST)
     }
 
-    /// Takes note of a life.
+    /// Records a life.
     pub fn learn(&mut self, robot: RobotId, life: u64) {
         if life > self.of(robot) && life <= GREATEST {
             self.0.insert(robot, life);

@@ -89,7 +89,7 @@ timers! {
 /// Longer names of registers are refused, bytes.
 const LONGEST_NAME: usize = 255;
 
-/// So many results are kept for the program to look at.
+/// The number of results that are kept for the program.
 const MOST_RESULTS: usize = 256;
 
 /// Registers, any number by name, that all robots read and write as if there were one of each. See the
@@ -250,7 +250,7 @@ impl Register {
         }
     }
 
-    /// So many are a majority.
+    /// The size of a majority.
     fn majority(&self, robot: &Robot<'_>) -> usize {
         let members = self.participants.as_ref().map(BTreeSet::len);
         members.unwrap_or(robot.fleet().len()) / 2 + 1

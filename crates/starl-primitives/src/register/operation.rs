@@ -80,7 +80,7 @@ impl Operation {
         }
     }
 
-    /// Takes note of a ballot or tag, so that the next ballot is greater.
+    /// Records a ballot or tag, so that the next ballot is greater.
     pub fn heard(&mut self, tag: Option<Tag>) {
         // One that no writes can have led to would leave no greater ones.
         self.greatest = self.greatest.max(tag.filter(|tag| tag.is_valid()));

@@ -9,7 +9,7 @@ use starl_core::{Destination, Duration, Robot, RobotId, Time};
 /// Datagrams with several messages are not longer than this, bytes.
 pub(super) const CHUNK: usize = 1000;
 
-/// So many datagrams are sent again at once to a receiver that answers.
+/// The number of datagrams that are sent again at once to a receiver that answers.
 const BURST: usize = 4;
 
 /// The greatest number of robots that are informed that they need not answer.

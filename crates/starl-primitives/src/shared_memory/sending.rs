@@ -123,7 +123,7 @@ impl SharedMemory {
         }
     }
 
-    /// Takes note that the memory changes now.
+    /// Records that the memory changes now.
     pub(super) fn note_change(&mut self, robot: &mut Robot<'_>) {
         let now = robot.now();
         let was_quiet = now.since(self.changed) >= self.options.quiet();

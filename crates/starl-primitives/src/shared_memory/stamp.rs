@@ -74,7 +74,7 @@ impl HybridClock {
         *self
     }
 
-    /// Takes note of another clock's reading.
+    /// Records another clock's reading.
     pub fn observe(&mut self, other: HybridClock) {
         if other.is_valid() {
             *self = (*self).max(other);

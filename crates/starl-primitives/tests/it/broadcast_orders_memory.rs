@@ -21,7 +21,7 @@ fn memory_does_not_grow_with_the_number_of_messages() {
                 world.command(value as usize % 3, tell(value));
                 world.run_for(Duration::from_millis(5));
             }
-            // One is down for good.
+            // One is down permanently.
             if round == 0 {
                 world.crash(2);
             }
@@ -50,7 +50,7 @@ fn sizes_under_churn(span: Duration, seed: u64) -> Vec<usize> {
         let largest = (0..5).map(|robot| size(&world, robot)).max();
         let tenth = at * 10 / steps;
         sizes[tenth] = sizes[tenth].max(largest.unwrap_or(0));
-        // So much at once that groups die now and then.
+        // Such a load that groups die now and then.
         for robot in (0..5).filter(|robot| (at + robot) % 3 == 0 && at % 2 == 0) {
             world.crash(robot);
             world.run_for(Duration::from_millis(300));

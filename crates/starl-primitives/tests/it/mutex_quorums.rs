@@ -41,7 +41,7 @@ fn waiting_for_a_crashed_holder_is_reported_and_ends_when_it_returns() {
     assert!(!mutex(&world, 0).crit() && mutex(&world, 0).failed());
     world.command(0, release(&["b"]));
     world.run_for(SECOND * 5);
-    // It waited for nothing but the request that was withdrawn.
+    // It waited only for the request that was withdrawn.
     assert!(mutex(&world, 1).crit() && !mutex(&world, 1).failed());
     world.command(0, acquire(&["b"]));
     world.run_for(SECOND * 5);

@@ -1,4 +1,4 @@
-//! ReachAvoid plans again when it must, heeds no answer that is out of date, and is never active for
+//! ReachAvoid plans again when it must, ignores outdated answers, and is never active for
 //! ever.
 
 use crate::harness::pilot::{AIR, Bench, block, p};

@@ -177,7 +177,7 @@ fn no_write_is_shown_before_its_dependencies() {
             }
         }
         world.wire.cut.clear();
-        // All is written once more, so that nothing waits for what is lost.
+        // All is written again, so that nothing waits for what is lost.
         for variable in 0..4 {
             world.command(0, write(variable, 1000));
             (0..4).for_each(|who| world.command(who, write_own(variable, 1001)));

@@ -116,7 +116,7 @@ impl Agreement {
             if let Some(calm) = calm
                 && calm > due
             {
-                // Once more then; those after it in the queue wait for it.
+                // Again then; those after it in the queue wait for it.
                 let later = self.due.back().map_or(calm, |(last, _)| calm.max(*last));
                 self.due.push_back((later, key));
                 continue;

@@ -6,7 +6,7 @@ use crate::report::MessageKey;
 use starl_core::RobotId;
 use std::collections::{BTreeMap, VecDeque};
 
-/// So many messages of each robot are compared with those of others, the latest.
+/// The number of latest messages of each robot that are compared with those of others.
 const WINDOW: usize = 2048;
 
 /// The runs of robots that have ended that are compared with others, the latest.

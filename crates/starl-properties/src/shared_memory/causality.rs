@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 const CAUSALITY: &str = "shared_memory.causality";
 
-/// So many writes of each element are remembered with what they depend on.
+/// The number of writes of each element that are stored with their dependencies.
 const MOST_WRITES: usize = 256;
 
 /// An element: its variable, and its owner in an array.

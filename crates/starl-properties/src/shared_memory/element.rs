@@ -55,7 +55,7 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// Takes note of a write.
+    /// Records a write.
     pub fn write(&mut self, stamp: Stamp, value: i64, at: Time) {
         self.written.insert(stamp, (value, at));
     }

@@ -77,7 +77,7 @@ fn variables_and_elements_are_judged_separately() {
 }
 
 #[test]
-fn a_restarted_robot_starts_again() {
+fn a_restarted_robot_starts_from_the_beginning() {
     let mut story = two_writes();
     story.fault(2100, Some(1), "crash");
     story.fault(2200, Some(1), "restart");
@@ -86,7 +86,7 @@ fn a_restarted_robot_starts_again() {
 }
 
 #[test]
-fn only_a_corrupted_memory_starts_again() {
+fn only_a_corrupted_memory_restarts() {
     for (corrupted, is_violated) in [(1, false), (2, true)] {
         let mut story = two_writes();
         story.fault(2100, Some(corrupted), "corrupt state");

@@ -27,7 +27,7 @@ const PURPOSE: u64 = 0x7072_6f66_696c_6500; // "profile"
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Profile {
-    /// None but what the scenario has itself.
+    /// Only the faults of the scenario itself.
     Calm,
     /// Datagrams are lost, doubled, held back and delayed.
     Lossy,
@@ -60,7 +60,7 @@ impl Profile {
         Profile::Swarm,
     ];
 
-    /// Those under which primitives keep their safety: all but the corruption of state.
+    /// The faults under which primitives keep their safety: all except the corruption of state.
     pub const USUAL: [Profile; 7] = [
         Profile::Calm,
         Profile::Lossy,

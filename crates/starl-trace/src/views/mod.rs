@@ -159,7 +159,7 @@ impl Views {
         Ok(())
     }
 
-    /// Takes note of an event; marks and lines of the log are shown at once.
+    /// Records an event; marks and lines of the log are shown at once.
     pub fn event<W: Write>(
         &mut self,
         output: &mut Output<W>,

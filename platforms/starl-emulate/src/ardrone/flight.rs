@@ -109,7 +109,7 @@ impl Flight {
 
     fn steer(&mut self, tilt: Option<Tilt>) {
         let now = self.body.state().mode;
-        // Until it is high enough the drone listens to nothing but landing.
+        // Until it is high enough the drone obeys only the command to land.
         if !self.fly || matches!(now, mode::LANDED | mode::TAKING_OFF) {
             return;
         }

@@ -17,7 +17,7 @@ from emulator import Emulator
 from pymavlink import mavutil
 
 mavlink = mavutil.mavlink
-# Which numbers of a set-point to ignore: all but position and yaw; all but velocity and rate of turn.
+# Which numbers of a set-point to ignore: all except position and yaw; all except velocity and rate of turn.
 POSITION = 0b100111111000
 VELOCITY = 0b010111000111
 

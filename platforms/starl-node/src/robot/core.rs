@@ -26,7 +26,7 @@ const POSE_PERIOD: Duration = Duration::from_millis(100);
 /// judged by the records.
 const JUMP: f64 = 0.05;
 
-/// So many timers fire at once at most, so that packets are not kept waiting.
+/// The greatest number of timers that fire at once, so that packets do not wait long.
 const MOST_TIMERS: usize = 16;
 
 /// A robot that receives inputs, and acts through its [`Equipment`].
@@ -168,7 +168,7 @@ impl<R: Recorder, E: Equipment> Core<R, E> {
         }
     }
 
-    /// Stops the motors for good; gives the recorder back.
+    /// Stops the motors permanently; gives the recorder back.
     pub fn end(mut self, now: Time) -> R {
         self.equipment.end();
         self.recorder.advance(self.now.max(now));

@@ -18,7 +18,8 @@ const PERIOD: Duration = Duration::from_millis(50);
 /// A packet of events is about as long, bytes: what a network carries in one piece.
 const PACKET: usize = 1200;
 
-/// So many events wait at most; later ones are only counted, so that a robot that floods its operators continues.
+/// The greatest number of events that wait; later ones are only counted, so that a robot that floods its operators
+/// continues.
 const MOST_EVENTS: usize = 4096;
 
 /// A recorder whose events operators see too.
@@ -46,7 +47,7 @@ impl<R: Recorder> Watched<R> {
         }
     }
 
-    /// An operator wants to be told for some time from now on.
+    /// An operator asks for reports for some time from now on.
     pub fn watch(&mut self, now: Time, operator: Member) {
         self.watchers.insert(operator, now + INTEREST);
     }

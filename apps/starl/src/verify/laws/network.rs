@@ -163,7 +163,7 @@ impl Traffic {
             .rev()
             .position(|sent| sent.sequence == sequence);
         let Some(index) = place.map(|back| sender.sent.len() - 1 - back) else {
-            let text = format!("reaches robot {to}, and was not sent, or long ago");
+            let text = format!("reaches robot {to}, and was not sent, or too long ago");
             return break_law(INTEGRITY, text);
         };
         let sent = &mut sender.sent[index];

@@ -16,7 +16,7 @@ pub struct Editor {
 }
 
 impl Editor {
-    /// A server that has been told nothing.
+    /// A server that has received no message.
     pub fn new() -> Editor {
         let mut server = Command::new(env!("CARGO_BIN_EXE_starl"))
             .args(["lsp", "--stdio"])

@@ -68,7 +68,7 @@ pub enum Act {
 }
 
 impl Probe {
-    /// A robot that does nothing but report.
+    /// A robot that only reports.
     pub fn new() -> Probe {
         Probe::default()
     }

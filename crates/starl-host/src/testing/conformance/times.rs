@@ -140,7 +140,7 @@ pub fn clocks_run_wrong<H: Host>() -> Outcome {
     Ok(())
 }
 
-/// A host that is late hands on all timers, and one activation for those that it missed.
+/// A host that is late passes on all timers, and one activation for those that it missed.
 pub fn a_late_host_activates_once<H: Host>() -> Outcome {
     need::<H>(Need::Stalls)?;
     let robot = Probe::new().on(Cue::Start, [Act::Arm(1, span(260)), Act::Arm(2, span(410))]);

@@ -497,7 +497,7 @@ impl Execution<'_> {
                             if !self.workspace.grow(base, object_base, depth + 1) {
                                 break 'run Fault::CallDepth;
                             }
-                            // Once more, now that there is room: it is paid for already.
+                            // Again, now that there is room: it is paid for already.
                             pc -= 1;
                             fuel += 1;
                             continue 'run;

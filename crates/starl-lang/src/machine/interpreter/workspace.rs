@@ -53,7 +53,7 @@ impl Workspace {
         Workspace::default()
     }
 
-    /// Gives back the room that deep calls took.
+    /// Frees the memory of deep calls.
     pub fn trim(&mut self) {
         if self.scalars.len() > 16 * WINDOW || self.objects.len() > 16 * OBJECT_WINDOW {
             *self = Workspace::new();

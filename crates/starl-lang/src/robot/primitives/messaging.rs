@@ -39,7 +39,7 @@ const GAP: Event = Event {
     parameters: &[Shape::Optional(&Shape::Robot)],
 };
 
-/// So many messages are remembered before it is seen which of them are settled.
+/// The number of remembered messages at which settled ones are removed.
 const FEW: u32 = 8;
 
 /// The interface common to the three.

@@ -157,7 +157,7 @@ pub trait Kind: Clone + fmt::Debug + Send + Sync + Sized + 'static {
         let _ = take;
     }
 
-    /// Ceases to move the robot.
+    /// Stops moving the robot.
     fn halt(&mut self, robot: &mut Robot<'_>) {
         let _ = robot;
     }

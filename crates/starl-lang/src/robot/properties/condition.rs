@@ -23,7 +23,7 @@ pub struct Condition {
 }
 
 impl Condition {
-    /// The condition of the program's last property; none if that is no `eventually`, or is about several robots at
+    /// The condition of the program's last property; none if that is not an `eventually`, or is about several robots at
     /// once.
     pub fn new(code: &Code) -> Option<Condition> {
         let property = code.program().bytecode().properties.last()?;

@@ -25,7 +25,7 @@ pub(super) struct Leading {
     pub start: u64,
     /// All have been sent the log up to here.
     pub sent: u64,
-    /// The decided part of the log of which all have been told.
+    /// The decided part of the log that all have received.
     pub told: u64,
     /// The decided index at the last ticks, and the round then, the oldest first.
     pub past: [(u64, u64); 4],
@@ -76,7 +76,7 @@ impl Follower {
         }
     }
 
-    /// Takes note of an answer, which is a sign of life if it has heard a round since this one.
+    /// Records an answer, which is a sign of life if it has heard a round since this one.
     pub fn take_note(&mut self, answer: &Answer, since: u64) {
         if answer.round > since {
             self.silence = 0;

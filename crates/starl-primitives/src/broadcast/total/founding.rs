@@ -76,7 +76,7 @@ impl Total {
         }
     }
 
-    /// Founds a group of those that have answered, if they are enough.
+    /// Founds a group of the robots that have answered, if they are enough.
     fn found_if_due(&mut self, robot: &mut Robot<'_>) -> bool {
         let Some(muster) = &self.idle.muster else {
             return false;

@@ -41,7 +41,7 @@ pub(super) struct Member {
     pub role: Role,
     /// Whether a leader of the group was ever heard of.
     pub is_active: bool,
-    /// Voters that have died, or are members of another group for good.
+    /// Voters that have died, or are members of another group permanently.
     pub gone: BTreeSet<Life>,
 }
 
@@ -129,7 +129,7 @@ impl Member {
             && self.roll.is_of(self.log.voters_at(self.applied))
     }
 
-    /// Takes note of a later term.
+    /// Records a later term.
     pub fn enter_term(&mut self, term: u32) {
         if term > self.term {
             self.term = term;

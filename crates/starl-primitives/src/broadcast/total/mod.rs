@@ -60,7 +60,7 @@ const MOST_BYTES: usize = 1 << 21;
 /// Datagrams are not much longer than this, bytes, unless one message is.
 const CHUNK: usize = 1000;
 
-/// So many bytes are sent to one robot, or by one to the leader, before it has answered.
+/// The greatest number of bytes that are sent to one robot, or by one to the leader, before it has answered.
 const WINDOW: usize = 16 * CHUNK;
 
 /// Robots cannot have counted this far ahead.
@@ -221,7 +221,7 @@ impl Total {
         self.arm(robot);
     }
 
-    /// Takes note of a leader with a majority.
+    /// Records a leader with a majority.
     fn note_contact(&mut self, robot: &mut Robot<'_>) {
         let is_led = self
             .member

@@ -65,7 +65,7 @@ pub(super) enum Body {
     /// These lives, which are in no group, found one.
     Found {
         generation: Generation,
-        /// So many are needed to decide.
+        /// The number of members that are needed to decide.
         quorum: u32,
         voters: Vec<Life>,
     },

@@ -56,7 +56,7 @@ impl Total {
         message
     }
 
-    /// Proposes everything once more, to a leader that may have seen nothing of it.
+    /// Proposes everything again, to a leader that may have seen nothing of it.
     pub(super) fn propose_anew(&mut self, robot: &mut Robot<'_>) {
         (self.sent, self.waited, self.retry) = (0, 0, FIRST_RETRY);
         self.propose(robot);

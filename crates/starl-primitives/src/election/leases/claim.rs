@@ -52,7 +52,7 @@ impl Leases {
         self.ask(scene);
     }
 
-    /// Asks for votes, for the first time or once more.
+    /// Asks for votes, for the first time or again.
     pub(super) fn ask(&mut self, scene: &mut Scene<'_, '_>) {
         let now = scene.now();
         let Some(claim) = &mut self.claim else { return };

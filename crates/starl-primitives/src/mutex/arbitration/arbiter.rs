@@ -227,7 +227,7 @@ impl Arbiter {
         }
     }
 
-    /// Waiting robots must be told again for which robots they wait.
+    /// Waiting robots must be informed again for which robots they wait.
     pub fn tell_again(&mut self) {
         self.entries
             .values_mut()

@@ -16,7 +16,7 @@ const RENEWED: u64 = 2;
 const RENEWALS: u64 = 8;
 /// How many repetitions of a request at least, so that what was granted late is known to be recent.
 const REPETITIONS: u64 = 3;
-/// A robot ceases to believe in a lease this long before its end: timers are no more precise.
+/// A robot stops trusting a lease this long before its end: timers are no more precise.
 const MARGIN: Duration = Duration::from_millis(1);
 
 /// The time to the next renewal where so much of a lease is left.
@@ -106,7 +106,7 @@ impl Arbitration {
             return;
         }
         if !request.is_entered && request.may_enter(now, enough, common, &mut post).is_some() {
-            // It would have entered long since: these grants were made up by a fault.
+            // It would have entered long ago: a fault invented these grants.
             request.try_all_anew(common, &mut post);
         }
         request.ask(now, enough, common, &mut post);

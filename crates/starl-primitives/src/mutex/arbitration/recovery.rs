@@ -6,7 +6,7 @@
 //! When all others have answered, no robot can enter by a forgotten grant: they have reported what they hold,
 //! and waiting robots have begun another attempt, for which such a grant is invalid. Without leases this is
 //! necessary and sufficient. With leases one lease of silence has the same effect, and only the numbers are
-//! missing. So the robot asks once more: robots that granted the rest may have learned a number of a forgotten
+//! missing. So the robot asks again: robots that granted the rest may have learned a number of a forgotten
 //! grant after they had answered. A majority knows every number with which a robot has entered. So the robots
 //! with memory that have answered must be so many that every majority contains one of them. Clocks play no part
 //! in this.
@@ -125,7 +125,7 @@ impl Recovery {
             .collect()
     }
 
-    /// Whether all must be asked once more: when no robot can enter by a forgotten grant any longer, and later when
+    /// Whether all must be asked again: when no robot can enter by a forgotten grant any longer, and later when
     /// a robot has forgotten since it was asked.
     pub fn ends_stage(&mut self, now: Time, others: &[RobotId], lease: Duration) -> bool {
         let all = self.silent(others).is_empty();

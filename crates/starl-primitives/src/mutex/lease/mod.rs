@@ -85,7 +85,7 @@ impl Numbers {
         number
     }
 
-    /// Takes note of a number.
+    /// Records a number.
     pub fn learn(&mut self, resources: &Resources, number: u64) {
         if number > GREATEST {
             return;

@@ -140,7 +140,7 @@ impl Permission {
         }
     }
 
-    /// Sends the request once more.
+    /// Sends the request again.
     pub fn time_out(&mut self, common: &mut Common, robot: &mut Robot<'_>, alarm: Alarm) {
         if alarm != Alarm::Repeat {
             return;

@@ -16,7 +16,7 @@ pub struct LateCopies {
 }
 
 impl LateCopies {
-    /// This share of the datagrams that each robot is sent arrives once more, within `longest`.
+    /// This share of the datagrams that each robot is sent arrives again, within `longest`.
     pub fn new(share: f64, longest: Duration, seed: u64) -> LateCopies {
         LateCopies {
             share,

@@ -10,7 +10,7 @@ use std::any::Any;
 #[derive(Clone, Primitives)]
 pub struct Sharer {
     pub memory: SharedMemory,
-    /// So many variables are causal, from `x0` on.
+    /// The number of causal variables, from `x0` on.
     causal: u16,
 }
 

@@ -9,7 +9,7 @@ const OPERATORS: &[&str] = &[
     "+", "*", "/", "%", "==", "!=", "<", "<=", ">", ">=", "and", "or", "??", ",",
 ];
 
-/// The program, which is laid out as the generator does it, in a layout that these choices make.
+/// The program, with white space and line breaks that these choices determine.
 pub fn other(text: &str, choices: &mut Choices<'_>) -> String {
     let mut layout = Layout {
         choices,

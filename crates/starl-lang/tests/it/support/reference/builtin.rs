@@ -73,7 +73,7 @@ pub fn pure(builtin: Builtin, arguments: Vec<Option<Value>>) -> Outcome<Value> {
     })
 }
 
-/// Where one is no number the other; where both are zero it is not said which one.
+/// If one is NaN, the other; if both are zero, either.
 fn chosen(left: Value, right: Value, wanted: Ordering) -> Outcome<Value> {
     if let (Value::Float(l), Value::Float(r)) = (&left, &right) {
         if l.is_nan() || r.is_nan() {
