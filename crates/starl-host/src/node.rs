@@ -209,7 +209,7 @@ impl Node {
         }
     }
 
-    /// The robot crashes: it forgets everything but its number, its clock and how many datagrams it has sent.
+    /// The robot crashes: it forgets everything except its number, its clock and how many datagrams it has sent.
     pub fn crash(&mut self) {
         self.condition = Condition {
             down: true,

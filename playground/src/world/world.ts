@@ -219,7 +219,7 @@ export class WorldScreen {
   }
 }
 
-/** How much larger robots are drawn than they are: so much that they can be seen, px. */
+/** How much larger robots are drawn than they are, so that they can be seen, px. */
 function enlargement({ count, fleet }: Scene, view: View): number {
   const seen = count <= 60 ? 17 : count <= 300 ? 11 : 6;
   const radius = fleet[0]?.radius ?? 0.15;

@@ -2,7 +2,7 @@
 //! its actions and handlers as edges between them.
 //!
 //! An edge from one state to another means that an action's guard can hold in the first and that a path through its
-//! effect ends in the second. A condition on anything but the control variable is assumed to go either way. So no step
+//! effect ends in the second. Any other condition than one on the control variable may be true or false. So no step
 //! that a robot takes is missing, but some edges may never be taken. Only states that are reachable in this graph have
 //! edges.
 

@@ -58,7 +58,7 @@ pub enum ObjectType {
 /// How a scalar is ordered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Order {
-    /// As a signed integer: everything but Floats.
+    /// As a signed integer: everything except Floats.
     Integer,
     /// As a Float: -0.0 equals 0.0, NaN equals itself and comes last (first with its sign set).
     Float,

@@ -1,8 +1,8 @@
 //! The encoding of messages: a tag that identifies the message, then its fields.
 //!
 //! The tag is a hash of the message's name and of the types of its fields, so that robots whose programs declare the
-//! same message can exchange it, whatever else their programs contain. Bytes are untrusted: anything but a message of
-//! the program is ignored.
+//! same message can exchange it, whatever else their programs contain. Bytes are untrusted: anything except a message
+//! of the program is ignored.
 
 use super::shape::Declared;
 use crate::machine::{Bytecode, Layout, Object, ObjectType, Origin, Program, Type};

@@ -6,7 +6,7 @@
 //! faster than any structure. (Bentley 1975, "Multidimensional binary search trees used for
 //! associative searching"; the buckets are ours.)
 //!
-//! Answers do not depend on anything but the points and the order they came in; of points at equal
+//! Answers depend only on the points and the order in which they were added; of points at equal
 //! distance any may be the answer, the same at every run.
 
 use super::vector::Vector;

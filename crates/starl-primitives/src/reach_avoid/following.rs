@@ -76,7 +76,7 @@ impl ReachAvoid {
         true
     }
 
-    /// Whether the path is of no use any more; then another one is asked for.
+    /// Whether the path has become useless; then another one is requested.
     fn check_path(&mut self, robot: &mut Robot<'_>) -> bool {
         let Some(command) = &mut self.command else {
             return true;

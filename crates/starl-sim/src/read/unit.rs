@@ -109,7 +109,7 @@ impl Dimension {
     }
 }
 
-/// A unit: so many of it, times `times`, over `over`, are SI. Two exact whole numbers instead of one
+/// A unit: a number of it, times `times`, divided by `over`, is in SI. Two exact whole numbers instead of one
 /// factor, so that `75mm` is the number nearest to 0.075.
 struct Unit {
     name: &'static str,

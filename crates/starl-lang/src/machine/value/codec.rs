@@ -5,7 +5,7 @@
 //! variable-length numbers, lengths before texts and collections, records as their fields. So a message
 //! of scalars and texts has the same bytes as that of a native program with the same struct.
 //!
-//! Bytes are untrusted: anything but a value of the type is rejected.
+//! Bytes are untrusted: anything except a value of the type is rejected.
 
 use crate::machine::program::Program;
 use crate::machine::types::{Layout, ObjectType, Parts, Type};

@@ -30,7 +30,7 @@ pub struct PropertyHost<'a> {
     pub counted: Counted,
     /// Whether more than half of the robots have been up at every moment so far.
     pub has_majority: bool,
-    /// Whether anything but this robot's state was read.
+    /// Whether anything except this robot's state was read.
     pub looked_elsewhere: Cell<bool>,
 }
 

@@ -44,7 +44,7 @@ pub struct Aftermath {
     pub restarts: usize,
 }
 
-/// How time passes: so much at once.
+/// The time step.
 const STEP: Duration = Duration::from_millis(10);
 
 impl Storm {
