@@ -235,7 +235,7 @@ pub const PRIMITIVES: &[Primitive] = &[
             member(
                 "fencing: Int?",
                 Query,
-                "With leases, the fencing token: greater than the token of every earlier holder of any of these resources.",
+                "With leases, the fencing number: greater than the number of every earlier holder of any of these resources.",
             ),
             member(
                 "failed: Bool",
