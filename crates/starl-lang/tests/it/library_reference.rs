@@ -12,9 +12,9 @@ use starl_lang::syntax::ast::{Documented, Item};
 /// Before the first library.
 const BEGINNING: &str = "# The standard library
 
-Libraries that every program can import, wherever it runs. They are written in the language, in
-`crates/starl-lang/library/`, and import nothing. A library of the same name beside the program goes before
-them.
+Every program can import these libraries, wherever it runs. They are written in the language, in
+`crates/starl-lang/library/`, and import nothing. If a library of the same name lies beside the program, that one is
+used.
 
 ```starl
 program Gather
