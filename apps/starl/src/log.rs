@@ -56,7 +56,8 @@ impl Log {
         let find = |name: &String| {
             let found = robots().find(|&robot| fleet.name(robot) == *name);
             found.ok_or_else(|| {
-                let names: Vec<&str> = robots().map(|robot| fleet.name(robot)).collect();
+                let names: Vec<String> = robots().map(|robot| fleet.name(robot)).collect();
+                let names: Vec<&str> = names.iter().map(String::as_str).collect();
                 let help = suggest::help(name, &names, "the robots are").unwrap_or_default();
                 Failure(format!("--log-robots: there is no robot {name}; {help}"))
             })
