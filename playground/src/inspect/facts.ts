@@ -95,7 +95,7 @@ function body(robot: Robot): Fact[] {
       restless: true,
     },
     {
-      name: "believes to be at",
+      name: "estimated position",
       value: point(estimate.pose.position),
       hint: `${(far * 100).toFixed(1)} cm from where it is`,
       restless: true,

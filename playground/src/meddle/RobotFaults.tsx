@@ -17,7 +17,7 @@ const ACTS: { label: string; hint: string; make: (robots: number[]) => Intervent
     hint: "It stops and hears nothing until it restarts",
     make: (crash) => ({ fault: { crash } }),
   },
-  { label: "Restart", hint: "Its software begins anew", make: (restart) => ({ fault: { restart } }) },
+  { label: "Restart", hint: "Its software starts again", make: (restart) => ({ fault: { restart } }) },
   {
     label: "Corrupt state",
     hint: "Its program's variables are overwritten at random",
@@ -26,7 +26,7 @@ const ACTS: { label: string; hint: string; make: (robots: number[]) => Intervent
   { label: "Stick motors", hint: "It cannot move", make: (stuck_motor) => ({ fault: { stuck_motor } }) },
   {
     label: "Freeze sensors",
-    hint: "It senses the same as now",
+    hint: "Its sensors keep their present readings",
     make: (frozen_sensor) => ({ fault: { frozen_sensor } }),
   },
   { label: "Repair", hint: "Motors and sensors work again", make: (repair) => ({ fault: { repair } }) },
