@@ -146,7 +146,7 @@ impl<'a> Section<'a> {
             if *default == Default::Required {
                 let help = match kind {
                     Kind::Tables(_) => format!("write [[{}]]", self.path.join(name)),
-                    kind => format!("give it: {}", kind.describe()),
+                    kind => format!("give a value: {}", kind.describe()),
                 };
                 self.complain(self.origin, name, ("is missing".to_string(), Some(help)));
             }

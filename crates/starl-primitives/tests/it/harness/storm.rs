@@ -131,7 +131,7 @@ impl Aftermath {
                 match step {
                     Step::Handed(id) => {
                         if !handed.insert(*id) {
-                            return Some(format!("robot {robot} was handed {id:?} twice"));
+                            return Some(format!("robot {robot} delivered {id:?} twice"));
                         }
                         if !sent.contains(id) {
                             return Some(format!("{id:?} was never sent"));

@@ -223,7 +223,7 @@ pub fn causal_violation(runs: &[(u32, Vec<(usize, Step)>)]) -> Option<String> {
                     mark.is_some_and(|mark| *mark >= id.2)
                 };
                 if is_over(id) {
-                    return Some(format!("{id:?} was handed to {me} after a later life's"));
+                    return Some(format!("{id:?} was delivered by {me} after a later life's"));
                 }
                 if is_passed(id) {
                     return Some(format!("{id:?} was passed over and handed to {me}"));
@@ -232,7 +232,7 @@ pub fn causal_violation(runs: &[(u32, Vec<(usize, Step)>)]) -> Option<String> {
                 let missing = before
                     .find(|b| b.0 != me && !known[run].contains(b) && !is_passed(b) && !is_over(b));
                 if let Some(missing) = missing {
-                    return Some(format!("{id:?} was handed to {me} before {missing:?}"));
+                    return Some(format!("{id:?} was delivered by {me} before {missing:?}"));
                 }
                 let before = past[id].clone();
                 known[run].extend(before);
