@@ -151,7 +151,7 @@ fn json_output_has_code_position_and_fix() {
         .expect("there is an error");
     assert_eq!(problem["code"], "E0201");
     assert_eq!(problem["file"], "fix.starl");
-    let place = serde_json::json!({"offset": 54, "line": 6, "column": 19});
+    let place = serde_json::json!({"offset": 53, "line": 6, "column": 19});
     assert_eq!(problem["start"], place);
     assert_eq!(problem["fix"]["edits"][0]["text"], "target");
     assert_eq!(problem["fix"]["edits"][0]["start"], place);

@@ -211,7 +211,7 @@ fn an_interrupted_sweep_says_how_to_continue() {
         text.contains(&format!("interrupted after {done} of 240 runs")),
         "{text}"
     );
-    let (_, again) = text.split_once("to go on: ").expect("how to go on");
+    let (_, again) = text.split_once("to continue: ").expect("how to continue");
     assert_eq!(names(&folder), ["small.toml", "stopped.parquet.journal"]);
     let words: Vec<&str> = again.split_whitespace().skip(1).collect();
     assert_eq!(status(&starl(&folder, &words)), 0);
